@@ -4,6 +4,8 @@
 
 import asyncio
 import json
+import time
+from pathlib import Path
 
 import rospy
 import rostest
@@ -12,26 +14,25 @@ from node_test import wait_until
 from page_test import address, ask, fetch
 from prometheus_client.parser import text_string_to_metric_families
 from sqlalchemy import insert
-from work_page import CARD, LONG, TASK, WorkPageTest, pieces, station, submit
+from work_page import CARD, LONG, READY, TASK, WorkPageTest, pieces, station, submit
 
-from warehouse_operations import schema
+from warehouse_operations import check, schema
 from warehouse_operations.database import open_engine
 
 MANY = 10_000  # orders
 FIRST = 10**6  # their ids
+FLAKY = Path(__file__).with_name("flaky_picker.js")
 
 ROW = """[...document.querySelectorAll('.order-rows .order')]
   .map((row) => row.textContent).find((text) => text.startsWith('{}'))"""
-LIT = "document.querySelector('#screen .shelf .lit')"
+LIT = "document.querySelector('#front .lit')"
 HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
 
 # Answers *Damaged* and what it asks; once more if a bundle that was under way ends in between.
 LEFT_OUT = """(() => {
-  const button = (name) => document.querySelector(`#screen .${name}:not(:disabled)`);
-  const sure = button('sure');
-  if (sure) sure.click();
-  else if (!document.querySelector('#screen .sure')) button('damaged')?.click();
-  return Boolean(sure);
+  const isAsked = document.getElementById('question').open;
+  document.getElementById(isAsked ? 'question-yes' : 'damaged').click();
+  return isAsked;
 })()"""
 
 
@@ -45,7 +46,9 @@ class OperationsPage(WorkPageTest):
         self.assertIn("ARRIVED", {transport["state"] for transport in seen["transports"]})
         self.assertTrue(seen["stations"])
         self.page.until(f"({ROW.format('page-1')})?.includes('done')")
-        self.page.until("document.querySelectorAll('#chart-picked rect').length > 0")
+        self.page.until("page.chart.plot.chart?.data.datasets[0].data.length > 0")
+        self.page.until("document.querySelectorAll('.figure .value').length === 4")
+        self.page.until("page.gantt.rows.length === 7 && page.gantt.frames > 0")
         self.page.until("document.getElementById('robots-legend').textContent.length > 0")
 
     async def follow(self, reference):
@@ -70,16 +73,16 @@ class OperationsPage(WorkPageTest):
         self.page.until(f"{HAND}.textContent === 'Automatic'")
         number = submit("page-2", "sku-4", 3)
         self.click(CARD.format("pick1", "a"))
+        self.page.until(READY)
         self.wait_for(f"{TASK} === 'Take 3 × sku-4' && {LIT}")
         unit = ask("/stations")[1]["stations"][0]["shelf_id"]
-        self.click("[aria-label='one piece fewer']")
-        self.click("#screen .confirm")
+        self.click("#fewer")
+        self.tap("confirm")
         self.page.until(f"{TASK} === 'Take 1 × sku-4'")
-        self.click("#screen .short")
-        self.click("#screen .sure")
-        left = f"!document.querySelector('#screen h1').textContent.endsWith(' {unit}')"
-        self.page.until(left)  # the unit: it has no more
-        self.click("#screen header .button")
+        self.tap("short")
+        self.click("#question-yes")
+        self.page.until(f"page.bench.told.shelf_id !== {unit}")  # it has no more
+        self.overview()
         self.press("pick1", 2)
         self.press("pick2", 1)
         self.assertEqual(pieces("sku-4").get(unit, 0), 0)
@@ -89,6 +92,7 @@ class OperationsPage(WorkPageTest):
     def test_3_a_person_puts_new_stock_in(self):
         self.press("replenish1", 2)
         self.click(CARD.format("replenish1", "a"))
+        self.page.until(READY)
         self.wait_for(f"{TASK}?.startsWith('Put in') && {LIT}")
         before = self.replenishing()
         pick = before[1][0]
@@ -97,7 +101,7 @@ class OperationsPage(WorkPageTest):
         wait_until(lambda: self.replenishing() != before, "nothing is to be put in of it")
         after = self.replenishing()
         self.assertTrue(after[0] != before[0] or after[1] == before[1][1:], (before, after))
-        self.click("#screen header .button")
+        self.overview()
         self.press("replenish1", 2)
 
     def replenishing(self):
@@ -159,7 +163,38 @@ class OperationsPage(WorkPageTest):
         self.page.click_on("heat")
         self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")
 
-    def test_6_prometheus_gets_the_same_figures(self):
+    def test_6_orders_are_typed_in_and_uploaded_and_alarms_are_seen(self):
+        self.page.open(f"{address()}operations")
+        self.page.until("page.orders.total > 0 && page.kpis")
+        self.page.click_on("new-order")
+        self.page.type("typed-1", "entry-reference")
+        self.page.read("document.querySelector('#entry-lines input').focus()")
+        self.page.type("no-such-sku\n")
+        self.page.until(
+            "document.querySelector('.entry-lines .fault')?.textContent.includes('no-such-sku')"
+        )
+        self.page.read("(document.querySelector('#entry-lines input').value = 'sku-2')")
+        self.page.read("document.getElementById('entry-form').requestSubmit()")
+        self.page.until("!document.getElementById('entry').open")
+        self.page.type("typed-1", "search")
+        self.page.until(ROW.format("typed-1"))
+        upload = "page.upload.check(new File([{}], 'orders.csv'))"
+        wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
+        self.page.read(upload.format(json.dumps(wrong)))
+        self.page.until(
+            "document.querySelector('#sheet-faults tbody').textContent.startsWith('3quantity')"
+        )
+        self.assertEqual(ask("/orders?search=up-1")[1]["total"], 0)
+        self.page.read("document.getElementById('sheet').close()")
+        self.page.read(upload.format(json.dumps(wrong.replace("none", "2"))))
+        self.click("#sheet-yes:not([hidden])")
+        self.page.until("!document.getElementById('sheet').open")
+        self.assertEqual(ask("/orders?search=up-")[1]["total"], 2)
+        status, sheet = fetch("api/v1/orders.csv?search=up-2")
+        self.assertEqual((status, sheet.decode("utf-8-sig").count("up-2")), (200, 1))
+        self.assertEqual(fetch("api/v1/orders.xlsx?search=up-2")[1][:2], b"PK")
+
+    def test_7_prometheus_gets_the_same_figures(self):
         status, text = fetch("metrics")
         families = text_string_to_metric_families(text.decode())
         told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
@@ -171,6 +206,59 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(told["warehouse_station_open", "PICK", "pick2"], 1)
         robots = [value for (name, *_), value in told.items() if name == "warehouse_robots"]
         self.assertEqual(sum(robots), 4)
+
+    def test_7_over_a_flaky_network_each_pick_is_confirmed_once(self):
+        picks, sku = rospy.get_param("~picks"), "sku-6"
+        for name, is_open, mode in (("pick1", True, "MANUAL"), ("pick2", False, "AUTOMATIC")):
+            ask(f"/stations/{name}", {"open": is_open, "mode": mode}, method="PUT")
+        before = picked(rospy.get_param("~database"))
+        self.screen("pick1")
+        self.pick_flakily()
+        began = time.monotonic()
+        numbers = [submit(f"flaky-{i}", sku, 1) for i in range(picks)]
+        self.wait_for(f"picker.done >= {picks // 2}")
+        done = self.reload_offline()
+        self.wait_for(f"picker.done >= {picks - done} && page.outbox.entries.length === 0")
+        wall = time.monotonic() - began
+        states = lambda: {ask(f"/orders/{n}")[1]["state"] for n in numbers}  # noqa: E731
+        wait_until(lambda: states() == {"COMPLETED"}, "all orders are complete")
+        told = self.page.read("picker")
+        self.assertEqual((done + told["done"], told["refused"]), (picks, []))
+        self.assertGreater(min(told["lostRequests"], told["lostAnswers"]), 0)
+        engine = open_engine(rospy.get_param("~database"))
+        made_up = f"order_id >= {FIRST}"  # those of test 4, which were never picked
+        with engine.begin() as connection:
+            connection.exec_driver_sql(f"DELETE FROM order_line WHERE {made_up}")
+            connection.exec_driver_sql(f"DELETE FROM orders WHERE id >= {FIRST}")
+        self.assertEqual(check.faults(engine), [])
+        engine.dispose()
+        self.assertEqual(picked(rospy.get_param("~database")) - before, picks)
+        print(f"{picks} picks in {wall:.1f} s, {told}")
+
+    def pick_flakily(self):
+        self.page.read(f"(eval({json.dumps(FLAKY.read_text())}), 0)")
+
+    def reload_offline(self):
+        """The network goes; what is kept here outlasts a reload. Returns what was picked so far."""
+        self.page.read("(picker.isOffline = true)")
+        self.wait_for("page.outbox.entries.length > 0 && page.outbox.isStuck")
+        self.page.until("document.getElementById('link').textContent.includes('nothing is lost')")
+        kept = self.page.read("page.outbox.entries.map(({ body }) => body.id)")
+        self.assertEqual(len(kept), len(set(kept)))
+        done = self.page.read("(clearInterval(picker.timer), picker.done)")
+        self.screen("pick1")
+        self.pick_flakily()
+        return done
+
+
+def picked(database):
+    """Pieces that were picked and not taken back, by the moves of stock."""
+    engine = open_engine(database)
+    with engine.connect() as connection:
+        sums = "SELECT COALESCE(-SUM(quantity), 0) FROM move WHERE reason = 'pick'"
+        found = connection.exec_driver_sql(sums).scalar()
+    engine.dispose()
+    return found
 
 
 if __name__ == "__main__":

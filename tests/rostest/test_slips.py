@@ -7,7 +7,7 @@ import rostest
 from node_test import wait_until
 from page_test import address, ask
 from selenium.webdriver.common.keys import Keys
-from work_page import TASK, WorkPageTest, pieces, station, submit
+from work_page import READY, TASK, WorkPageTest, pieces, station, submit
 
 ORDERS = 30
 ROWS = """[...document.querySelectorAll('.order-rows .order')]
@@ -101,66 +101,59 @@ class SlipsTest(WorkPageTest):
         self.press("pick1", 1)  # at once: neither undoes the other
         self.page.until(f"{HAND}.textContent === 'Automatic'")
         numbers = [submit(f"tap-{i}", "sku-4", 1) for i in range(3)]
-        self.page.read("(location.hash = '#pick1')")
-        self.wait_for(
-            f"{TASK} === 'Take 1 × sku-4' && !document.querySelector('#screen .confirm').disabled"
-        )
-        self.page.read("[0, 1].forEach(() => document.querySelector('#screen .confirm').click())")
+        self.page.read("(location.hash = '#pick1')")  # a link of old
+        self.page.until(f"location.pathname === '/station/pick1' && {READY}")
+        self.wait_for(f"{TASK} === 'Take 1 × sku-4' && page.view.isSettled")
         # And one that comes as soon as the next pick is drawn.
-        shown = "document.querySelector('#screen .confirm')"
-        self.page.read("(window.first = document.querySelector('#screen .confirm'))")
-        self.page.until(f"{shown} && {shown} !== window.first")
-        self.page.read(f"{shown}?.click()")
+        tap = "document.getElementById('confirm').click()"
+        self.page.read(f"[0, 1].forEach(() => {tap})")
+        self.page.read(f"page.bench.task && {tap}")
         picked = lambda: sum(  # noqa: E731
             line["picked"] for n in numbers for line in ask(f"/orders/{n}")[1]["lines"]
         )
         wait_until(lambda: picked() == 1, "one of three is picked")
-        self.page.until(f"!{shown}.disabled")
+        self.page.until("page.view.isSettled && page.outbox.entries.length === 0")
         self.assertEqual(picked(), 1)
-        self.assertEqual(self.page.text("told"), "")
+        self.assertIn("take tote", self.page.text("told"))
 
     def test_3_what_no_longer_holds_is_refused_and_said(self):
         pick = station("pick1")["picks"][0]
         body = {"order_id": pick["order_id"], "item": pick["item"], "quantity": pick["quantity"]}
         path = f"/stations/pick1/picks/{pick['sequence']}"
-        self.page.read("(location.hash = '#pick1')")
-        self.page.until("document.querySelector('#screen .confirm')?.disabled === false")
+        self.screen("pick1")
+        self.page.until(f"{TASK} && page.view.isSettled")
         # Another client confirms it, while this page gets no news of it.
-        self.page.read("(page.screen.take = () => {})")
+        self.page.read("(page.news.handlers.take = () => {})")
         first, again = ask(path, body), ask(path, body)
         self.assertEqual(first, (200, {"message": "", "quantity": 1}))
         self.assertEqual(again, first)  # a repetition changes nothing
         self.assertEqual(ask(path, body | {"outcome": "DAMAGED"})[0], 409)
         before = station("pick1")["pieces"]
-        self.page.read(
-            "(page.screen.count = 1, document.querySelector('#screen .damaged').click())"
-        )
-        self.click("#screen .sure")
+        self.tap("damaged")
+        self.click("#question-yes")
         self.page.until("document.getElementById('told').textContent.includes('already')")
+        self.assertIn("1 × sku-4 is not booked", self.page.text("told"))
         stale = ask(f"/stations/pick1/picks/{10**6}", body)
         self.assertEqual(stale[0], 409)
         self.assertIn("that is no longer asked for; pick1 asks for", stale[1]["detail"])
         self.assertEqual(station("pick1")["pieces"], before)
-        self.page.read("delete page.screen.take")
 
     def test_4_a_write_off_takes_two_steps_and_is_undone(self):
-        self.page.read("(location.hash = '#pick1')")
-        self.wait_for(
-            f"{TASK}?.startsWith('Take') && !document.querySelector('#screen .short').disabled"
-        )
+        self.screen("pick1")
+        self.wait_for(f"{TASK}?.startsWith('Take') && page.view.isSettled")
         pick = station("pick1")["picks"][0]
         stock = pieces("sku-4")
-        self.click("#screen .short")
-        self.page.until("document.querySelector('#screen .sure')")
+        self.tap("short")
+        self.page.until("document.getElementById('question').open")
         self.assertEqual(pieces("sku-4"), stock)
-        self.click("#screen .back")
-        self.click("#screen .short")
-        self.click("#screen .sure")
-        self.page.until("document.querySelector('#told .undo')")
+        self.click("#question-no")
+        self.page.until("!document.getElementById('question').open")
+        self.tap("short")
+        self.click("#question-yes")
         unit = next(p["shelf_id"] for p in ask("/stock?sku=sku-4")[1]["places"])
         wait_until(lambda: pieces("sku-4") != stock, f"it is written off {pick} {unit}")
-        self.click("#told .undo")
-        self.page.until("document.getElementById('told').textContent.includes('back in stock')")
+        self.click("#undo")
+        self.page.until("document.getElementById('told').textContent.includes('taken back')")
         wait_until(lambda: pieces("sku-4") == stock, "it is back")
 
     def test_5_a_station_that_waits_for_a_person_says_so(self):
@@ -187,8 +180,9 @@ class SlipsTest(WorkPageTest):
         self.page.read(f"(window.fetch = () => Promise.resolve({broken}))")
         self.press("pick2", 2)
         self.page.until("document.getElementById('answer').textContent.includes('500')")
-        self.page.read("(location.hash = '#pick2')")
-        self.click("#screen .buttons button")
+        self.screen("pick2")
+        self.page.read(f"(window.fetch = () => Promise.resolve({broken}))")
+        self.click("#by-hand")
         self.page.until("document.getElementById('told').textContent.includes('500')")
 
     def test_7_no_panel_of_the_floor_covers_another(self):

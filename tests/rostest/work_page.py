@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tests of the page /operations share."""
+"""What tests of the page /operations and of the stations' screens share."""
 
 import json
 
 from node_test import wait_until
-from page_test import PageTest, ask
+from page_test import PageTest, address, ask
 
 LONG = 120.0  # for what robots do [s, wall]
-TASK = "document.querySelector('#screen .task')?.textContent"
+TASK = "document.querySelector('#take:not([hidden]) #task')?.textContent"
+READY = "page.bench && page.news.state === 'live'"  # of a station's screen
 CARD = "[data-station={}] {}"
 
 
@@ -34,7 +35,23 @@ class WorkPageTest(PageTest):
     path, ready = "operations", "page.kpis && document.querySelectorAll('.station').length === 3"
 
     def setUp(self):
-        self.page.read("(location.hash = '')")  # no station's screen
+        if self.page.read("location.pathname") != f"/{self.path}":
+            self.overview()
+
+    def overview(self):
+        """Shows the page /operations."""
+        self.page.open(address() + self.path)
+        self.page.until(self.ready)
+
+    def screen(self, name):
+        """Shows a station's screen."""
+        self.page.open(f"{address()}station/{name}")
+        self.page.until(READY)
+
+    def tap(self, button):
+        """Presses a button of a screen once it may be meant: it has been there for a moment."""
+        self.page.until("page.view.isSettled")
+        self.click(f"#{button}")
 
     def click(self, selector):
         """In one go: an element may have been drawn again between search and click."""

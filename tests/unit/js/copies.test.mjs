@@ -9,10 +9,10 @@ import * as THREE from '/three/build/three.module.js';
 import { ROBOT } from './look.mjs';
 
 const COUNT = 70; // more than a mesh has room for at first
-const matrices = new Float32Array(16 * COUNT), tints = new Float32Array(3 * COUNT);
+const matrices = new Float32Array(16 * COUNT), tints = new Float32Array(4 * COUNT);
 for (let i = 0; i < COUNT; ++i) {
   new THREE.Matrix4().makeRotationZ(i).setPosition(i, -2 * i, 0.5).toArray(matrices, 16 * i);
-  tints.set([i / COUNT, 0, 1], 3 * i);
+  tints.set([i / COUNT, 0, 1, i % 3], 4 * i);
 }
 
 /** Draws some of the copies, each raised by a metre. */
@@ -31,7 +31,7 @@ function cornersOf({ mesh: { geometry, instanceMatrix, count } }) {
     for (const i of geometry.index.array) {
       const at = new THREE.Vector3().fromArray(position.array, 3 * i).applyMatrix4(matrix);
       const up = new THREE.Vector3().fromArray(normal.array, 3 * i).transformDirection(matrix);
-      out.push([...at.toArray(), ...up.toArray(), ...tint.array.slice(3 * copy, 3 * copy + 3)]);
+      out.push([...at.toArray(), ...up.toArray(), ...tint.array.slice(4 * copy, 4 * copy + 4)]);
     }
   }
   return out;
@@ -41,12 +41,12 @@ function cornersOf({ mesh: { geometry, instanceMatrix, count } }) {
 function mergedCorners({ mesh: { geometry } }) {
   const { position, normal, tint } = geometry.attributes;
   return Array.from(geometry.index.array.slice(0, geometry.drawRange.count), (i) => (
-    [position, normal, tint].flatMap(({ array }) => Array.from(array.slice(3 * i, 3 * i + 3)))));
+    [position, normal, tint].flatMap(({ array, itemSize }) => Array.from(array.slice(itemSize * i, itemSize * (i + 1))))));
 }
 
 test('one mesh has the corners, normals and colours of the instances, whichever are drawn', () => {
-  const instances = new Instances(hull(ROBOT, true, 0.4), materialOf(true), COUNT);
-  const merged = new Merged(hull(ROBOT, true, 0.4), materialOf(true), COUNT);
+  const instances = new Instances(hull(ROBOT, true, 0.4), materialOf(true));
+  const merged = new Merged(hull(ROBOT, true, 0.4), materialOf(true));
   for (const indices of [[...Array(COUNT).keys()], [3], [], [69, 2, 40]]) {
     const [expected, got] = [cornersOf(drawn(instances, indices)), mergedCorners(drawn(merged, indices))];
     assert.equal(got.length, expected.length);

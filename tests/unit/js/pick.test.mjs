@@ -89,7 +89,7 @@ test('of a crowd the near are drawn in detail, the far as boxes, and those out o
   crowd.add(hull(UNIT), null, FAR);
   const matrix = new THREE.Matrix4();
   for (let i = 0; i < many; ++i) crowd.put(i, matrix.makeTranslation(i < 10 ? 0.5 * i : 1000, 0, 0));
-  const drawn = () => crowd.layers.map(({ copies }) => copies.drawn);
+  const drawn = () => crowd.layers.map((_, layer) => crowd.parts[0].copies[layer]?.drawn ?? 0);
   crowd.fill(above(10).view, true);
   assert.deepEqual(drawn(), [10, 0]);
   crowd.fill(above(50).view, true);
@@ -104,7 +104,7 @@ test('a few are always drawn in detail', () => {
   crowd.add(merge(UNIT), null, NEAR);
   for (let i = 0; i < 3; ++i) crowd.put(i, new THREE.Matrix4());
   crowd.fill(above(300).view, true);
-  assert.equal(crowd.layers[0].copies.drawn, 3);
+  assert.equal(crowd.parts[0].copies[0].drawn, 3);
 });
 
 test('labels: names for who is wanted or needs help, numbers for who is seen large', () => {

@@ -165,6 +165,13 @@ struct RobotReport {
   std::uint8_t last_end = 0;
 };
 
+/// What is told of a robot that is elsewhere, and of which the world has a shadow.
+struct ShadowReport {
+  RobotReport report;         ///< Its velocities are left out.
+  std::uint8_t failures = 0;  ///< As in Fleet.
+  float charge = 1;           ///< As in Fleet.
+};
+
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
 using Column = std::vector<T, ViewableAllocator<T>>;

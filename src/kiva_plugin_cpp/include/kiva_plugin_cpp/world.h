@@ -213,6 +213,15 @@ class World {
   /// robot or no such mode.
   void keepMode(int kiva_id, int mode);
 
+  // --- shadows of robots that are elsewhere
+  /// Puts a robot where another one is that it is the shadow of: in a hall, behind a broker. From
+  /// the first report on it takes no commands, since others answer them: lasers see it, its load
+  /// goes with it, and it tells what it is told. Ends when the robot is removed. Throws
+  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, another
+  /// robot carries the unit, or a number is not finite.
+  void shadow(int kiva_id, const ShadowReport& report);
+  bool isShadow(int kiva_id) const;
+
   // --- people
   /// Makes a person walk that way from now on: an actor, or a static model that is no larger than a
   /// person, which is one from then on: robots keep away from people. Without waypoints they stay

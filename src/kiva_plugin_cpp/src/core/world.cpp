@@ -14,6 +14,7 @@
 #include "core/contact/external_wrenches.h"
 #include "core/contact/upright.h"
 #include "core/control/commands.h"
+#include "core/control/shadows.h"
 #include "core/disturbances/batteries.h"
 #include "core/disturbances/failures.h"
 #include "core/disturbances/falling_items.h"
@@ -119,7 +120,7 @@ void decide(WorldState& world) {
   for (const auto& plugin : world.plugins.fleet) plugin->react(world.view, world.scans.sighted);
   world.scans.sighted.clear();
   receive(world.command_link, world.inbox, world.clock);
-  acceptCommands(world.view, world.inbox);
+  acceptCommands(world.view, world.inbox, world.shadows);
 }
 
 void control(WorldState& world) {
@@ -269,6 +270,11 @@ void World::keepMode(int kiva_id, int mode) {
   state_->fleet.mode[robot] = static_cast<std::uint8_t>(mode);
 }
 
+void World::shadow(int kiva_id, const ShadowReport& report) {
+  moveShadow(state_->view, state_->shadows, kiva_id, report);
+}
+bool World::isShadow(int kiva_id) const { return state_->shadows.has(kiva_id); }
+
 void World::walk(const std::string& person, const Walk& walk) {
   kiva::walk(state_->view, state_->people, person, walk);
 }
@@ -304,6 +310,9 @@ void World::spawn(const std::vector<ModelInstance>& instances) {
 bool World::remove(const std::string& model) {
   const auto at = state_->models.slot_of_name.find(model);
   if (at == state_->models.slot_of_name.end()) return false;
+  const Model& found = *state_->models[at->second];
+  const int robot = found.owner->robot(state_->view, found);
+  if (robot >= 0) endShadow(state_->shadows, state_->fleet.robots[robot].id);
   removeModel(state_->view, at->second);
   return true;
 }
@@ -563,6 +572,7 @@ void World::restore(const std::string& checkpoint) {
   next.world->settings.options.plugins = state_->settings.options.plugins;
   next.world->settings.options.threads = state_->settings.options.threads;
   next.world->schedule.workers = state_->schedule.workers;
+  next.world->shadows = state_->shadows;
   next.world->log.warned = state_->log.warned;
   next.world->plugins.fleet = makeFleetPlugins();
   next.world->models.revision = state_->models.revision + 1;

@@ -32,6 +32,7 @@
 #include "ros/services/performance_topic.h"
 #include "ros/services/physics_services.h"
 #include "ros/services/pick_up_service.h"
+#include "ros/services/shadow_topic.h"
 #include "ros/services/simulation_services.h"
 #include "ros/services/spawn_services.h"
 #include "ros/services/state_services.h"
@@ -108,7 +109,11 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   subscribers.onSubscribe([&simulation] { simulation.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, subscribers, snapshots);
   std::optional<CommandTopics> commands;
-  if (!replayer) commands.emplace(root, simulation);  // a replay has its own
+  std::optional<ShadowTopic> shadows;
+  if (!replayer) {  // a replay has its own
+    commands.emplace(root, simulation);
+    shadows.emplace(root, simulation);
+  }
   CallbackThread stepping(node), spawning(node), saving(root);
   StepService step_service(stepping.node(), simulation);
   SimulationServices simulation_services(node, simulation);

@@ -24,8 +24,8 @@ Row = Mapping[Any, Any]  # texts by column; more fields than columns have the ke
 class CsvTable:
     """The rows of a file, as texts by column. Raises `error` with file and line where it is none.
 
-    needed, optional: names of columns; others may be there too. decimal_comma: 1,5 is one and a
-    half.
+    needed, optional: names of columns; others may be there too. text: what there is in place of a
+    file, which then only has a name. decimal_comma: 1,5 is one and a half.
     """
 
     def __init__(
@@ -34,10 +34,11 @@ class CsvTable:
         needed: Sequence[str],
         optional: Sequence[str] = (),
         error: type[Exception] = ValueError,
+        text: str | None = None,
     ) -> None:
         self._path, self._error = path, error
         self._known = (*needed, *optional)
-        text = self._text(Path(path))
+        text = self._text(Path(path)) if text is None else text.removeprefix("\ufeff")
         separator = self._separator(text)
         self.decimal_comma = separator == ";"
         self._reader = csv.DictReader(io.StringIO(text, newline=""), delimiter=separator)

@@ -6,6 +6,11 @@ from typing import Any
 from sqlalchemy import text
 from sqlalchemy.engine import Engine
 
+# Pieces picked from a unit or put into it, by the moves of a visit.
+DONE_TO_UNIT = """COALESCE(SUM(CASE m.reason WHEN 'undone' THEN -ABS(m.quantity)
+           ELSE ABS(m.quantity) END), 0)"""
+# How often an order was completed and not opened again, by its events.
+COMPLETED = "COALESCE(SUM(CASE e.kind WHEN 3 THEN 1 WHEN 7 THEN -1 ELSE 0 END), 0)"
 # Each finds rows that must not be; the columns go into the sentence.
 RULES = (
     (
@@ -34,7 +39,7 @@ RULES = (
         "line {1} of order {0}: {2} of {3} are picked; moves say {4}",
         """SELECT l.order_id, l.number, l.picked, l.quantity, COALESCE(-SUM(m.quantity), 0)
            FROM order_line l LEFT JOIN move m
-           ON m.order_id = l.order_id AND m.line = l.number AND m.reason = 'pick'
+           ON m.order_id = l.order_id AND m.line = l.number AND m.reason IN ('pick', 'undone')
            GROUP BY l.order_id, l.number, l.picked, l.quantity
            HAVING l.picked <> COALESCE(-SUM(m.quantity), 0) OR l.picked > l.quantity""",
     ),
@@ -55,15 +60,17 @@ RULES = (
     ),
     (
         "order {0} is in state {1}; it was completed {2} times",
-        """SELECT o.id, o.state, COUNT(e.id) FROM orders o
-           LEFT JOIN event e ON e.order_id = o.id AND e.kind = 3 GROUP BY o.id, o.state
-           HAVING COUNT(e.id) <> CASE WHEN o.state = 2 THEN 1 ELSE 0 END""",
+        f"""SELECT o.id, o.state, {COMPLETED}
+           FROM orders o LEFT JOIN event e ON e.order_id = o.id AND e.kind IN (3, 7)
+           GROUP BY o.id, o.state
+           HAVING {COMPLETED}
+           <> CASE WHEN o.state = 2 THEN 1 ELSE 0 END""",
     ),
     (
         "visit {0} tells of {1} pieces; its moves add up to {2}",
-        """SELECT v.id, v.pieces, COALESCE(SUM(ABS(m.quantity)), 0) FROM visit v
+        f"""SELECT v.id, v.pieces, {DONE_TO_UNIT} FROM visit v
            LEFT JOIN move m ON m.visit = v.id GROUP BY v.id, v.pieces
-           HAVING v.pieces <> COALESCE(SUM(ABS(m.quantity)), 0)""",
+           HAVING v.pieces <> {DONE_TO_UNIT}""",
     ),
     (
         "unit {0} is on {1} visits at once",

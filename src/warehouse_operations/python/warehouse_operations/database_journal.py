@@ -19,6 +19,7 @@ from warehouse_operations.stations import Visit
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift
     from warehouse_operations.stored import Stored
+    from warehouse_operations.tasks import Answer, Report
 
 
 class DatabaseJournal(Journal):
@@ -45,6 +46,7 @@ class DatabaseJournal(Journal):
                     schema.visit,
                     schema.move,
                     schema.event,
+                    schema.report,
                 )
             }
             self._heat_slots = set(connection.execute(select(schema.heat.c.slot)).scalars())
@@ -163,7 +165,8 @@ class DatabaseJournal(Journal):
             visit=visit.visit_id + self._first_visit if visit else None,
         )
         if visit:
-            self.visit(visit, pieces=visit.pieces + abs(quantity))
+            pieces = -abs(quantity) if reason == Reason.UNDONE else abs(quantity)
+            self.visit(visit, pieces=visit.pieces + pieces)
 
     def order(self, order: Order) -> None:
         """Writes a new Order, or the new state of a known one."""
@@ -272,6 +275,24 @@ class DatabaseJournal(Journal):
             station=station,
             shelf_id=unit,
             text=text,
+        )
+
+    def report(self, now: float, report: "Report", answer: "Answer") -> None:
+        """Writes a person's Report that has an id, and the Answer that it got."""
+        self._rows.insert(
+            schema.report,
+            self._id(schema.report),
+            run=self.run_id,
+            stamp=now,
+            code=report.id,
+            station=report.station,
+            order_id=report.order_id,
+            item=report.item,
+            sequence=report.sequence,
+            quantity=report.quantity,
+            outcome=int(report.outcome),
+            done=answer.quantity,
+            message=answer.message,
         )
 
     def heat(self, slot: int, began: float, maps: bytes) -> None:

@@ -23,7 +23,7 @@ class Reason(StrEnum):
     DAMAGED = "damaged"
     FELL = "fell"  # they lie on the floor, with their bin,
     PICKED_UP = "picked up"  # or are back
-    UNDONE = "undone"  # they were written off by mistake
+    UNDONE = "undone"  # they were picked, put in or written off by mistake
     GONE = "gone"  # with their bin, which is not in the warehouse any more
 
 

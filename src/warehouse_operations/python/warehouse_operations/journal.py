@@ -10,6 +10,7 @@ from warehouse_operations.stations import Visit
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift
+    from warehouse_operations.tasks import Answer, Report
 
 
 class Journal:
@@ -60,6 +61,9 @@ class Journal:
         text: str,
     ) -> None:
         """Records an event of an order."""
+
+    def report(self, now: float, report: "Report", answer: "Answer") -> None:
+        """Records a person's Report that has an id, and the Answer that it got."""
 
     def heat(self, slot: int, began: float, maps: bytes) -> None:
         """Records a part of the FloorHeat, in place of the one in that slot."""

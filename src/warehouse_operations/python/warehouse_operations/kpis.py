@@ -45,6 +45,18 @@ class Tally:
         self.pieces_stored += bundle.quantity
         self.stored_in[int(now // INTERVAL)] += bundle.quantity
 
+    def unpicked(self, when: float, pieces: int, line: Line) -> None:
+        """Counts pieces no longer that were picked at a time [s]; the line still has them."""
+        self.items_picked -= pieces
+        self.lines_picked -= not line.open
+        self.picked_in[int(when // INTERVAL)] -= pieces
+
+    def unstored(self, when: float, bundle: Bundle) -> None:
+        """Counts a bundle no longer that was put in at a time [s]."""
+        self.bundles_stored -= 1
+        self.pieces_stored -= bundle.quantity
+        self.stored_in[int(when // INTERVAL)] -= bundle.quantity
+
     def completed(self, order: Order) -> None:
         """Counts an order that is complete."""
         self.orders_completed += 1
@@ -53,6 +65,17 @@ class Tally:
         self.throughput_s.append(order.completed - order.assigned)
         self.completed_s.append(order.completed)
         self.completed_in[int(order.completed // INTERVAL)] += 1
+
+    def reopened(self, order: Order) -> None:
+        """Counts an order no longer that was complete. Raises ValueError if it was not counted."""
+        self.orders_completed -= 1
+        self.late_orders -= bool(order.due) and order.completed > order.due
+        times = order.completed - order.created, order.completed - order.assigned, order.completed
+        counted = self.turnover_s, self.throughput_s, self.completed_s
+        at = list(zip(*counted)).index(times)
+        for series in counted:
+            del series[at]
+        self.completed_in[int(order.completed // INTERVAL)] -= 1
 
     def visited(self, visit: Visit) -> None:
         """Counts a visit that is over, if its unit reached the station."""

@@ -10,6 +10,7 @@ from warehouse_operations.orders import Bundle, Line
 from warehouse_operations.picking import Picking
 from warehouse_operations.replenishing import Replenishing
 from warehouse_operations.stations import Pick, Visit, WorkStation
+from warehouse_operations.taking_back import TakingBack
 from warehouse_operations.tasks import Answer, Report
 
 
@@ -18,6 +19,7 @@ class ManualPicking:
 
     def __init__(self, picking: Picking) -> None:
         self._picking, self._shift = picking, picking.shift
+        self._taking_back = TakingBack(picking.shift)
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes pieces of a SKU as picked. Returns success and the fault."""
@@ -83,10 +85,12 @@ class ManualPicking:
         if report.outcome == Outcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
-            self._picking.take(visit, pick, report.quantity)
+            taken = visit, pick, report.quantity
+            self._picking.take(*taken)
             self._picking.complete(station)
             self._picking.leave_if_done(station)
-            return Answer(True, "", report.quantity)
+            when = self._shift.now
+            return Answer(True, "", report.quantity, lambda: self._taking_back.pick(*taken, when))
         is_empty = report.outcome == Outcome.SHORT and not report.quantity
         lacking = one.quantity if is_empty else report.quantity
         if not 0 < lacking <= one.quantity:
@@ -137,6 +141,7 @@ class ManualReplenishing:
 
     def __init__(self, replenishing: Replenishing) -> None:
         self._replenishing, self._shift = replenishing, replenishing.shift
+        self._taking_back = TakingBack(replenishing.shift)
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes the bundle of a SKU as put in. Returns success and the fault."""
@@ -196,7 +201,8 @@ class ManualReplenishing:
                 return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
             self._replenishing.put(visit, bundle)
             self._replenishing.leave_if_done(station)
-            return Answer(True, "", there)
+            when = self._shift.now
+            return Answer(True, "", there, lambda: self._taking_back.put(visit, bundle, when))
         lacking = report.quantity
         if not 0 < lacking <= there:
             return Answer(False, f"{there} of {bundle.sku} are to be put in")

@@ -23,6 +23,8 @@ class OrderEventKind(IntEnum):
     COMPLETED = 3
     CANCELLED = 4
     SHORT = 5  # pieces of sku are not there; text says why
+    UNPICKED = 6  # quantity pieces of sku that were PICKED lie in their bin again
+    REOPENED = 7  # after COMPLETED: a person took the last piece back
 
 
 class Mode(IntEnum):

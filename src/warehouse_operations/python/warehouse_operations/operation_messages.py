@@ -14,7 +14,7 @@ from warehouse_operations import kpis
 from warehouse_operations.floor_heat import FloorHeat
 from warehouse_operations.inventory import Bin
 from warehouse_operations.kpis import Tally
-from warehouse_operations.message_enums import OrderEventKind
+from warehouse_operations.message_enums import Mode, OrderEventKind
 from warehouse_operations.orders import Order
 from warehouse_operations.stations import Visit, WorkStation
 
@@ -103,6 +103,18 @@ def _station_state(station: WorkStation, now: float) -> msg.StationState:
         pieces=station.pieces,
         busy_fraction=station.busy_fraction(now),
         waiting=station.waiting(now),
+        totes=[_tote(order) for order in station.totes] if station.mode == Mode.MANUAL else [],
+    )
+
+
+def _tote(order: Order) -> msg.Tote:
+    return msg.Tote(
+        position=order.tote,
+        order_id=order.order_id,
+        reference=order.reference,
+        lines_left=sum(line.open > 0 for line in order.lines),
+        pieces_left=order.pieces,
+        pieces=sum(line.quantity for line in order.lines),
     )
 
 
@@ -115,10 +127,11 @@ def _tasks(visit: Visit) -> list[msg.StationPick]:
             pick.line.order.order_id,
             pick.line.order.reference,
             pick.sequence,
+            pick.line.order.tote,
         )
         for pick in visit.picks
     ] + [
-        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "", bundle.sequence)
+        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "", bundle.sequence, 0)
         for bundle in visit.puts
     ]
 
@@ -130,7 +143,7 @@ def throughput(tally: Tally, before: tuple[Any, ...], now: float) -> msg.Through
     first = max(int(began // kpis.INTERVAL), last + 1 - SHOWN)
     counts = zip(counts_before, (tally.picked_in, tally.stored_in, tally.completed_in))
     series = (
-        [earlier.get(i, 0) + count.get(i, 0) for i in range(first, last + 1)]
+        [max(0, earlier.get(i, 0) + count.get(i, 0)) for i in range(first, last + 1)]
         for earlier, count in counts
     )
     begin = max(first * kpis.INTERVAL, began)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
+ASKED = 16  # cycles after which the progress is told: those of a large world take seconds
 
 
 class Operations:
@@ -90,21 +91,29 @@ class Operations:
         minutes: float = 0.0,
         seconds: float = 0.0,
         progress: "Callable[[Operations], bool | None] | None" = None,
+        observe: "Callable[[Operations], None] | None" = None,
     ) -> None:
         """Goes on for the given time.
 
-        progress(self) is called now and then; it may return True to stop.
+        progress(self) is called now and then; it may return True to stop. observe(self) is called
+        at the begin and after each cycle.
         """
-        self.step_until(self.time + hours * 3600 + minutes * 60 + seconds, progress)
+        end = self.time + hours * 3600 + minutes * 60 + seconds
+        self.step_until(end, progress, observe)
 
     def step_until(
-        self, end: float, progress: "Callable[[Operations], bool | None] | None" = None
+        self,
+        end: float,
+        progress: "Callable[[Operations], bool | None] | None" = None,
+        observe: "Callable[[Operations], None] | None" = None,
     ) -> None:
-        """Goes on to a time of the shift [s]; see run() for progress."""
+        """Goes on to a time of the shift [s]; see run() for progress and observe."""
         cycle = math.inf if self.ideal else CYCLE
         began, count = clock.monotonic(), 0
         if not self.time:
             self.shift.advance(0.0)
+        observe = observe or _look_away
+        observe(self)
         while self.shift.now < end:
             until = min(self.shift.next_time(), end, self.fleet.time + cycle)
             self.fleet.step_until(until)
@@ -113,8 +122,9 @@ class Operations:
             # A world counts steps: times that differ by rounding alone are the same.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
             self.driven_m[int(self.shift.now // kpis.INTERVAL)] = self.fleet.distance_m
+            observe(self)
             count += 1
-            if progress and count % 256 == 0 and progress(self):
+            if progress and count % ASKED == 0 and progress(self):
                 break
         self.wall_s += clock.monotonic() - began
 
@@ -138,6 +148,10 @@ class Operations:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _look_away(_: Operations) -> None:
+    """Observes nothing."""
 
 
 def _opened(url: str) -> "Database":

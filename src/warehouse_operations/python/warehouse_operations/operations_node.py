@@ -33,6 +33,7 @@ from warehouse_operations.remote_transports import RemoteTransports
 from warehouse_operations.shift import Shift
 from warehouse_operations.shift_services import ShiftServices
 from warehouse_operations.site import Site
+from warehouse_operations.tasks import KEPT
 
 FAREWELL = 1.0  # the last notice is offered to subscribers for this long [s, wall]
 CYCLE = 0.1  # between two steps of the shift [s]
@@ -98,11 +99,13 @@ class OperationsNode:
             left = stored.transports_left(self.engine)
             heat.restore(stored.heat(self.engine, now))
             self._before = stored.throughput(self.engine, now, since)
+            reports = stored.reports(self.engine, KEPT)
         self._transports.release_left(*left)
         self._shift = self._open_shift(now)
         self._shift.on_order_event = self._publish_order_event
         # Task numbers that a page got in an earlier run must not come again [ms, wall].
         self._shift.tasks.number_from(time_ns() // 10**6)
+        self._shift.tasks.remember(reports)
         self._shift.notices.on_change = self._publish_notices
         self._publish_notices()
         # It passes on what it does not define itself, which its type does not say.

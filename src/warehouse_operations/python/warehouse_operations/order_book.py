@@ -97,6 +97,14 @@ class OrderBook:
         self._shift.journal.order(order)
         self._shift.picking.on_backlog_change()
 
+    def bring_back(self, order: Order) -> None:
+        """Makes a complete order one of its station again: a piece was taken back."""
+        self._shift.tally.reopened(order)
+        self.orders[order.order_id] = order
+        order.state, order.completed = OrderState.ASSIGNED, 0.0
+        self._shift.journal.order(order)
+        self.publish_event(order, OrderEventKind.REOPENED)
+
     def end(self, order: Order, kind: OrderEventKind, station: str = "", text: str = "") -> None:
         """Counts and drops an order that is complete or cancelled, and publishes that."""
         if kind == OrderEventKind.COMPLETED:

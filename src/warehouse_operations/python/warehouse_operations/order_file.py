@@ -13,20 +13,38 @@ commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without
 """
 
 import os
+import re
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from warehouse_layout.csv_table import CsvTable, fields, shown
 from warehouse_operations import acceptance
 
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
 MOST_FAULTS = 20
+TEXT = "orders"  # what a text in place of a file is called in messages
 
 
 class DemandError(ValueError):
     """Raised for orders that can't be taken; names what is wrong, or the file and line."""
+
+
+class Fault(NamedTuple):
+    """What is wrong in a line, counted from 1, and in which column; 0 and "": as a whole."""
+
+    line: int
+    column: str
+    text: str
+
+
+class _FieldError(ValueError):
+    """Raised for a wrong field of a row."""
+
+    def __init__(self, column: str, text: str) -> None:
+        super().__init__(text)
+        self.column = column
 
 
 @dataclass(frozen=True)
@@ -50,18 +68,39 @@ def read_csv(
     skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
     """
     table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
-    wrong: list[str] = []
+    orders, faults = _read(table, skus, capacity)
+    if faults:
+        raise DemandError("\n".join(f"{path}:{one.line}: {one.text}" for one in faults))
+    return orders
+
+
+def parse_csv(
+    text: str, skus: Collection[str] | None = None, capacity: float = float("inf")
+) -> tuple[list[Wanted], list[Fault]]:
+    """Returns the orders of a text in place of a file, and what is wrong with it, of which there
+    are MOST_FAULTS at most; see read_csv."""
+    try:
+        table = CsvTable(TEXT, NEEDED, OPTIONAL, DemandError, text)
+        return _read(table, skus, capacity)
+    except DemandError as error:
+        found = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
+        start, line = (found.end(), int(found[1] or 0)) if found else (0, 0)
+        return [], [Fault(line, "", str(error)[start:])]
+
+
+def _read(
+    table: CsvTable, skus: Collection[str] | None, capacity: float
+) -> tuple[list[Wanted], list[Fault]]:
+    faults: list[Fault] = []
     orders = _Orders(skus, capacity)
     for row in table:
         try:
             orders.add(row, table.decimal_comma)
         except ValueError as error:
-            wrong.append(f"{path}:{table.line}: {error}")
-        if len(wrong) == MOST_FAULTS:
+            faults.append(Fault(table.line, getattr(error, "column", ""), str(error)))
+        if len(faults) == MOST_FAULTS:
             break
-    if wrong:
-        raise DemandError("\n".join(wrong))
-    return orders.wanted()
+    return orders.wanted(), faults
 
 
 class _Orders:
@@ -79,11 +118,11 @@ class _Orders:
             return
         reference, sku = row["reference"], row["sku"]
         if not reference:
-            raise ValueError("reference is empty")
+            raise _FieldError("reference", "reference is empty")
         if fault := acceptance.fault_of_head(reference):
-            raise ValueError(fault)
+            raise _FieldError("reference", fault)
         if not sku or (self._skus is not None and sku not in self._skus):
-            raise ValueError(f"sku '{shown(sku)}' is unknown")
+            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown")
         quantity = _field(row, "quantity", int, 1, 2**31 - 1)
         if decimal_comma:
             row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}
@@ -100,7 +139,7 @@ class _Orders:
         if len(lines) > acceptance.MOST_LINES:
             raise ValueError(f"{reference} has more than {acceptance.MOST_LINES} lines")
         if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
-            raise ValueError(f"{reference}: {fault}")
+            raise _FieldError("quantity", f"{reference}: {fault}")
 
     def wanted(self) -> list[Wanted]:
         """Returns the orders, in the order of their first rows."""
@@ -122,5 +161,7 @@ def _field(
         value = None
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
-        raise ValueError(f"{name} is '{shown(text)}'; {what} from {least} to {most:g} was expected")
+        raise _FieldError(
+            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:g} was expected"
+        )
     return value

@@ -34,7 +34,8 @@ class Line:
 class Order:
     """The order of a customer; times are simulated [s]. due 0: no due time.
 
-    lines: (SKU, pieces) of each line.
+    lines: (SKU, pieces) of each line. tote: its place at the station that has it, or had it last;
+    0: none.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class Order:
         self.lines = [Line(self, i, sku, n) for i, (sku, n) in enumerate(lines)]
         self.state, self.station = OrderState.OPEN, ""
         self.assigned = self.completed = 0.0
+        self.tote = 0
         self.stored = False  # whether a journal has it
 
     @property

@@ -109,7 +109,7 @@ class Picking:
             station.name,
             self.shift.now,
         )
-        station.orders[order.order_id] = order
+        station.take_on(order)
         self.shift.journal.assigned(order)
         self.shift.order_book.publish_event(order, OrderEventKind.ASSIGNED)
         for line in order.lines:
@@ -145,7 +145,7 @@ class Picking:
 
     def _return(self, station: WorkStation, order: Order) -> None:
         """Takes an unfinished order away from its station."""
-        del station.orders[order.order_id]
+        station.let_go(order)
         for visit in station.inbound.values():
             for pick in [pick for pick in visit.picks if pick.line.order is order]:
                 self.drop(visit, pick)
@@ -203,8 +203,12 @@ class Picking:
         self.leave_if_done(station)
         for order in list(station.orders.values()):
             if not order.done:
-                self._return(station, order)
-                self.shift.order_book.reopen(order)
+                self.give_back(station, order)
+
+    def give_back(self, station: WorkStation, order: Order) -> None:
+        """Puts an unfinished order of a station back into the backlog."""
+        self._return(station, order)
+        self.shift.order_book.reopen(order)
 
     # Units.
 
@@ -300,7 +304,7 @@ class Picking:
     def complete(self, station: WorkStation) -> None:
         """Completes the orders of a station that have all their pieces."""
         for order in [order for order in station.orders.values() if order.done]:
-            del station.orders[order.order_id]
+            station.let_go(order)
             order.state, order.completed = OrderState.COMPLETED, self.shift.now
             self.shift.order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
             self._to_assign[station] = None

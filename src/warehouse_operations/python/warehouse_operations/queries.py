@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Searches of a database for orders and stock; they return rows of the schema's tables."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from sqlalchemy import and_, exists, func, or_, select
@@ -80,3 +81,18 @@ def find_stock(
         total, pieces = connection.execute(counts.select_from(found)).one()
         fullest = query.order_by(bins.c.quantity.desc(), bins.c.id)
         return total, pieces, connection.execute(_page(fullest, limit, offset)).all()
+
+
+def matching(names: Iterable[str], search: str) -> list[str]:
+    """Returns the names with a text in them: those that begin with it first, sku-2 before sku-10."""
+    text = search.casefold()
+    found = [name for name in names if text in name.casefold()]
+    return sorted(found, key=lambda name: (not name.casefold().startswith(text), _natural(name)))
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    """What orders names with numbers as people do."""
+    return [
+        (int(part), "") if part.isdecimal() else (-1, part)
+        for part in re.split(r"(\d+)", name.casefold())
+    ]

@@ -23,6 +23,7 @@ TABLES = (  # in the order in which rows may refer to each other
     schema.move,
     schema.event,
     schema.heat,
+    schema.report,
 )
 
 

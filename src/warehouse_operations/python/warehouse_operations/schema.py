@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from sqlalchemy import (
+    BigInteger,
     CheckConstraint,
     Column,
     Float,
@@ -29,7 +30,7 @@ from sqlalchemy import (
 )
 from sqlalchemy.engine import Connection
 
-VERSION = 3
+VERSION = 4
 metadata = MetaData()
 
 
@@ -183,10 +184,29 @@ heat = Table(
     Column("maps", LargeBinary, nullable=False),  # FloorHeat's of that time, compressed
 )
 
+# Reports of people at stations that had an id (code): one that comes again gets its answer.
+report = Table(
+    "report",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("stamp", Float, nullable=False),
+    Column("code", String(80), nullable=False),
+    Column("station", String(80), nullable=False),
+    Column("order_id", Integer, nullable=False),  # 0: pieces were put in
+    Column("item", String(80), nullable=False),
+    Column("sequence", BigInteger, nullable=False),
+    Column("quantity", Integer, nullable=False),
+    Column("outcome", Integer, nullable=False),
+    Column("done", Integer, nullable=False),  # pieces taken, put in or written off
+    Column("message", Text, nullable=False),
+)
+
 # From each older version to the next: a function of a connection.
 MIGRATIONS: dict[int, Callable[[Connection], object]] = {
     1: heat.create,
     2: lambda connection: connection.execute(text("ALTER TABLE run ADD COLUMN layout TEXT")),
+    3: report.create,
 }
 
 

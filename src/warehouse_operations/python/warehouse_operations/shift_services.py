@@ -8,11 +8,13 @@ import rospy
 from sqlalchemy.engine import Engine
 
 from warehouse_msgs import srv
-from warehouse_operations import queries
+from warehouse_operations import order_table, queries
 from warehouse_operations.message_enums import Outcome
 from warehouse_operations.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import Shift
 from warehouse_operations.tasks import Report
+
+LONGEST_ID = 80  # of a report
 
 
 class Host(Protocol):
@@ -40,6 +42,7 @@ class ShiftServices:
         self._host = host
         for name, kind, call in (
             ("submit_order", srv.SubmitOrder, self._submit),
+            ("submit_orders", srv.SubmitOrders, self._submit_table),
             ("cancel_order", srv.CancelOrder, self._cancel),
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
@@ -48,6 +51,7 @@ class ShiftServices:
             ("undo_write_off", srv.UndoWriteOff, self._undo_write_off),
             ("find_orders", srv.FindOrders, self._find_orders),
             ("find_stock", srv.FindStock, self._find_stock),
+            ("find_skus", srv.FindSkus, self._find_skus),
         ):
             rospy.Service(f"/warehouse/{name}", kind, call)
 
@@ -56,6 +60,22 @@ class ShiftServices:
         fields = lines, request.due.to_sec(), request.priority, request.reference
         order, message = self._host.carry_out(lambda shift: shift.submit(*fields))
         return srv.SubmitOrderResponse(order.order_id if order else 0, bool(order), message)
+
+    def _submit_table(self, request: Any) -> Any:
+        fields = request.table, request.check_only
+        answer = self._host.carry_out(lambda shift: order_table.submit(shift, *fields))
+        line, column, text = zip(*answer.faults) if answer.faults else ((), (), ())
+        return srv.SubmitOrdersResponse(
+            accepted=not answer.faults,
+            message=text[0] if text else "",
+            order_ids=answer.order_ids,
+            references=answer.references,
+            lines=answer.lines,
+            pieces=answer.pieces,
+            fault_line=line,
+            fault_column=column,
+            fault_text=text,
+        )
 
     def _cancel(self, request: Any) -> Any:
         return srv.CancelOrderResponse(
@@ -87,8 +107,11 @@ class ShiftServices:
         if request.outcome not in Outcome.__members__.values():
             text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
             return srv.ReportPickResponse(False, text, 0)
+        if len(request.id) > LONGEST_ID:
+            text = f"the id has {len(request.id)} characters; {LONGEST_ID} at most were expected"
+            return srv.ReportPickResponse(False, text, 0)
         fields = request.station, request.order_id, request.item, request.sequence
-        report = Report(*fields, request.quantity, Outcome(request.outcome))
+        report = Report(*fields, request.quantity, Outcome(request.outcome), request.id)
         answer = self._host.carry_out(lambda shift: shift.tasks.report(report))
         self._host.publish_stations()
         return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)
@@ -117,3 +140,10 @@ class ShiftServices:
             self._host.engine, request.sku, request.limit, request.offset
         )
         return srv.FindStockResponse(total, pieces, [stock_place(one) for one in found])
+
+    def _find_skus(self, request: Any) -> Any:
+        inventory = self._host.shift.inventory
+        found = queries.matching(self._host.shift.assortment.skus, request.search)
+        shown = found[: min(request.limit, queries.MOST_ROWS)]
+        available = [max(0, inventory.available(sku)) for sku in shown]
+        return srv.FindSkusResponse(len(found), shown, available)

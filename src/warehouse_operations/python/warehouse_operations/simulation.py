@@ -3,7 +3,7 @@
 
 import contextlib
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -179,14 +179,16 @@ def simulate(
     folder: str | Path,
     database: str | Path | None = None,
     progress: ProgressBar | None = None,
+    observe: Callable[[Operations], None] | None = None,
 ) -> tuple[runs.Run, list[str]]:
     """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
-    database: None: a new one in the folder.
+    database: None: a new one in the folder. observe: called at the begin and after each cycle.
     """
     folder = Path(folder)
     with _locked(folder):
-        return _simulate(description, folder, database or _new_database(folder), progress)
+        kept = database or _new_database(folder)
+        return _simulate(description, folder, kept, progress, observe)
 
 
 @contextlib.contextmanager
@@ -213,9 +215,10 @@ def _simulate(
     folder: Path,
     database: str | Path,
     progress: ProgressBar | None,
+    observe: Callable[[Operations], None] | None,
 ) -> tuple[runs.Run, list[str]]:
     with open_operations(description, str(database)) as ops:
-        ops.run(seconds=description.seconds, progress=progress)
+        ops.run(seconds=description.seconds, progress=progress, observe=observe)
         if progress:
             progress.end(ops)
         kept: Any = ops.database

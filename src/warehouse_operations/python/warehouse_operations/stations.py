@@ -11,6 +11,7 @@ from warehouse_operations.inventory import Bin, Inventory
 from warehouse_operations.message_enums import Mode
 from warehouse_operations.orders import Bundle, Line, Order
 from warehouse_operations.settings import Settings
+from warehouse_operations.totes import Totes
 
 
 @dataclass(eq=False)
@@ -86,6 +87,7 @@ class WorkStation:
         self.pick_seconds = min(settings.pick_s, settings.piece_s)
         self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
         self.orders: dict[int, Order] = {}  # by id
+        self.totes = Totes(self.capacity)
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
         self.at_work = 0  # pieces or bundles in people's hands
         self.reaching = 0  # of these, pieces that are still in their bins
@@ -109,6 +111,16 @@ class WorkStation:
         """Returns the share of its pickers' hours in which they worked, until a time [s]."""
         hours = self.open_seconds(now) * self.pickers
         return self.busy_s / hours if hours else 0.0
+
+    def take_on(self, order: Order, again: bool = False) -> None:
+        """Adds an order, in a tote of its own; `again`: in the one that it had here."""
+        self.orders[order.order_id] = order
+        (self.totes.take_again if again else self.totes.take)(order)
+
+    def let_go(self, order: Order) -> None:
+        """Removes an order, and frees the place of its tote. Raises KeyError."""
+        del self.orders[order.order_id]
+        self.totes.leave(order)
 
     @property
     def free_slots(self) -> int:

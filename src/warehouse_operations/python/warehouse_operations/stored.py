@@ -8,15 +8,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from sqlalchemy import Table, func, select
+from sqlalchemy import Table, and_, func, or_, select
 from sqlalchemy.engine import Connection, Engine
 
 from warehouse_operations import schema
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import Bin, Reason
 from warehouse_operations.kpis import INTERVAL
-from warehouse_operations.message_enums import OrderState
+from warehouse_operations.message_enums import OrderState, Outcome
 from warehouse_operations.orders import Order
+from warehouse_operations.tasks import Answer, Report
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,13 @@ def throughput(
     picked: dict[int, int] = defaultdict(int)
     stored: dict[int, int] = defaultdict(int)
     completed: dict[int, int] = defaultdict(int)
+    # What was taken back counts against it, at its own time.
+    of_line, undone = move.order_id.is_not(None), move.reason == Reason.UNDONE.value
+    taken_out = and_(undone, move.visit.is_not(None), ~of_line)
+    done = (
+        (-move.quantity, or_(move.reason == Reason.PICK.value, and_(undone, of_line))),
+        (move.quantity, or_(move.reason == Reason.PUT.value, taken_out)),
+    )
     with engine.connect() as connection:
         later = _shifts(connection, now)
         for run in connection.execute(select(schema.run)):
@@ -97,10 +105,10 @@ def throughput(
                 continue
             begin = min(begin, max(run.began_s + by, since))
             queries = [
-                select(move.stamp, func.abs(move.quantity))
-                .where(move.run == run.id, move.reason == reason.value)
-                .where(move.stamp >= since - by)
-                for reason in (Reason.PICK, Reason.PUT)
+                select(move.stamp, pieces).where(
+                    move.run == run.id, of_stations, move.stamp >= since - by
+                )
+                for pieces, of_stations in done
             ]
             queries.append(
                 select(order.completed, 1)
@@ -111,6 +119,19 @@ def throughput(
                 for stamp, number in connection.execute(query):
                     count[int((stamp + by) // INTERVAL)] += number
     return begin, picked, stored, completed
+
+
+def reports(engine: Engine, most: int) -> list[tuple[Report, Answer]]:
+    """Returns what people at stations reported under ids, the last ones, the oldest first."""
+    rows = select(schema.report).order_by(schema.report.c.id.desc()).limit(most)
+    with engine.connect() as connection:
+        found = list(connection.execute(rows))
+    return [(_report(row), Answer(True, row.message, row.done)) for row in reversed(found)]
+
+
+def _report(row: Any) -> Report:
+    named = row.station, row.order_id, row.item, row.sequence
+    return Report(*named, row.quantity, Outcome(row.outcome), row.code)
 
 
 def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:

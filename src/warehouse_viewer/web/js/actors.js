@@ -3,19 +3,25 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { Belts } from './belts.js';
-import { Crowd, FAR, NEAR, View } from './crowd.js';
-import { boundsOf, boxesOf, hull, materialOf, matrixOf, merge } from './looks.js';
-import { Robots } from './robots.js';
+import { Crowd, FAR, NEAR, StandingCrowd, TINY, View } from './crowd.js';
+import { ALL, boundsOf, boxesOf, hull, materialOf, matrixOf, merge } from './looks.js';
+import { COLOURS, Robots } from './robots.js';
+import { addShadows } from './shadows.js';
+import { boardsOf, flatMaterial, shelfGeometry, shelfPicture, speckGeometry, variantOf } from './shelves.js';
 
 // From so many pixels a metre on a thing is drawn in detail.
-const DETAIL = { unit: 30, item: 30, scenery: 15 };
+const DETAIL = { unit: 110, item: 110, scenery: 15 };
+// Of storage units that stand, and of walls, by theme.
+const STEEL = { dark: new THREE.Color(0xb9c2ce), light: new THREE.Color(0xf7f9fb) };
+const WALL = { dark: new THREE.Color(0x5a6473), light: new THREE.Color(0xaab3be) };
+const isWall = (name) => /^(layout_walls|wall|pillar|column)/.test(name);
 
 // Thousands of matrices a frame: this is reused.
 const onUnit = new THREE.Matrix4();
 
 export class Actors {
   constructor(stage, world) {
-    Object.assign(this, { stage, world });
+    Object.assign(this, { stage, world, theme: document.documentElement.dataset.theme });
     this.group = new THREE.Group();
     stage.scene.add(this.group);
     this.view = new View();
@@ -39,21 +45,28 @@ export class Actors {
     this.boxes = each(boxesOf);
     this.bounds = each(boundsOf);
     this.robots = new Robots(this.group, this.world, look(scene.robot_look));
-    this.units = this.crowd('unit', look(scene.unit_look), scene.units.length, true);
-    this.items = this.crowd('item', look(scene.item_look), scene.items.length, false);
+    this.buildUnits(look(scene.unit_look));
+    this.items = new StandingCrowd(this.group, scene.items.length, this.bounds.item, DETAIL.item);
+    if (hasShapes(look(scene.item_look))) this.items.add(merge(look(scene.item_look)), materialOf(), NEAR);
     this.itemPlace = scene.items.map((_, i) => matrixOf(scene.item_pose.slice(7 * i, 7 * i + 7)));
     this.buildScenery(look);
     this.setSeeThrough(this.seeThrough);
     this.stage.invalidate();
   }
 
-  /** A Crowd of `count` alike; those far away are boxes, or not drawn at all. */
-  crowd(kind, links, count, hasHull) {
-    const out = new Crowd(this.group, count, boundsOf(links), DETAIL[kind]);
-    if (!links.some((link) => link.shapes.length)) return out;
-    out.add(merge(links), materialOf(), NEAR);
-    if (hasHull) out.add(hull(links), materialOf(), FAR);
-    return out;
+  /** Units that stand are drawn by squares of the floor, as full as they are. */
+  buildUnits(links) {
+    const { units } = this.world.scene, bounds = this.bounds.unit;
+    this.units = new StandingCrowd(this.group, units.length, bounds, DETAIL.unit);
+    const most = Math.max(1, ...this.world.itemsOf.map((items) => items.length));
+    this.variants = this.world.itemsOf.map((items, unit) => variantOf(items.length / most, unit));
+    if (!hasShapes(links)) return;
+    const boards = boardsOf(links);
+    addShadows(this.units, bounds, NEAR | FAR);
+    this.units.add(merge(links, ALL), materialOf(true), NEAR);
+    if (boards.length) this.units.add(shelfGeometry(links), flatMaterial(shelfPicture(boards)), FAR);
+    else this.units.add(hull(links, true), materialOf(true), FAR);
+    this.units.add(speckGeometry(bounds), flatMaterial(), TINY);
   }
 
   /** Of a thing {kind, index}: its bounds, as looks.js has them. */
@@ -93,10 +106,24 @@ export class Actors {
     const matrix = poseMatrix(this.world.unitPose, unit);
     const carrier = this.world.carrierOf(unit);
     if (carrier >= 0) matrix.premultiply(onUnit.fromArray(this.robots.crowd.base, 16 * carrier));
-    this.units.put(unit, matrix);
+    this.units.put(unit, matrix, carrier >= 0);
+    this.paintUnit(unit, carrier);
     for (const item of this.world.itemsOf[unit]) {
-      this.items.put(item, onUnit.multiplyMatrices(matrix, this.itemPlace[item]));
+      this.items.put(item, onUnit.multiplyMatrices(matrix, this.itemPlace[item]), carrier >= 0);
     }
+  }
+
+  /** A carried unit has the colour of what its robot does. */
+  paintUnit(unit, carrier) {
+    const colour = carrier < 0 ? STEEL[this.theme] : COLOURS[this.world.activity[carrier]];
+    this.units.paint(unit, colour, this.variants[unit]);
+  }
+
+  setTheme(theme) {
+    this.theme = theme;
+    for (let unit = 0; unit < this.variants.length; ++unit) this.paintUnit(unit, this.world.carrierOf(unit));
+    this.paintWalls();
+    this.stage.invalidate();
   }
 
   placeLoose(items) {
@@ -108,10 +135,10 @@ export class Actors {
 
   setSeeThrough(through) {
     this.seeThrough = through;
-    for (const { copies: { mesh } } of [...this.units.layers, ...this.items.layers]) {
-      Object.assign(mesh.material, { transparent: through, opacity: through ? 0.18 : 1, depthWrite: !through });
-      mesh.material.needsUpdate = true;
-      mesh.renderOrder = through ? 1 : 0;
+    for (const { material, order } of [...this.units.layers, ...this.items.layers]) {
+      if (order < 0) continue; // a shadow
+      Object.assign(material, { transparent: through, opacity: through ? 0.18 : 1, depthWrite: !through });
+      material.needsUpdate = true;
     }
     this.stage.invalidate();
   }
@@ -123,12 +150,27 @@ export class Actors {
     this.sceneryPlaces = scenery.map(() => null); // {crowd, index} of each
     this.sceneryCrowds = [...new Set(looks)].map((index) => {
       const models = scenery.map((_, i) => i).filter((i) => looks[i] === index);
-      const crowd = this.crowd('scenery', look(index), models.length, true);
+      const crowd = this.crowdOf(look(index), models.length, isWall(scenery[models[0]]));
       models.forEach((model, i) => { this.sceneryPlaces[model] = { crowd, index: i }; });
       return crowd;
     });
+    this.paintWalls();
     const belts = scenery.map((_, i) => i).filter((i) => scenery[i].startsWith('conveyor_belt'));
     this.belts = new Belts(this.group, belts, look(looks[belts[0]]), this.sceneryBase, DETAIL.scenery);
+  }
+
+  /** Scenery of one look; walls have a colour of the theme's. */
+  crowdOf(links, count, areWalls) {
+    const bounds = boundsOf(links), out = new Crowd(this.group, count, bounds, DETAIL.scenery);
+    if (!hasShapes(links)) return out;
+    if (!areWalls) addShadows(out, bounds, NEAR | FAR);
+    out.add(merge(links, areWalls && ALL), materialOf(true), NEAR);
+    out.add(areWalls ? merge(links, ALL) : hull(links), materialOf(true), FAR | TINY);
+    return out;
+  }
+
+  paintWalls() {
+    for (const { crowd, index } of this.sceneryPlaces) crowd.paint(index, WALL[this.theme]);
   }
 
   placeScenery(models) {
@@ -142,6 +184,7 @@ export class Actors {
   }
 }
 
+const hasShapes = (links) => links.some((link) => link.shapes.length);
 
 function poseMatrix(poses, i) {
   return matrixOf(poses.subarray(7 * i, 7 * i + 7));

@@ -3,31 +3,49 @@
 
 import * as THREE from '/three/build/three.module.js';
 
-const FIRST = 64; // copies for which a mesh has room at first
+const FIRST = 16; // copies for which a mesh has room at first
+export const TINT = 4; // numbers of a copy: red green blue, each in 0…1, and which variant of its kind it is
 const OWN = ['position', 'normal', 'tint']; // attributes in which copies differ
 
 /** A graphics card draws many instances as fast as it draws one mesh. */
 export class Instances {
-  /** At most `count` of them. */
-  constructor(geometry, material, count) {
-    this.mesh = new THREE.InstancedMesh(geometry, material, count);
-    this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+  constructor(geometry, material) {
+    const own = new THREE.BufferGeometry().copy(geometry);
+    for (const [name, attribute] of Object.entries(geometry.attributes)) own.setAttribute(name, attribute); // shared
+    this.mesh = new THREE.InstancedMesh(own, material, 0);
     this.mesh.frustumCulled = false;
-    this.tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * count), 3);
-    geometry.setAttribute('tint', this.tint.setUsage(THREE.DynamicDrawUsage));
+    this.matrices = this.tints = new Float32Array();
+    this.drawn = 0;
+    this.grow(FIRST);
+  }
+
+  /** Makes room for so many, and keeps those that are there. */
+  grow(room) {
+    const larger = (old, size) => {
+      const out = new Float32Array(room * size);
+      out.set(old);
+      return out;
+    };
+    this.matrices = larger(this.matrices, 16);
+    this.tints = larger(this.tints, TINT);
+    this.mesh.instanceMatrix = new THREE.BufferAttribute(this.matrices, 16).setUsage(THREE.DynamicDrawUsage);
+    this.tint = new THREE.InstancedBufferAttribute(this.tints, TINT).setUsage(THREE.DynamicDrawUsage);
+    this.mesh.geometry.setAttribute('tint', this.tint);
+    this.room = room;
   }
 
   begin() {
     this.drawn = 0;
   }
 
-  /** Adds one with the matrix in `matrices` at 16 i and the colour in `tints` at 3 i; `place(i, array, at)`
+  /** Adds one with the matrix in `matrices` at 16 i and the tint in `tints` at 4 i; `place(i, array, at)`
    *  may change the matrix that was written there. */
   add(matrices, tints, i, place) {
-    const out = this.mesh.instanceMatrix.array, to = 16 * this.drawn;
+    if (this.drawn === this.room) this.grow(2 * this.room);
+    const out = this.matrices, to = 16 * this.drawn;
     for (let k = 0; k < 16; ++k) out[to + k] = matrices[16 * i + k];
     if (place) place(i, out, to);
-    for (let k = 0; k < 3; ++k) this.tint.array[3 * this.drawn + k] = tints[3 * i + k];
+    for (let k = 0; k < TINT; ++k) this.tints[TINT * this.drawn + k] = tints[TINT * i + k];
     this.drawn += 1;
   }
 
@@ -47,7 +65,8 @@ export class Merged {
   constructor(geometry, material) {
     this.original = geometry;
     this.corners = geometry.attributes.position.count;
-    geometry.setAttribute('tint', new THREE.BufferAttribute(new Float32Array(3 * this.corners), 3));
+    this.attributes = { ...geometry.attributes,
+      tint: new THREE.BufferAttribute(new Float32Array(TINT * this.corners), TINT) };
     this.matrix = new Float32Array(16);
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
     this.mesh.frustumCulled = false;
@@ -57,9 +76,9 @@ export class Merged {
 
   /** Makes room for so many copies, and keeps those that are there. */
   grow(room) {
-    const { original, corners } = this;
+    const { original, corners, attributes } = this;
     const geometry = new THREE.BufferGeometry();
-    for (const [name, { array, itemSize }] of Object.entries(original.attributes)) {
+    for (const [name, { array, itemSize }] of Object.entries(attributes)) {
       const all = new Float32Array(room * corners * itemSize);
       if (OWN.includes(name)) all.set(this.mesh.geometry.attributes[name]?.array ?? []);
       else for (let copy = 0; copy < room; ++copy) all.set(array, copy * array.length);
@@ -85,15 +104,15 @@ export class Merged {
 
   add(matrices, tints, i, place) {
     if (this.drawn === this.room) this.grow(2 * this.room);
-    const { corners, matrix, original: { attributes }, mesh: { geometry } } = this;
+    const { corners, matrix, attributes, mesh: { geometry } } = this;
     for (let k = 0; k < 16; ++k) matrix[k] = matrices[16 * i + k];
     if (place) place(i, matrix, 0);
     const first = 3 * corners * this.drawn;
     move(attributes.position.array, matrix, 1, geometry.attributes.position.array, first);
     if (attributes.normal) move(attributes.normal.array, matrix, 0, geometry.attributes.normal.array, first);
-    const tint = geometry.attributes.tint.array;
-    for (let k = 0; k < 3 * corners; k += 3) {
-      for (let c = 0; c < 3; ++c) tint[first + k + c] = tints[3 * i + c];
+    const tint = geometry.attributes.tint.array, from = TINT * corners * this.drawn;
+    for (let k = 0; k < TINT * corners; k += TINT) {
+      for (let c = 0; c < TINT; ++c) tint[from + k + c] = tints[TINT * i + c];
     }
     this.drawn += 1;
   }

@@ -3,11 +3,15 @@
 // boxes where they are small, and not at all out of sight.
 
 import * as THREE from '/three/build/three.module.js';
-import { Instances, Merged } from './copies.js';
+import { Instances, Merged, TINT } from './copies.js';
 import { drawsInSoftware } from './software.js';
 
-export const FAR = 1, NEAR = 2;
+// How large something is seen; a layer is drawn at one of them, or more (FAR | NEAR).
+export const FAR = 1, NEAR = 2, TINY = 4;
+const SMALL = 7; // [px] a metre, below which things are tiny
 const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
+const TILE = 16; // edge of a square of the floor whose things are drawn together [m]
+const MOVING = 'moving'; // where things are that are under way, one by one
 
 export class Crowd {
   /** `count` things whose shapes reach `radius` around `centre` [m, in the thing's frame]. They
@@ -15,44 +19,45 @@ export class Crowd {
   constructor(group, count, { centre, radius }, detail) {
     Object.assign(this, { group, count, centre, radius, detail });
     this.base = new Float32Array(16 * count); // where each is
-    this.tint = new Float32Array(3 * count);
+    this.tint = new Float32Array(TINT * count);
     for (let i = 0; i < count; ++i) this.base[16 * i + 15] = 1; // of no size until placed
     this.layers = [];
     this.vertices = 0; // of all in detail
-    this.stale = true;
+    this.parts = [new Part(this, Array.from({ length: count }, (_, i) => i))];
   }
 
-  /** Draws a geometry for each thing at a level; `place(i, array, at)` turns a thing's matrix there
-   *  into that of a part that moves on it. */
-  add(geometry, material, level, place = null) {
-    const copies = new (drawsInSoftware() ? Merged : Instances)(geometry, material, this.count);
-    this.group.add(copies.mesh);
-    this.layers.push({ copies, level, place });
-    if (level === NEAR) this.vertices += this.count * geometry.attributes.position.count;
+  /** Draws a geometry for each thing at some levels; `place(i, array, at)` turns a thing's matrix there
+   *  into that of a part that moves on it; `order` as three's renderOrder. */
+  add(geometry, material, levels, place = null, order = 0) {
+    this.layers.push({ geometry, material, levels, place, order });
+    if (levels === NEAR) this.vertices += this.count * geometry.attributes.position.count;
   }
 
   put(i, matrix) {
     matrix.toArray(this.base, 16 * i);
-    this.stale = true;
+    this.partOf(i).stale = true;
   }
 
-  paint(i, colour) {
-    colour.toArray(this.tint, 3 * i);
-    this.stale = true;
+  /** Gives one a colour and, if its kind has some, a variant 0, 1, … */
+  paint(i, { r, g, b }, variant = 0) {
+    const { tint } = this, at = TINT * i;
+    if (tint[at] === Math.fround(r) && tint[at + 1] === Math.fround(g) && tint[at + 2] === Math.fround(b)
+      && tint[at + 3] === variant) return;
+    [tint[at], tint[at + 1], tint[at + 2], tint[at + 3]] = [r, g, b, variant];
+    this.partOf(i).stale = true;
+  }
+
+  get isCheap() {
+    return this.vertices <= CHEAP;
+  }
+
+  partOf() {
+    return this.parts[0];
   }
 
   /** Chooses how each is drawn, for a View; `moved`: it is another than before. */
   fill(view, moved) {
-    if (!this.count || !(moved || this.stale)) return;
-    this.stale = false;
-    for (const { copies } of this.layers) copies.begin();
-    for (let i = 0; i < this.count; ++i) {
-      const wanted = this.levelOf(view, i);
-      for (const { copies, level, place } of this.layers) {
-        if (level === wanted) copies.add(this.base, this.tint, i, place);
-      }
-    }
-    for (const { copies } of this.layers) copies.end();
+    for (const part of this.parts) part.fill(view, moved);
   }
 
   levelOf(view, i) {
@@ -60,9 +65,115 @@ export class Crowd {
     // Things stand upright, or nearly so.
     const x = base[at + 12] + base[at] * cx + base[at + 4] * cy;
     const y = base[at + 13] + base[at + 1] * cx + base[at + 5] * cy;
-    const scale = view.scaleAt(x, y, base[at + 14] + cz, this.radius);
+    return this.levelAt(view.scaleAt(x, y, base[at + 14] + cz, this.radius));
+  }
+
+  /** How what is seen so large is drawn [px/m]; 0: it is out of sight. */
+  levelAt(scale) {
     if (scale === 0) return 0;
-    return scale >= this.detail || this.vertices <= CHEAP ? NEAR : FAR;
+    if (scale >= this.detail || this.isCheap) return NEAR;
+    return scale >= SMALL ? FAR : TINY;
+  }
+}
+
+/** Many things of which most stand still: those that stand on a square of the floor are one part,
+ *  which is drawn as it was until one of them comes, goes or looks other. */
+export class StandingCrowd extends Crowd {
+  constructor(...all) {
+    super(...all);
+    this.places = Array(this.count).fill(MOVING);
+    this.byPlace = new Map([[MOVING, this.parts[0]]]);
+  }
+
+  partOf(i) {
+    return this.byPlace.get(this.places[i]);
+  }
+
+  /** What the far are drawn as shows as much. */
+  get isCheap() {
+    return false;
+  }
+
+  /** `moves`: it is under way. */
+  put(i, matrix, moves = false) {
+    const { elements: m } = matrix;
+    const x = Math.floor(m[12] / TILE), y = Math.floor(m[13] / TILE);
+    this.bring(i, moves ? MOVING : `${x} ${y}`, x, y);
+    super.put(i, matrix);
+  }
+
+  bring(i, place, x, y) {
+    if (place === this.places[i]) return;
+    this.partOf(i).remove(i);
+    this.places[i] = place;
+    if (!this.byPlace.has(place)) {
+      const part = new Tile(this, (x + 0.5) * TILE, (y + 0.5) * TILE);
+      this.byPlace.set(place, part);
+      this.parts.push(part);
+    }
+    this.partOf(i).members.add(i);
+  }
+}
+
+/** Things that are drawn together. */
+class Part {
+  constructor(crowd, members) {
+    Object.assign(this, { crowd, members: new Set(members), stale: true, copies: [] });
+  }
+
+  remove(i) {
+    this.members.delete(i);
+    this.stale = true;
+  }
+
+  fill(view, moved) {
+    if (!(moved || this.stale)) return;
+    this.draw((i) => this.crowd.levelOf(view, i));
+  }
+
+  /** Draws each member at its level. */
+  draw(levelOf) {
+    const { crowd } = this, { layers } = crowd;
+    this.stale = false;
+    for (const copies of this.copies) copies?.begin();
+    for (const i of this.members) {
+      const wanted = levelOf(i);
+      for (let layer = 0; layer < layers.length; ++layer) {
+        if (layers[layer].levels & wanted) this.copiesOf(layer).add(crowd.base, crowd.tint, i, layers[layer].place);
+      }
+    }
+    for (const copies of this.copies) copies?.end();
+  }
+
+  copiesOf(layer) {
+    return this.copies[layer] ??= this.make(this.crowd.layers[layer]);
+  }
+
+  make({ geometry, material, order }) {
+    const copies = new (drawsInSoftware() ? Merged : Instances)(geometry, material);
+    copies.mesh.renderOrder = order;
+    this.crowd.group.add(copies.mesh);
+    copies.begin();
+    return copies;
+  }
+}
+
+/** Things on a square of the floor, all of them drawn alike. */
+class Tile extends Part {
+  constructor(crowd, x, y) {
+    super(crowd, []);
+    const { centre: [, , z], radius } = crowd;
+    Object.assign(this, { x, y, z, level: 0, reach: TILE * Math.SQRT1_2 + radius });
+  }
+
+  fill(view, moved) {
+    if (!(moved || this.stale)) return;
+    const { crowd, x, y, z, reach } = this;
+    const level = crowd.levelAt(view.scaleAt(x, y, z, reach, reach));
+    for (const copies of this.copies) if (copies) copies.mesh.visible = level > 0 && copies.drawn > 0;
+    if (level === 0 || (level === this.level && !this.stale)) return;
+    this.level = level;
+    this.draw(() => level);
   }
 }
 
@@ -81,18 +192,21 @@ export class View {
     if (matrix.equals(this.matrix) && height === this.height) return false;
     Object.assign(this, { matrix, height });
     this.eye = camera.position.toArray();
-    this.focal = height / 2 * camera.projectionMatrix.elements[5]; // [px]
+    this.focal = height / 2 * camera.projectionMatrix.elements[5]; // [px]; of parallel rays [px/m]
+    this.isParallel = Boolean(camera.isOrthographicCamera);
     this.frustum.setFromMatrix(matrix).planes.forEach(({ normal, constant }, i) => (
       this.planes.set([normal.x, normal.y, normal.z, constant], 4 * i)));
     return true;
   }
 
-  /** Pixels a metre of a sphere there [m]; 0: it is out of sight. */
-  scaleAt(x, y, z, radius) {
+  /** Pixels a metre of a sphere there [m], or of its point that is `nearer` than its centre; 0: it is
+   *  out of sight. */
+  scaleAt(x, y, z, radius, nearer = 0) {
     const { planes, eye } = this;
     for (let i = 0; i < 24; i += 4) {
       if (planes[i] * x + planes[i + 1] * y + planes[i + 2] * z + planes[i + 3] < -radius) return 0;
     }
-    return this.focal / Math.max(0.1, Math.hypot(x - eye[0], y - eye[1], z - eye[2]));
+    if (this.isParallel) return this.focal;
+    return this.focal / Math.max(0.1, Math.hypot(x - eye[0], y - eye[1], z - eye[2]) - nearer);
   }
 }

@@ -11,13 +11,13 @@ const KEYS = {
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
   n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };
-const MORE = { '/': 'search', '[ ]': 'the next robot', Esc: 'select nothing' };
+const MORE = { '/': 'search', '← ↑ ↓ →': 'in the picture: to another robot', Enter: 'bring it near', '+ -': 'larger, smaller', '1 … 5': 'open or close a panel', '[ ]': 'the next robot', Esc: 'select nothing' };
 const TYPED = 'input[type="search"], input:not([type]), input[type="number"], select';
 
 export class Keys {
-  /** `next(step)` selects another robot, `leave()` none. */
-  constructor(next, leave) {
-    Object.assign(this, { next, leave });
+  /** `next(step)` selects another robot, `leave()` none, `search()` goes to the field for it. */
+  constructor(next, leave, search) {
+    Object.assign(this, { next, leave, search });
     on(window, 'keydown', (event) => this.take(event));
     // What was clicked keeps no keys to itself: the next one is meant for the page. A
     // button reached by the tab key is still pressed with space.
@@ -51,8 +51,8 @@ export class Keys {
 
   /** True if the key means something here; one that is held down presses a button but once. */
   obey(key, isHeld) {
-    const act = { Escape: this.leave, '/': () => $('search').focus(),
-      '[': () => this.next(-1), ']': () => this.next(1) }[key] ?? presser(key, isHeld);
+    const act = { Escape: this.leave, '/': this.search,
+      '[': () => this.next(-1), ']': () => this.next(1) }[key] ?? opener(key) ?? presser(key, isHeld);
     act?.();
     return Boolean(act);
   }
@@ -67,8 +67,15 @@ function giveUp(field) {
   field.blur();
 }
 
+/** Panels by number, as they stand in the rail. */
+function opener(key) {
+  const button = document.querySelectorAll('[data-drawer]')[Number(key) - 1];
+  return button && !button.hidden ? () => button.click() : null;
+}
+
 function presser(key, isHeld) {
   const button = KEYS[key] && $(KEYS[key][0]);
-  const canPress = button && !button.disabled && button.offsetParent;
+  // A closed drawer's buttons can be pressed, those of what is not there can not.
+  const canPress = button && !button.disabled && !button.closest('[hidden]');
   return canPress ? () => isHeld || button.click() : null;
 }

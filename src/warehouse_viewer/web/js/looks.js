@@ -46,14 +46,25 @@ export function largestOf(links) {
   return shapes.find((shape) => volume(shape) === most);
 }
 
+/** Of each shape its extents along the axes of the model and the height of its middle [m]. */
+export function sizesOf(links) {
+  return shapesOf(links).map(({ matrix, size }) => {
+    const half = new THREE.Vector3(...size).multiplyScalar(0.5);
+    const box = new THREE.Box3(half.clone().negate(), half).applyMatrix4(matrix);
+    return { size: box.getSize(new THREE.Vector3()).toArray(), z: (box.min.z + box.max.z) / 2 };
+  });
+}
+
+export const ALL = 'all'; // shapes are painted
+
 /** All shapes of some links as one geometry, coloured by vertex. Where `painted`, the largest
- *  shape takes each instance's own tint instead. */
+ *  shape (or ALL) takes each instance's own tint instead. */
 export function merge(links, painted = false) {
   const largest = largestOf(links);
   return joined(shapesOf(links).flatMap((shape) => primitive(shape.kind, shape.size).map((geometry) => ({
     geometry: geometry.toNonIndexed().applyMatrix(shape.matrix),
     colour: shape.colour,
-    paint: painted && volume(shape) === volume(largest) ? 1 : 0,
+    paint: painted === ALL || (painted && volume(shape) === volume(largest)) ? 1 : 0,
   }))));
 }
 

@@ -1,80 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of the warehouse: figures, robots, stations, orders, stock; and a station's screen for a
-// person. What changes comes by itself.
+// The work of the warehouse: figures, alarms, stations, robots, orders, stock. What
+// changes comes by itself.
 
 import { Alarms } from './alarms.js';
 import { get, remove } from './api.js';
 import { Changes } from './changes.js';
-import { draw } from './chart.js';
 import { $, make, on } from './dom.js';
+import { count, Figures } from './figures.js';
+import { Gantt } from './gantt.js';
+import { completeSkus, OrderEntry } from './order_entry.js';
 import { OrderList } from './order_list.js';
+import { OrderUpload } from './order_upload.js';
 import { piecesOf } from './order_row.js';
 import { confirmed } from './question.js';
-import { Stations, waitingOf } from './stations.js';
-import { spaced } from './words.js';
-import { WorkScreen } from './work_screen.js';
+import { RobotShares } from './robot_shares.js';
+import { Stations } from './stations.js';
+import { ThroughputChart } from './throughput.js';
+import { clock } from './time.js';
 
 const PLACES = 200;
-const FIGURES = [
-  ['item_throughput_per_hour', 'pieces per hour', count],
-  ['item_score', 'throughput / upper bound', percent],
-  ['orders_completed', 'orders completed', count],
-  ['orders_waiting', 'orders waiting', count],
-  ['orders_at_stations', 'at stations', count],
-  ['orders_late', 'late now', count],
-  ['late_orders_fraction', 'late, of all orders', percent],
-  ['pile_on', 'pieces per unit visit', (v) => v.toFixed(1)],
-  ['station_idle_fraction', 'picking stations idle', percent],
-  ['stock_level', 'stock', percent],
-  ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
-  ['collisions', 'collisions', count],
-];
-// Of the palette of Okabe and Ito (2008), light to dark within what belongs together.
-const WORK_COLOURS = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
-  dropping: '#005c8f', idle: '#9aa4b1', manual: '#cc79a7', out_of_service: '#d55e00' };
-
-function count(value) {
-  return Math.round(value).toLocaleString('en');
-}
-
-function percent(value) {
-  return `${Math.round(100 * value)} %`;
-}
+const TOPICS = ['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'alarms', 'figures'];
 
 class Page {
   constructor() {
     this.kpis = this.throughput = null;
+    this.now = 0; // [s], simulated
+    const fail = (error) => this.say(error.message);
     this.stations = new Stations((sent) => this.act(sent));
-    this.screen = new WorkScreen();
-    this.alarms = new Alarms();
-    this.orders = new OrderList((order) => this.cancel(order), (error) => this.say(error.message));
-    on(window, 'hashchange', () => this.screen.choose(location.hash.slice(1)));
-    this.screen.choose(location.hash.slice(1));
+    this.alarms = new Alarms(fail);
+    this.figures = new Figures();
+    this.chart = new ThroughputChart();
+    this.shares = new RobotShares();
+    this.gantt = new Gantt();
+    this.orders = new OrderList((order) => this.cancel(order), fail);
+    const taken = (text) => this.taken(text);
+    this.entry = new OrderEntry(() => this.now, taken);
+    this.upload = new OrderUpload(taken);
+    completeSkus($('sku'));
+    on(window, 'hashchange', leaveForStation);
+    leaveForStation();
     on($('where'), 'submit', (event) => {
       event.preventDefault();
       this.where();
     });
-    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'notices'], {
+    this.changes = new Changes(TOPICS, this.handlers());
+  }
+
+  handlers() {
+    return {
       state: (live) => this.showLink(live ? 'live' : 'away'),
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
         this.stations.take(stations);
-        this.screen.take(stations);
-        this.alarms.set('stations', stations.filter(waitingOf).map((one) => `${one.name} ${waitingOf(one)}`));
       },
       kpis: ({ kpis }) => {
         this.kpis = kpis;
-        this.showFigures();
+        this.figures.showSmall(kpis);
         this.showChart();
       },
       throughput: ({ throughput }) => {
         this.throughput = throughput;
         this.showChart();
       },
+      figures: ({ figures }) => this.figures.showLeading(figures),
+      alarms: ({ alarms }) => this.alarms.take(alarms),
       orders: (message) => this.orders.take(message),
       coordinator: ({ coordinator }) => this.showFleet(coordinator),
-      notices: ({ notices }) => this.alarms.set('orders', notices),
-    });
+    };
   }
 
   takeShift(runs) {
@@ -86,7 +78,7 @@ class Page {
     $('link').dataset.state = state;
     const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
     $('link').textContent = text;
-    this.screen.showLink(state === 'live' ? '' : text);
+    this.alarms.setAway(state === 'away' ? text : '');
   }
 
   /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
@@ -110,45 +102,28 @@ class Page {
     await this.act(remove(`/orders/${id}`), (message) => [`${reference} is cancelled`, message].filter(Boolean).join('; '));
   }
 
+  /** Orders of this page's own: they belong into the list at once. */
+  taken(text) {
+    this.say(text, 'done');
+    this.orders.reload(0);
+  }
+
   say(text, kind = 'refused') {
     Object.assign($('answer'), { hidden: !text, textContent: text });
     $('answer').dataset.kind = kind;
   }
 
-  showFigures() {
-    $('figures').replaceChildren(...FIGURES.map(([name, text, told]) => (
-      make('div', {}, make('b', { textContent: told(this.kpis[name]) }), make('span', { className: 'dim', textContent: text })))));
-  }
-
   showChart() {
-    if (this.kpis && this.throughput) draw(this.throughput, this.kpis.item_upper_bound_per_hour);
+    if (this.kpis && this.throughput) this.chart.show(this.throughput, this.kpis.item_upper_bound_per_hour);
   }
 
-  // --- robots
   showFleet(fleet) {
-    $('fleet').textContent = fleet ? '' : 'no coordinator runs';
-    this.alarms.set('coordinator', fleet?.alarms ?? []);
+    this.shares.show(fleet);
     if (!fleet) return;
-    this.orders.now = fleet.time;
+    this.now = this.orders.now = fleet.time;
     $('time').textContent = clock(fleet.time);
-    const { manual, out_of_service } = fleet.robots;
-    const doing = { ...fleet.work, manual, out_of_service };
-    const shown = Object.entries(WORK_COLOURS).filter(([name]) => doing[name]);
-    $('robots').replaceChildren(...shown.map(([name, colour]) => {
-      const bar = make('div', { title: `${doing[name]} ${spaced(name)}` });
-      Object.assign(bar.style, { flex: doing[name], background: colour });
-      return bar;
-    }));
-    $('robots-legend').replaceChildren(...shown.map(([name, colour]) => {
-      const dot = make('i');
-      dot.style.background = colour;
-      return make('li', {}, dot, make('b', { textContent: doing[name] }), ` ${spaced(name)}`);
-    }));
-    const { transports } = fleet;
-    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; planning takes `
-      + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
-    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, since, text }) => (
-      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s ${text}` }))));
+    this.stations.tick(fleet.time);
+    this.alarms.tick(fleet.time);
   }
 
   // --- stock
@@ -166,10 +141,9 @@ class Page {
   }
 }
 
-const pad = (n) => String(Math.floor(n)).padStart(2, '0');
-
-function clock(seconds) {
-  return `${Math.floor(seconds / 3600)}:${pad(seconds / 60 % 60)}:${pad(seconds % 60)}`;
+/** A link of old, /operations#pick1, leads to that station's screen. */
+function leaveForStation() {
+  if (location.hash.length > 1) location.replace(`/station/${location.hash.slice(1)}`);
 }
 
 window.page = new Page(); // for a look from the console

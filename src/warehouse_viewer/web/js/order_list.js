@@ -54,6 +54,13 @@ export class OrderList {
     this.shift = 0; // rows by which the server's list, where new ones come first, is ahead of this one
   }
 
+  /** What is asked for, beside limit and offset. */
+  get query() {
+    const query = new URLSearchParams(this.filter);
+    if (this.text) query.set('search', this.text);
+    return query;
+  }
+
   /** Reads another list, from its beginning, after a delay [ms]. */
   reload(delay) {
     this.isReload = true;
@@ -101,10 +108,10 @@ export class OrderList {
     const [sight, count] = this.inSight;
     const offset = isReload ? 0 : Math.max(0, sight - AROUND + this.shift);
     if (isReload) this.forget();
-    const query = new URLSearchParams(this.filter);
+    const { query } = this;
+    for (const kind of ['csv', 'xlsx']) $(`out-${kind}`).href = `/api/v1/orders.${kind}?${query}`;
     query.set('limit', count + 2 * AROUND);
     query.set('offset', offset);
-    if (this.text) query.set('search', this.text);
     try {
       const { total, orders } = await get(`/orders?${query}`);
       if (isReload) this.begun(total, orders);

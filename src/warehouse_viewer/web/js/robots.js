@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The robots in the picture: chassis, wheels that roll, towers that lift, and a frame in the
-// colour of what they do.
+// The robots in the picture: chassis, wheels that roll, towers that lift, and an outline in the
+// colour of what they do, which is seen through what they carry.
 
 import * as THREE from '/three/build/three.module.js';
-import { Crowd, FAR, NEAR } from './crowd.js';
+import { Crowd, FAR, NEAR, TINY } from './crowd.js';
 import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
+import { addShadows } from './shadows.js';
+import { flatMaterial, speckGeometry } from './shelves.js';
 
 // By Activity, as design.css has them in the dark.
 export const COLOURS = [0x8b97a7, 0x4f9cf9, 0x3fbf7f, 0xf2b036, 0xf0605a].map((c) => new THREE.Color(c));
-const FRAME = { inner: 0.40, outer: 0.49 }; // half edges [cells]
+const PAD = 0.49; // half edge of what is left of a robot's frame from afar [cells]
+const LINE = 0.05, NOSE = 0.16; // of an outline: width, and of the arrow at its front [m]
+const OVER_ALL = 2; // as three's renderOrder
 const DETAIL = 22; // [px] a metre, from which on robots are drawn in detail
 const MOVING = ['left_wheel', 'right_wheel', 'tower']; // links
 const AT_REST = [0, 0, 0, 0, 0, 0, 1];
@@ -27,13 +31,16 @@ export class Robots {
     this.rolled = new Float64Array(2 * count); // left and right wheel [rad]
     this.wheels = wheelsOf(links);
     if (!count || !links.some((link) => link.shapes.length)) return;
+    const bounds = boundsOf(links);
+    addShadows(this.crowd, bounds, NEAR | FAR);
     this.crowd.add(merge(links.filter(({ name }) => !MOVING.includes(name)), true), materialOf(true), NEAR);
-    this.crowd.add(hull(links, true, FRAME.outer * world.scene.grid), materialOf(true), FAR);
+    this.crowd.add(hull(links, true, PAD * world.scene.grid), materialOf(true), FAR);
+    this.crowd.add(speckGeometry(bounds), flatMaterial(), TINY);
     for (const [which, name] of MOVING.entries()) {
       const link = links.find((l) => l.name === name);
       if (link) this.addJoint(link, which);
     }
-    this.crowd.add(frameGeometry(world.scene.grid), frameMaterial(), NEAR);
+    this.crowd.add(outlineGeometry(bounds), outlineMaterial(), NEAR | FAR, null, OVER_ALL);
   }
 
   addJoint(link, which) {
@@ -87,21 +94,27 @@ export function rolledBy([x0, y0, yaw0], [x, y, yaw], { radius, track }) {
   return [(ahead - apart) / radius, (ahead + apart) / radius];
 }
 
-/** A square frame on the floor, seen from above even beneath a storage unit. */
-function frameGeometry(cell) {
-  const corners = (half) => [[-1, -1], [1, -1], [1, 1], [-1, 1]]
-    .map(([x, y]) => new THREE.Vector2(half * cell * x, half * cell * y));
-  const shape = new THREE.Shape(corners(FRAME.outer));
-  shape.holes.push(new THREE.Path(corners(FRAME.inner).reverse()));
-  return new THREE.ShapeBufferGeometry(shape).translate(0, 0, 0.012);
+/** A robot's edges and which way it looks, at the height of its top. */
+function outlineGeometry({ min, max }) {
+  const corners = (gap) => [[min[0] - gap, min[1] - gap], [max[0] + gap, min[1] - gap],
+    [max[0] + gap, max[1] + gap], [min[0] - gap, max[1] + gap]].map(([x, y]) => new THREE.Vector2(x, y));
+  const ring = new THREE.Shape(corners(LINE / 2));
+  ring.holes.push(new THREE.Path(corners(-LINE / 2).reverse()));
+  const front = max[0] - 1.5 * LINE;
+  const nose = new THREE.Shape([[front, 0], [front - NOSE, NOSE], [front - NOSE, -NOSE]]
+    .map(([x, y]) => new THREE.Vector2(x, y)));
+  const out = new THREE.ShapeBufferGeometry([ring, nose]).translate(0, 0, max[2]);
+  for (const unused of ['normal', 'uv']) out.deleteAttribute(unused);
+  return out;
 }
 
-function frameMaterial() {
-  const out = new THREE.MeshBasicMaterial();
+/** In a light shade of each one's tint, through whatever stands before it. */
+function outlineMaterial() {
+  const out = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.9, depthTest: false, side: THREE.DoubleSide });
   out.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader.replace('#include <common>',
-      '#include <common>\nattribute vec3 tint;\nvarying vec3 vTint;')
-      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvTint = tint;');
+      '#include <common>\nattribute vec4 tint;\nvarying vec3 vTint;')
+      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvTint = mix(tint.rgb, vec3(1.0), 0.7);');
     shader.fragmentShader = shader.fragmentShader.replace('#include <common>',
       '#include <common>\nvarying vec3 vTint;')
       .replace('vec4 diffuseColor = vec4( diffuse, opacity );', 'vec4 diffuseColor = vec4(vTint, opacity);');

@@ -3,6 +3,8 @@
 
 import { make } from './dom.js';
 
+const COUNT_PERIOD = 10000; // [ms]
+
 async function showPages() {
   const answer = await fetch('/pages').catch(() => null);
   const pages = answer?.ok ? await answer.json() : [];
@@ -11,6 +13,17 @@ async function showPages() {
     if (link.pathname === location.pathname) link.setAttribute('aria-current', 'page');
   }
   document.querySelector('.site')?.replaceChildren(...(links.length > 1 ? links : []));
+  pages.forEach(({ count, title }, i) => count && followCount(links[i], title, count));
+}
+
+/** A page's link tells how many things wait there for a person. */
+async function followCount(link, title, address) {
+  const answer = await fetch(address).catch(() => null);
+  const { total = 0 } = answer?.ok ? await answer.json() : {};
+  const badge = make('span', { className: 'badge needs-help count', textContent: total, ariaLabel: `${total} alarms`, title: `${total} alarms` });
+  badge.setAttribute('role', 'img');
+  link.replaceChildren(title, ...(total ? [badge] : []));
+  setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
 }
 
 showPages();

@@ -13,6 +13,12 @@ export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'
 export const NEEDS_HELP = 4;
 /** The class that gives each its colour; design.css has them. */
 export const ACTIVITY_CLASS = ACTIVITY.map((word) => word.replace(' ', '-'));
+/** The names of the activities in the API. */
+export const ACTIVITY_NAMES = ACTIVITY.map((word) => word.replace(' ', '_').toUpperCase());
+/** What a station does at a glance, by the same activities. */
+export const STATION_STATES = {
+  RESTING: 'nothing to do', MOVING: 'unit on its way', WORKING: 'at work', WAITING: 'waits for units', NEEDS_HELP: 'needs a person',
+};
 /** What a robot does in detail, by State. */
 export const STATE = byNumber({
   [State.IDLE]: 'stands',

@@ -55,9 +55,9 @@ def refused(path):
 @pytest.mark.parametrize(
     "statement, message",
     [
-        ("UPDATE schema_version SET version = 0", "the schema version is 0; 1 to 3 was expected"),
-        ("DELETE FROM schema_version", "the schema version is none; 1 to 3 was expected"),
-        ("INSERT INTO schema_version VALUES (1)", "the schema version is 1, 3; 1 to 3 was"),
+        ("UPDATE schema_version SET version = 0", "the schema version is 0; 1 to 4 was expected"),
+        ("DELETE FROM schema_version", "the schema version is none; 1 to 4 was expected"),
+        ("INSERT INTO schema_version VALUES (1)", "the schema version is 1, 4; 1 to 4 was"),
         ("UPDATE schema_version SET version = 99", "the database is of schema version 99; this"),
         ("DROP TABLE event", "the table 'event' is missing"),
         ("ALTER TABLE heat DROP COLUMN maps", "the table 'heat' has no column maps"),

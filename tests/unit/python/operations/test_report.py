@@ -21,7 +21,7 @@ from warehouse_operations import Settings, bar_charts, charts, comparison, repor
 from warehouse_operations.kpis import upper_bound
 from warehouse_operations.simulation import Description, simulate
 
-NODES = ROOT / "src" / "warehouse_operations" / "nodes"
+SOURCES = ROOT / "src"
 KPIS = re.findall(
     r"\w+",
     "simulated_s, wall_s, real_time_factor, robots, pick_stations, replenish_stations, "
@@ -33,9 +33,14 @@ KPIS = re.findall(
 )
 
 
+def program(name):
+    package = "warehouse_viewer" if name == "simulate" else "warehouse_operations"
+    return SOURCES / package / "nodes" / name
+
+
 def node(name, *arguments, **options):
     return subprocess.run(
-        [sys.executable, NODES / name, *map(str, arguments)],
+        [sys.executable, program(name), *map(str, arguments)],
         capture_output=True,
         text=True,
         check=False,
@@ -145,7 +150,7 @@ def test_a_shift_ends_early_with_its_report(tmp_path, instance):
     with subprocess.Popen(
         [
             sys.executable,
-            NODES / "simulate",
+            program("simulate"),
             "--instance",
             instance,
             "--no-physics",

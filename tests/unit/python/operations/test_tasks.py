@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person reports of a pick is done to that pick, once; a write-off can be taken back."""
 
+from dataclasses import replace
+
 import pytest
 from operations_site import site
 
-from warehouse_operations import Operations, check
+from warehouse_operations import Operations, check, stored
 from warehouse_operations.database import open_engine
 from warehouse_operations.message_enums import Mode, OrderState, Outcome
+from warehouse_operations.orders import Bundle, Order
 from warehouse_operations.tasks import UNDO_WITHIN, Report
+from warehouse_operations.totes import Totes
 
 PICK, REPLENISH = "pick1", "replenish3"
 
@@ -46,7 +50,7 @@ def test_a_report_that_comes_twice_is_carried_out_once():
         assert (answer.success, answer.quantity) == (True, report.quantity)
     assert station.pieces == report.quantity and second in station.here.picks
     # The same pick with another outcome is no repetition.
-    other = Report(*list(vars(report).values())[:-1], Outcome.DAMAGED)
+    other = replace(report, outcome=Outcome.DAMAGED)
     assert ops.shift.tasks.report(other).message == "that was reported as DONE already"
 
 
@@ -170,3 +174,169 @@ def test_a_station_tells_for_how_long_it_waits_for_a_person():
     assert station.waiting(shift.now) == pytest.approx(before + 1200)
     shift.set_station(PICK, True, Mode.AUTOMATIC)
     assert station.waiting(shift.now) == 0
+
+
+def test_a_report_that_comes_again_under_its_id_gets_the_first_answer():
+    ops, station = by_hand(least=2)
+    first, second = list(station.here.picks)[:2]
+    before = station.pieces
+    report = replace(report_of(first), id="a")
+    answers = [ops.shift.tasks.report(report) for _ in range(3)]
+    assert answers[0].success and answers[0] is answers[1] is answers[2]
+    assert station.pieces == before + report.quantity
+    other = replace(report_of(second), id="a")
+    assert ops.shift.tasks.report(other).message == "the id a is of another report"
+    # What was refused stays refused, whatever has changed since.
+    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    refused = replace(report_of(second), id="b")
+    text = ops.shift.tasks.report(refused).message
+    ops.shift.set_station(PICK, True, Mode.MANUAL)
+    assert text == f"{PICK} works by itself" and ops.shift.tasks.report(refused).message == text
+
+
+def test_a_report_is_known_after_a_restart(tmp_path):
+    database = tmp_path / "run.db"
+    ops, station = by_hand(database)
+    report = replace(report_of(station.here.picks[0]), id="mine")
+    answer = ops.shift.tasks.report(report)
+    ops.close()
+    again = Operations(site=site(), physics=False, database=database, orders="none")
+    again.shift.set_station(PICK, True, Mode.MANUAL)
+    assert not again.shift.tasks.report(report).success  # it is not known yet
+    again.close()
+    engine = open_engine(database)
+    tasks = Operations(site=site(), physics=False, orders="none").shift.tasks
+    tasks.remember(stored.reports(engine, most=10))
+    found = tasks.report(report)
+    assert (found.success, found.quantity) == (True, answer.quantity)
+    assert stored.reports(engine, most=0) == [] and check.faults(engine) == []
+    engine.dispose()
+
+
+def test_what_was_picked_is_taken_back_while_its_unit_is_there(tmp_path):
+    ops, station = by_hand(tmp_path / "run.db", least=2)
+    shift, unit = ops.shift, station.here.unit
+    pick = station.here.picks[0]
+    order, one, pieces, tote = pick.line.order, pick.bin, pick.quantity, pick.line.order.tote
+    before = one.quantity, station.pieces, shift.tally.items_picked, promised(ops)
+    report = report_of(pick)
+    assert shift.tasks.report(report).success
+    for _ in range(2):  # a repetition changes nothing
+        assert shift.tasks.undo(PICK, report.sequence) == (True, "")
+        assert before == (
+            one.quantity, station.pieces, shift.tally.items_picked, promised(ops)
+        )  # fmt: skip
+    again = station.here.picks[0]
+    assert (again.line.order, again.bin, again.quantity) == (order, one, pieces)
+    assert order.state == OrderState.ASSIGNED and order.tote == tote
+    assert again.sequence != report.sequence
+    last = None
+    while station.here and station.here.unit == unit and station.here.picks:
+        last = report_of(station.here.picks[0])
+        assert shift.tasks.report(last).success
+    refused = shift.tasks.undo(PICK, last.sequence)
+    assert refused == (False, f"storage unit {unit} has left {PICK}")
+    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.run(hours=1)
+    assert order.state == OrderState.COMPLETED
+    ops.close()
+    assert check.faults(open_engine(tmp_path / "run.db")) == []
+
+
+def complete_one(ops, station):
+    """Confirms picks until one completes an order while its unit stays; returns the report."""
+    while True:
+        while not (station.here and station.here.picks):
+            ops.run(minutes=1)
+        pick = station.here.picks[0]
+        report, visit = report_of(pick), station.here
+        ops.shift.tasks.report(report)
+        if pick.line.order.state == OrderState.COMPLETED and visit.here:
+            return report, pick.line.order
+
+
+def test_an_order_that_was_completed_is_open_again_in_its_tote(tmp_path):
+    ops, station = by_hand(tmp_path / "run.db", least=2)
+    shift = ops.shift
+    report, order = complete_one(ops, station)
+    done = shift.tally.orders_completed
+    tote = order.tote
+    shift.advance(shift.now)  # its place goes to another order
+    assert shift.tasks.undo(PICK, report.sequence) == (True, "")
+    assert (order.state, order.completed, shift.tally.orders_completed) == (1, 0.0, done - 1)
+    assert station.orders[order.order_id] is order and station.totes.at(tote) is order
+    assert len(station.orders) <= station.capacity
+    assert len({one.tote for one in station.orders.values()}) == len(station.orders)
+    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.run(hours=2)
+    assert order.state == OrderState.COMPLETED
+    ops.close()
+    assert check.faults(open_engine(tmp_path / "run.db")) == []
+
+
+def test_a_complete_order_stays_so_once_another_one_has_pieces_in_its_place():
+    ops, station = by_hand(least=2)
+    report, order = complete_one(ops, station)
+    ops.shift.advance(ops.shift.now)
+    taken = station.totes.at(order.tote) or next(iter(station.orders.values()))
+    if not station.totes.at(order.tote):
+        station.totes.leave(taken)
+        taken.tote = order.tote
+        station.totes.take_again(taken)
+    taken.lines[0].picked = 1
+    told = ops.shift.tasks.undo(PICK, report.sequence)
+    text = f"{order.reference} is complete; tote {order.tote} is {taken.reference}'s by now"
+    assert told == (False, text)
+
+
+def test_a_bundle_that_was_put_in_comes_out_again(tmp_path):
+    ops = Operations(site=site(), physics=False, database=tmp_path / "run.db", orders="none")
+    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.run(minutes=10)
+    station, tasks = ops.shift.station(REPLENISH), ops.shift.tasks
+    bundle, visit = station.here.puts[0], station.here
+    visit.puts.append(Bundle(0, bundle.sku, 1, bin=bundle.bin))  # so that the unit stays
+    ops.shift.inventory.expect(bundle.bin, bundle.sku, 1)
+    stock, pieces = bundle.bin.quantity, ops.shift.tally.pieces_stored
+    report = Report(REPLENISH, 0, bundle.bin.item, bundle.sequence, bundle.quantity, Outcome.DONE)
+    assert tasks.report(report).success and bundle.bin.quantity == stock + bundle.quantity
+    assert tasks.undo(REPLENISH, report.sequence) == (True, "")
+    assert (bundle.bin.quantity, ops.shift.tally.pieces_stored) == (stock, pieces)
+    assert station.here.puts[0] is bundle and bundle.sequence != report.sequence
+    again = replace(report, sequence=bundle.sequence)
+    assert tasks.report(again).success
+    ops.shift.inventory.reserve(bundle.bin, bundle.bin.available)  # an order asks for all of it
+    text = f"pieces of {bundle.sku} in {bundle.bin.item} are promised to orders by now"
+    assert tasks.undo(REPLENISH, again.sequence) == (False, text)
+    ops.shift.inventory.reserve(bundle.bin, -bundle.bin.reserved)
+    ops.shift.journal.commit(ops.shift)
+    ops.close()
+    assert check.faults(open_engine(tmp_path / "run.db")) == []
+
+
+def test_totes_keep_their_places_and_are_changed_in_turn():
+    totes, orders = Totes(3), [Order(i, [("a", 1)], 0.0) for i in range(1, 6)]
+    for order in orders[:4]:
+        totes.take(order)
+    assert [order.tote for order in orders[:4]] == [1, 2, 3, 0]
+    totes.leave(orders[1])
+    totes.leave(orders[0])
+    assert [one.order_id for one in totes] == [3] and totes.at(2) is None
+    totes.take(orders[4])
+    assert orders[4].tote == 2  # free for longer than 1
+    assert orders[0].tote == 1
+    totes.take_again(orders[0])
+    assert totes.at(1) is orders[0]
+    with pytest.raises(ValueError, match="not in deque"):
+        totes.take_again(orders[1])
+
+
+def test_each_order_of_a_station_has_a_tote_of_its_own():
+    ops, station = by_hand()
+    positions = {order.order_id: order.tote for order in station.orders.values()}
+    assert sorted(positions.values()) == sorted(set(positions.values()))
+    assert set(positions.values()) <= set(range(1, station.capacity + 1))
+    ops.shift.tasks.report(report_of(station.here.picks[0]))
+    ops.run(minutes=1)
+    kept = {number: order.tote for number, order in station.orders.items() if number in positions}
+    assert kept and all(positions[number] == tote for number, tote in kept.items())

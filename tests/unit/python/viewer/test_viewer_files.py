@@ -5,6 +5,7 @@ import gzip
 import tempfile
 from pathlib import Path
 
+import brotli
 import pytest
 from asgi import request
 from fastapi import FastAPI
@@ -39,16 +40,23 @@ def status_of(app, path):
     return request(outer, f"/web{path}").status
 
 
-def test_a_text_travels_compressed_and_once():
+@pytest.mark.parametrize(
+    ("name", "accepted", "unpack"),
+    [
+        ("br", "gzip, deflate, br", brotli.decompress),
+        ("gzip", "gzip, deflate", gzip.decompress),
+    ],
+)
+def test_a_text_travels_compressed_and_once(name, accepted, unpack):
     with tempfile.TemporaryDirectory() as folder:
         text = "const same = 'again';\n" * 1000
         (Path(folder) / "page.js").write_text(text)
         app = FreshFiles(directory=folder)
-        taken = {"accept-encoding": "br, gzip"}
+        taken = {"accept-encoding": accepted}
         packed = request(app, "/page.js", headers=taken)
-        assert gzip.decompress(packed.body).decode() == text
+        assert unpack(packed.body).decode() == text
         assert len(packed.body) < len(text) / 20
-        assert packed.headers["content-encoding"] == "gzip"
+        assert packed.headers["content-encoding"] == name
         assert packed.headers["content-type"].startswith("text/javascript")
         assert packed.headers["cache-control"] == "no-cache"
         tag = packed.headers["etag"]

@@ -232,10 +232,10 @@ void answer(MotionView& world, Inbox& inbox, const Command& command, const Follo
 
 }  // namespace
 
-void acceptCommands(MotionView& world, Inbox& inbox) {
+void acceptCommands(MotionView& world, Inbox& inbox, const Shadows& shadows) {
   while (!inbox.pending.empty()) {
     const PendingCommand& next = inbox.pending.front();
-    answer(world, inbox, next.command, next.path);
+    if (!shadows.has(next.command.kiva_id)) answer(world, inbox, next.command, next.path);
     inbox.pending.pop_front();
   }
 }

@@ -4,11 +4,12 @@
 #include "core/state/contact_log.h"
 #include "core/state/inbox.h"
 #include "core/state/motion_view.h"
+#include "core/state/shadows.h"
 
 namespace kiva {
 
-/// Answers all queued commands, and gives the accepted ones to their robots.
-void acceptCommands(MotionView& world, Inbox& inbox);
+/// Answers all queued commands but those to shadows, and gives the accepted ones to their robots.
+void acceptCommands(MotionView& world, Inbox& inbox, const Shadows& shadows);
 /// Stops the robots that were in a collision.
 void haltCollidedRobots(MotionView& world, ContactLog& contacts);
 

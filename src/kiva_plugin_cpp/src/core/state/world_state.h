@@ -23,6 +23,7 @@
 #include "core/state/command_link.h"
 #include "core/state/inbox.h"
 #include "core/state/model_view.h"
+#include "core/state/shadows.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
@@ -55,6 +56,7 @@ struct WorldState {
   FailureState failures;
   Chargers chargers;
   People people;
+  Shadows shadows;
   StepSchedule schedule;
 
   /// What the rooms work on; each takes the part of the view that it writes.

@@ -25,6 +25,9 @@ from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
+from warehouse_viewer.replay.live import LiveRecording
+from warehouse_viewer.replay.memory import SECONDS
+from warehouse_viewer.replay.told import Told
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed
@@ -33,14 +36,20 @@ from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
+from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.server.station_pages import StationPages
+from warehouse_viewer.watch.monitor import Monitor
+from warehouse_viewer.whatif import places
+from warehouse_viewer.whatif.routes import routes as whatif_routes
+from warehouse_viewer.whatif.workshop import Workshop
 
 
 class Viewer:
-    """Everything behind one address. `ros` is rospy, `web` the folder of the page."""
+    """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
+    `history` seconds (simulated) are kept, to be looked at again; 0: none."""
 
-    def __init__(self, ros: Any, web: Path) -> None:
+    def __init__(self, ros: Any, web: Path, history: float = SECONDS) -> None:
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
@@ -49,8 +58,15 @@ class Viewer:
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
-        self.hub = Hub(source, Model())
-        operations = OperationsClient(ros, ShiftFeed(ros, self.changes))
+        model, shift = Model(), ShiftFeed(ros, self.changes)
+        self.history = (
+            LiveRecording(model, self.journal, Told(feed, shift).figures, history)
+            if history
+            else None
+        )
+        self.hub = Hub(source, model, self.history)
+        operations = OperationsClient(ros, shift)
+        self.monitor = Monitor(feed, operations.feed, self.journal, self.changes)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,
@@ -61,6 +77,7 @@ class Viewer:
             self.transports,
             operations,
             self.changes,
+            self.monitor,
         )
         self._web = web
         self._hub_task = HubTask(self.hub)
@@ -108,10 +125,21 @@ class Viewer:
         """Begins to serve pages, in the running asyncio loop."""
         self._loop = asyncio.get_running_loop()
         self._hub_task.start()
+        self._watching = asyncio.create_task(self.monitor.run())
 
     def _add_files(self, app):
-        pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
-        app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
+        operations = OPERATIONS._replace(counted="/api/v1/alarms")
+        pages = Site(FLOOR, operations, LAYOUT, WHATIF, API, folder=self._web)
+        history = self.history.routes() if self.history else []
+        screens = StationPages(self._totes, self._web).routes()
+        editor = Editor(builds=True, compares=True).routes()
+        whatif = whatif_routes(Workshop(places.of_viewer()))
+        others = editor, whatif, history, screens, pages.routes()
+        app.router.routes.extend(route for routes in others for route in routes)
+
+    async def _totes(self, name: str) -> int | None:
+        stations = (await self.backend.call(self.backend.operations.latest, "stations")).stations
+        return next((one.slots for one in stations if one.name == name), None)
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:

@@ -11,8 +11,8 @@ from fastapi import Depends, HTTPException
 from fastapi.requests import HTTPConnection
 
 from warehouse_client.tracking import Tracked
-from warehouse_msgs.msg import CoordinatorState
-from warehouse_viewer.api import catalogue
+from warehouse_msgs.msg import CoordinatorState, StationStates
+from warehouse_viewer.api import catalogue, operations_json
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.transport_book import TransportBook
@@ -24,6 +24,7 @@ from warehouse_viewer.ros.coordination import NONE_RUNS, Coordination
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.simulation import Simulation
+from warehouse_viewer.watch.monitor import Monitor
 
 SUMMARY = ("coordinator", "fleet", "performance")  # of the feed's topics
 PATIENCE = 3.0  # for messages that are on their way [s, wall]
@@ -41,6 +42,7 @@ class ApiBackend:
     transports: TransportBook
     operations: OperationsClient
     changes: ChangeBook
+    monitor: Monitor
 
     async def wait_for_positions(self) -> None:
         """Waits until it is known where everything is."""
@@ -92,6 +94,11 @@ class ApiBackend:
 
     def _no_things(self):
         raise HTTPException(503, "the world is being rebuilt; ask again")
+
+    def stations(self, message: StationStates) -> list[dict[str, Any]]:
+        """Returns the stations of a message as JSON has them."""
+        told = operations_json.stations(message)
+        return [one | self.monitor.station(station) for one, station in zip(told, message.stations)]
 
     async def simulate(self, action: str, *args: Any) -> Any:
         """Calls a method of Simulation."""

@@ -4,7 +4,8 @@
     /api/v1/changes?of=orders,stations&rate=2     messages of a kind a second at most, 0.1 … 10
 
 First comes {"type": "shift", "runs": true}, and again whenever that changes. Stations, kpis,
-throughput, coordinator, notices and heat come whole: as they are now, then as often as they change.
+throughput, coordinator, alarms, figures, notices and heat come whole: as they are now, then as
+often as they change.
 
     {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
     {"type": "kpis", "kpis": {"items_picked": 123, …}}
@@ -31,6 +32,7 @@ from warehouse_viewer.api import catalogue, operations_json
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.schemas.fleet import Coordinator, Transport
 from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station, Throughput
+from warehouse_viewer.api.schemas.watch import Alarm, LeadingFigures
 from warehouse_viewer.api.stream import until_gone
 
 ROWS = {
@@ -38,7 +40,9 @@ ROWS = {
     "stock": operations_json.plain,
     "transports": dict,
 }  # each as JSON has it
-WHOLE = (*operations_json.SHOWN, "coordinator")
+OF_MONITOR = ("alarms", "figures")  # noted as JSON has them
+WHOLE = (*operations_json.SHOWN, *OF_MONITOR, "coordinator")
+WITHOUT_SHIFT = ("notices", "alarms")  # such as why there is none
 TOPICS = (*ROWS, *WHOLE)
 
 
@@ -108,6 +112,20 @@ class NoticesNow(BaseModel):
     notices: list[str]
 
 
+class AlarmsNow(BaseModel):
+    """Brings the alarms that hold now, the worst first."""
+
+    type: Literal["alarms"]
+    alarms: list[Alarm]
+
+
+class FiguresNow(BaseModel):
+    """Brings the four leading figures with their last hour."""
+
+    type: Literal["figures"]
+    figures: LeadingFigures
+
+
 class HeatNow(BaseModel):
     """Brings where robots drove and waited."""
 
@@ -126,6 +144,8 @@ MESSAGES = (
     CoordinatorNow,
     HeatNow,
     NoticesNow,
+    AlarmsNow,
+    FiguresNow,
 )
 
 
@@ -170,7 +190,7 @@ class _Reader:
                 await self._send_coordinator()
             elif topic in ROWS:
                 await self._send_rows(topic)
-            elif runs or topic == "notices":
+            elif runs or topic in WITHOUT_SHIFT:
                 await self._send_whole(topic)
 
     async def _send_rows(self, topic):
@@ -186,7 +206,14 @@ class _Reader:
         rows, _ = self._book.since(topic, self._read[topic])
         if rows:
             self._read[topic] = now
-            await self._send(topic, **{topic: operations_json.SHOWN[topic](rows[-1])})
+            await self._send(topic, **{topic: self._shown(topic, rows[-1])})
+
+    def _shown(self, topic, row):
+        """A row of the book as JSON has it."""
+        if topic in OF_MONITOR:
+            return row
+        told = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
+        return told(row)
 
     async def _send_coordinator(self):
         self._backend.feed.subscribe(("coordinator", "fleet"))

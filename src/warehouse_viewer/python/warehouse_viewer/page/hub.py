@@ -10,7 +10,7 @@ import math
 import time
 from collections.abc import Collection
 from contextlib import suppress
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -56,10 +56,24 @@ class Page:
         await self.socket.send_text(json.dumps(message, separators=(",", ":")))
 
 
-class Hub:
-    """Serves every open page from a Source. Lives in an asyncio loop; any thread may notify()."""
+class Keeper(Protocol):
+    """Keeps what was shown, whether a page is open or not."""
 
-    def __init__(self, source: Source, model: Model) -> None:
+    def take(self) -> None:
+        """Takes in what the model shows now."""
+
+    def gap(self, factor: float) -> float:
+        """Returns how long it may wait for the next [s, wall], at a real-time factor."""
+
+
+class Hub:
+    """Serves every open page from a Source. Lives in an asyncio loop; any thread may notify().
+
+    keeper: gets what the model shows after each update, even if no page is open.
+    """
+
+    def __init__(self, source: Source, model: Model, keeper: Keeper | None = None) -> None:
+        self._keeper = keeper
         self._feed, self._model, self._journal = source.feed, model, source.journal
         self._simulation, self._source = source.simulation, source
         self._pages: set[Page] = set()
@@ -94,12 +108,20 @@ class Hub:
                 self._refresh()
                 async with self._turn:
                     self._turn.notify_all()
-                await asyncio.sleep(GAP)
+                await asyncio.sleep(self._gap)
         finally:
             watching.cancel()
 
+    @property
+    def _gap(self):
+        """Between two updates [s, wall]."""
+        if self._pages or not self._keeper:
+            return GAP
+        performance = self._feed["performance"]
+        return self._keeper.gap(performance.real_time_factor if performance else 1.0)
+
     def _refresh(self):
-        if self._pages:
+        if self._pages or self._keeper:
             self._feed.subscribe()
         elif self._feed.unsubscribe_if_idle():
             return
@@ -115,6 +137,8 @@ class Hub:
             self._scene_due = time.monotonic() + SCENE_GAP
         waiting = wait_too_long(self._feed.coordinator)
         self._model.update(objects, states, self._feed["fleet"], scenery, waiting)
+        if self._keeper:
+            self._keeper.take()
 
     async def _watch_simulation(self):
         while True:

@@ -51,12 +51,12 @@ class Journal:
         text = io.StringIO()
         table = csv.DictWriter(text, COLUMNS)
         table.writeheader()
-        table.writerows({name: _cell(e[name]) for name in COLUMNS} for e in self.since(0))
+        table.writerows({name: cell(e[name]) for name in COLUMNS} for e in self.since(0))
         return text.getvalue()
 
 
-def _cell(value):
-    """What no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
+def cell(value: Any) -> Any:
+    """Returns what no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
     injection). Numbers stay numbers."""
     is_formula = isinstance(value, str) and value.startswith(FORMULA) and not NUMBER.match(value)
     return f"'{value}" if is_formula else value

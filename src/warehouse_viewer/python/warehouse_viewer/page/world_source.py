@@ -90,7 +90,7 @@ class WorldFeed:
         )
 
     def _scenery(self) -> SimpleNamespace:
-        world, looks = self._world, _Looks(self._world)
+        world, looks = self._world, Looks(self._world)
         others = [n for n in world.names if kind_and_number(n)[0] not in TRACKED and n != FLOOR]
         first: dict[str, list[str]] = {
             "kiva_look": [f"kiva{n}" for n in world.fleet.kiva_id],
@@ -155,7 +155,7 @@ def source_of(world: Any, name: str, pace: Pace) -> tuple[Source, WorldFeed]:
     return Source(feed, WorldSimulation(world, name, pace), Journal()), feed
 
 
-class _Looks:
+class Looks:
     """World.look() of models, each different one once."""
 
     def __init__(self, world: Any) -> None:

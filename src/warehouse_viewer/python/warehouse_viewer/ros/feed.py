@@ -23,6 +23,7 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
 )
 from warehouse_viewer.ros.simulation import Standing
+from warehouse_viewer.ros.vda5050_feed import Vda5050Feed
 
 TOPICS = {
     "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
@@ -33,6 +34,7 @@ TOPICS = {
     "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
 }
 SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
+KEPT = ("fleet", "coordinator")  # heard all the time: their history is told
 LINGER = 10.0  # for which subscriptions outlast their last use [s, wall]
 
 
@@ -55,6 +57,7 @@ class Feed:
         self._subscribers: dict[str, Any] = {}
         self._extras: dict[str, Any] = {}
         self._used, self._coordinated = 0.0, 0.0
+        self.vda5050 = Vda5050Feed(ros)
         ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
         topic = "/warehouse/transports"
         ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
@@ -100,15 +103,22 @@ class Feed:
                 self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
     def unsubscribe_if_idle(self) -> bool:
-        """Drops subscriptions and messages LINGER seconds after their last use; True if it did."""
+        """Drops all but KEPT subscriptions LINGER seconds after their last use; True if it did."""
         with self._lock:
-            if not self._subscribers or time.monotonic() - self._used < LINGER:
+            idle = self._subscribers.keys() - KEPT
+            if not idle or time.monotonic() - self._used < LINGER:
                 return False
-            for subscriber in self._subscribers.values():
-                subscriber.unregister()
-            self._subscribers.clear()
-            self._messages.clear()
+            for name in idle:
+                self._subscribers.pop(name).unregister()
+                self._messages.pop(name, None)
             return True
+
+    def keep(self) -> None:
+        """Subscribes for good to what is KEPT."""
+        with self._lock:
+            for name in KEPT:
+                if name not in self._subscribers:
+                    self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
     @property
     def has_positions(self) -> bool:

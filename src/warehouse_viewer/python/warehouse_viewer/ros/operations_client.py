@@ -24,14 +24,18 @@ class OperationsClient:
 
     def call(self, service: str, kind: Any, *fields: Any) -> Any:
         """Returns the response of /warehouse/`service`. Raises RefusedError if it refuses."""
-        name = f"/warehouse/{service}"
-        try:
-            answer = self._ros.ServiceProxy(name, kind)(*fields)
-        except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:
-            raise AwayError(f"{name}: {error}; {NO_SHIFT}") from error
+        answer = self.request(service, kind, *fields)
         if not getattr(answer, "success", getattr(answer, "accepted", True)):
             raise RefusedError(answer.message)
         return answer
+
+    def request(self, service: str, kind: Any, *fields: Any) -> Any:
+        """Returns the response of /warehouse/`service`, also where it refuses."""
+        name = f"/warehouse/{service}"
+        try:
+            return self._ros.ServiceProxy(name, kind)(*fields)
+        except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:
+            raise AwayError(f"{name}: {error}; {NO_SHIFT}") from error
 
     def latest(self, name: str) -> Any:
         """Waits for the ShiftFeed's newest message of that name and returns it."""

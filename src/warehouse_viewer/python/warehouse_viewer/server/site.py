@@ -15,16 +15,21 @@ from warehouse_viewer.shared_files import CHART, THREE, WEB
 
 
 class Page(NamedTuple):
-    """A page: where it is, what the way to it is called, and its file in the folder web."""
+    """A page: where it is, what the way to it is called, and its file in the folder web.
+
+    `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
+    """
 
     path: str
     title: str
     file: str
+    counted: str = ""
 
 
 FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")
+WHATIF = Page("/whatif", "What-if", "whatif.html")
 API = Page("/docs", "API", "docs.html")
 
 
@@ -41,6 +46,8 @@ class Site:
             Route("/pages", self._list),
             Route("/fonts/inter.woff2", font.serve),
             Mount("/web", self._files),
+            # Modules of three import this one; the page has the same as a script of half the size.
+            Route("/three/build/three.module.js", self._endpoint("js/three.js")),
             Mount("/three", Files(directory=THREE, check_dir=False)),
             Mount("/chart", Files(directory=CHART, check_dir=False)),
         ]
@@ -52,5 +59,9 @@ class Site:
         return get
 
     async def _list(self, _: Request) -> Response:
-        pages = [{"path": page.path, "title": page.title} for page in self._pages]
+        pages = [
+            {"path": page.path, "title": page.title}
+            | ({"count": page.counted} if page.counted else {})
+            for page in self._pages
+        ]
         return JSONResponse(pages, headers={"cache-control": "no-cache"})

@@ -4,8 +4,9 @@
 import functools
 import gzip
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from starlette.datastructures import Headers
 from starlette.responses import Response
@@ -18,6 +19,26 @@ KINDS = {  # that shrink, by suffix
     ".svg": "image/svg+xml",
 }
 MOST_PACKED = 300  # files that are kept compressed
+QUALITY = 9  # of Brotli; 11 saves another 8 % and takes 3 s for the largest file
+
+try:
+    import brotli
+except ImportError:  # a wheel does without
+    brotli = None
+
+
+class Packing(NamedTuple):
+    """A way to compress, by its name in HTTP."""
+
+    name: str
+    pack: Callable[[bytes], bytes]
+
+
+# The best first. Browsers take Brotli from this machine and over TLS alone.
+PACKINGS = [
+    *([Packing("br", functools.partial(brotli.compress, quality=QUALITY))] if brotli else []),
+    Packing("gzip", functools.partial(gzip.compress, compresslevel=9, mtime=0)),
+]
 
 
 class Files(StaticFiles):
@@ -41,13 +62,16 @@ class Files(StaticFiles):
         headers = {"cache-control": self.CACHED}
         if kind:
             headers["vary"] = "accept-encoding"
-        if not kind or not _takes_gzip(scope):
+        packing = _taken(scope) if kind else None
+        if not packing:
             response = super().file_response(full_path, stat_result, scope, status_code)
             response.headers.update(headers)
             return response
         version = stat_result.st_mtime_ns, stat_result.st_size
-        headers |= {"content-encoding": "gzip", "etag": '"{:x}-{:x}-gzip"'.format(*version)}
-        response = Response(_packed(str(full_path), version), status_code, headers, kind)
+        tag = f'"{version[0]:x}-{version[1]:x}-{packing.name}"'
+        headers |= {"content-encoding": packing.name, "etag": tag}
+        body = _packed(str(full_path), version, packing)
+        response = Response(body, status_code, headers, kind)
         if self.is_not_modified(response.headers, Headers(scope=scope)):
             return NotModifiedResponse(response.headers)
         return response
@@ -59,11 +83,14 @@ class FreshFiles(Files):
     CACHED = "no-cache"
 
 
-def _takes_gzip(scope):
-    return "gzip" in Headers(scope=scope).get("accept-encoding", "")
+def _taken(scope: Any) -> Packing | None:
+    """The best packing that the browser takes; None if it takes none."""
+    accepted = Headers(scope=scope).get("accept-encoding", "").split(",")
+    names = {part.partition(";")[0].strip() for part in accepted}
+    return next((packing for packing in PACKINGS if packing.name in names), None)
 
 
 @functools.lru_cache(MOST_PACKED)
-def _packed(path, version):  # noqa: ARG001 (what tells one content from another)
+def _packed(path: str, version: Any, packing: Packing) -> bytes:  # noqa: ARG001 (what tells one content from another)
     """A file's content, compressed once."""
-    return gzip.compress(Path(path).read_bytes(), 9, mtime=0)
+    return packing.pack(Path(path).read_bytes())

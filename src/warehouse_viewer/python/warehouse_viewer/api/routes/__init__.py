@@ -13,6 +13,7 @@ from warehouse_viewer.api.routes import (
     simulation,
     stations,
     warehouse,
+    watch,
 )
 
 router = APIRouter(prefix="/api/v1")
@@ -26,5 +27,6 @@ for _subject in (
     orders,
     stations,
     figures,
+    watch,
 ):
     router.include_router(_subject.router)

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders and stock of a shift."""
 
+import asyncio
 from typing import Any
 
 from fastapi import APIRouter, HTTPException, Path, Query
+from fastapi.responses import Response
 
 from warehouse_msgs import msg, srv
+from warehouse_viewer.api import order_sheet
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.operations_json import order, plain
 from warehouse_viewer.api.routes.common import LIMIT, OFFSET, SENT, problems
@@ -16,22 +19,35 @@ from warehouse_viewer.api.schemas.operations import (
     NewOrder,
     Order,
     Orders,
+    OrderTable,
+    Skus,
     State,
     Stock,
+    TableAnswer,
 )
 from warehouse_viewer.ros.operations_client import ANY
 
 router = APIRouter()
 ORDER = Path(ge=1, le=2**53)
+SEARCH = Query(
+    "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
+)
+LATE = Query(False, description="those past their due time alone")
+AT_ONCE, MOST_EXPORTED = 5_000, 100_000  # orders
+CSV: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/csv": {"schema": {"type": "string"}}}}
+}
+SPREADSHEET = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
+XLSX: dict[int | str, dict[str, Any]] = {
+    200: {"content": {SPREADSHEET: {"schema": {"type": "string", "format": "binary"}}}}
+}
 
 
 @router.get("/orders", response_model=Orders, responses=problems())
 async def get_orders(
-    search: str = Query(
-        "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
-    ),
+    search: str = SEARCH,
     state: State | None = None,
-    late: bool = Query(False, description="those past their due time alone"),
+    late: bool = LATE,
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
@@ -42,6 +58,79 @@ async def get_orders(
         backend.operations.find_orders, 0, search, which, late, limit, offset
     )
     return {"total": found.total, "orders": [order(one) for one in found.orders]}
+
+
+@router.get("/orders.csv", response_class=Response, responses=problems(409) | CSV)
+async def export_csv(
+    search: str = SEARCH,
+    state: State | None = None,
+    late: bool = LATE,
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """Orders as CSV, a row for each of their lines."""
+    orders = await _all(backend, search, state, late)
+    headers = {"content-disposition": 'attachment; filename="orders.csv"'}
+    return Response(order_sheet.as_csv(orders), media_type="text/csv", headers=headers)
+
+
+@router.get("/orders.xlsx", response_class=Response, responses=problems(409) | XLSX)
+async def export_xlsx(
+    search: str = SEARCH,
+    state: State | None = None,
+    late: bool = LATE,
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """Orders as a spreadsheet, a row for each of their lines."""
+    orders = await _all(backend, search, state, late)
+    sheet = await asyncio.to_thread(order_sheet.as_xlsx, orders)
+    headers = {"content-disposition": 'attachment; filename="orders.xlsx"'}
+    return Response(sheet, media_type=SPREADSHEET, headers=headers)
+
+
+async def _all(backend, search, state, late):
+    """All orders of a search as JSON has them; 409 if they are more than a sheet should have."""
+    which = ANY if state is None else STATES.index(state)
+    found: list[Any] = []
+    while True:
+        fields = 0, search, which, late, AT_ONCE, len(found)
+        some = await backend.call(backend.operations.find_orders, *fields)
+        if some.total > MOST_EXPORTED:
+            text = f"{some.total} orders; {MOST_EXPORTED} or fewer were expected: search for some"
+            raise HTTPException(409, text)
+        found += map(order, some.orders)
+        if len(found) >= some.total or not some.orders:
+            return found
+
+
+@router.post("/orders/table", response_model=TableAnswer, responses=problems(*SENT))
+async def submit_orders(wanted: OrderTable, backend: ApiBackend = BACKEND) -> Any:
+    """New orders as a table in CSV: all of them, or none. `faults` says what is wrong where."""
+    fields = wanted.table, wanted.check_only
+    answer = await backend.call(
+        backend.operations.request, "submit_orders", srv.SubmitOrders, *fields
+    )
+    faults = zip(answer.fault_line, answer.fault_column, answer.fault_text)
+    return {
+        "accepted": answer.accepted,
+        "orders": len(answer.references),
+        "lines": answer.lines,
+        "pieces": answer.pieces,
+        "order_ids": list(answer.order_ids),
+        "faults": [{"line": line, "column": c, "text": text} for line, c, text in faults],
+    }
+
+
+@router.get("/skus", response_model=Skus, responses=problems())
+async def get_skus(
+    search: str = Query("", max_length=80, description="a part of the name"),
+    limit: int = LIMIT,
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """SKUs by name, with their pieces in stock: those that begin with the text first."""
+    fields = "find_skus", srv.FindSkus, search, limit
+    found = await backend.call(backend.operations.request, *fields)
+    pairs = zip(found.sku, found.available)
+    return {"total": found.total, "skus": [{"sku": s, "available": n} for s, n in pairs]}
 
 
 @router.get("/orders/{number}", response_model=Order, responses=problems(404))

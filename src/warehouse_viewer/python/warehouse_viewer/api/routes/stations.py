@@ -7,7 +7,6 @@ from fastapi import APIRouter, Path
 
 from warehouse_msgs import srv
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
-from warehouse_viewer.api.operations_json import stations
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.operations import (
@@ -30,7 +29,7 @@ AT_PICK = "/stations/{name}/picks/{sequence}"
 @router.get("/stations", response_model=Stations, responses=problems())
 async def get_stations(backend: ApiBackend = BACKEND) -> Any:
     """The stations: what unit is there, what is to be done with it, what is on its way."""
-    return {"stations": stations(await backend.call(backend.operations.latest, "stations"))}
+    return {"stations": backend.stations(await backend.call(backend.operations.latest, "stations"))}
 
 
 @router.put("/stations/{name}", response_model=Done, responses=problems(*SENT))
@@ -74,16 +73,17 @@ async def report_pick(
     """What became of a pick that the station tells of: of that one, or of none. Sent again it
     changes nothing."""
     which = done.order_id, done.item, sequence
-    fields = name, *which, done.quantity, OUTCOMES.index(done.outcome)
+    fields = name, *which, done.quantity, OUTCOMES.index(done.outcome), done.id
     answer = await backend.call(backend.operations.call, "report_pick", srv.ReportPick, *fields)
     return {"message": answer.message, "quantity": answer.quantity}
 
 
 @router.delete(AT_PICK, response_model=Done, responses=problems(409))
-async def undo_write_off(
+async def undo_report(
     name: str = NAME, sequence: int = SEQUENCE, backend: ApiBackend = BACKEND
 ) -> Any:
-    """Takes back what was written off a moment ago as SHORT or DAMAGED: it lies in its bin."""
+    """Takes a report back: pieces that were picked or put in, while the storage unit is still at
+    the station; pieces that were written off a moment ago. They lie where they lay before."""
     answer = await backend.call(
         backend.operations.call, "undo_write_off", srv.UndoWriteOff, name, sequence
     )

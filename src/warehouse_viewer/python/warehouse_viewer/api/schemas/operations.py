@@ -6,12 +6,20 @@ from typing import TYPE_CHECKING, Literal, get_args
 from pydantic import BaseModel, Field, StrictBool
 
 from warehouse_viewer.api.schemas.base import INT32, UInt8
-from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, items, number, text
+from warehouse_viewer.api.schemas.pydantic_versions import (
+    Body,
+    characters,
+    integer,
+    items,
+    number,
+    text,
+)
 
 State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
 Mode = Literal["AUTOMATIC", "MANUAL"]
 PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
 # By the numbers of the messages.
+Activity = Literal["RESTING", "MOVING", "WORKING", "WAITING", "NEEDS_HELP"]
 STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
 
 
@@ -21,11 +29,13 @@ if TYPE_CHECKING:
     Pieces = int
     PiecesOrNone = int
     OrderNumber = int
+    ReportId = str
     Moment = float
 else:
     Sku, Reference = text(r"^[ -~]+$", 80, least=1), text(r"^[ -~]*$", 200)
     Pieces, PiecesOrNone = integer(1, INT32), integer(0, INT32)
     OrderNumber = integer(0, 2**53)  # 0: none
+    ReportId = text(r"^[!-~]*$", 80)
     Moment = number(0, 4e9)  # a simulated time [s]
 
 
@@ -50,6 +60,47 @@ class Accepted(BaseModel):
 
     order_id: int
     message: str
+
+
+class OrderTable(Body):
+    """Orders as a table in CSV: columns reference, sku, quantity, and, if you like, due [s] and
+    priority; rows of one reference are one order."""
+
+    table: str = Field(**characters(1, 4_000_000))
+    check_only: StrictBool = Field(False, description="accepts nothing, says what would be")
+
+
+class TableFault(BaseModel):
+    """What is wrong in a line of a table."""
+
+    line: int = Field(description="counted from 1; 0: the table as a whole")
+    column: str = Field(description="empty: the line as a whole")
+    text: str
+
+
+class TableAnswer(BaseModel):
+    """What became of a table of orders: all are accepted, or none."""
+
+    accepted: bool
+    orders: int
+    lines: int
+    pieces: int
+    order_ids: list[int] = Field(description="empty where it was only checked, or has faults")
+    faults: list[TableFault] = Field(description="the first ones")
+
+
+class StockedSku(BaseModel):
+    """A SKU, and its pieces in stock that are not promised to an order."""
+
+    sku: str
+    available: int
+
+
+class Skus(BaseModel):
+    """SKUs, and how many there are in all."""
+
+    total: int
+    skus: list[StockedSku]
 
 
 class OrderLine(BaseModel):
@@ -109,6 +160,27 @@ class Pick(BaseModel):
     order_id: int
     reference: str
     sequence: int = Field(description="number of the task; a partly done task gets a new number")
+    tote: int = Field(description="place of the order's tote at the station, from 1; 0: none")
+
+
+class Tote(BaseModel):
+    """An order's tote at a picking station, and what still goes into it."""
+
+    position: int = Field(description="from 1; the order's own until it leaves the station")
+    order_id: int
+    reference: str
+    lines_left: int
+    pieces_left: int
+    pieces: int = Field(description="pieces of the whole order")
+
+
+class Queued(BaseModel):
+    """A storage unit on its way to a station."""
+
+    unit: int
+    robot: int = Field(description="that carries it; 0: none does yet")
+    stands: float = Field(description="for so long the robot has stood [s]")
+    is_long: bool = Field(description="whether that is too long")
 
 
 class Station(BaseModel):
@@ -128,6 +200,13 @@ class Station(BaseModel):
     waiting: float = Field(
         description="time that the station has waited for a person [s]; 0: it does not wait"
     )
+    activity: Activity = Field(description="at a glance; WAITING: too long without a unit")
+    since: float = Field(
+        description="since when the unit is there, or the station does what it does [s], simulated"
+    )
+    pieces_per_hour: float = Field(description="of the last quarter of an hour")
+    queue: list[Queued] = Field(description="of `inbound`")
+    totes: list[Tote] = Field(description="by position; of a station in mode MANUAL alone")
 
 
 class Stations(BaseModel):
@@ -155,12 +234,14 @@ class Short(Line):
 
 class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
-    bin is empty; DAMAGED: so many are."""
+    bin is empty; DAMAGED: so many are. A report that comes again under its id gets the first
+    answer."""
 
     order_id: OrderNumber = 0
     item: Sku
     quantity: PiecesOrNone
     outcome: PickOutcome = "DONE"
+    id: ReportId = Field("", description="the sender's name of this report; another one for each")
 
 
 class Reported(BaseModel):

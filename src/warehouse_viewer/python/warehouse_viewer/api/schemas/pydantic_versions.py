@@ -29,6 +29,11 @@ def items(least: int, most: int) -> dict[str, int]:
     return {f"min_{what}": least, f"max_{what}": most}
 
 
+def characters(least: int, most: int) -> dict[str, int]:
+    """Returns the options of the Field of a text of `least` to `most` characters."""
+    return {"min_length": least, "max_length": most}
+
+
 def schema_extra(more: dict[str, Any]) -> dict[str, Any]:
     """Returns the options of a model whose JSON schema has `more` in it."""
     return {"schema_extra" if IS_1 else "json_schema_extra": more}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/shadows.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "core/models/load.h"
+#include "core/models/models.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+[[noreturn]] void fail(const std::string& text) { throw std::invalid_argument(text); }
+
+int findRobot(const ModelView& world, int kiva_id) {
+  const int robot = world.fleet.find(kiva_id);
+  if (robot < 0) fail("there is no robot kiva" + std::to_string(kiva_id));
+  return robot;
+}
+
+/// Returns the index of the unit that the report names, -1 if it names none.
+int findLoad(const ModelView& world, int robot, int shelf_id) {
+  if (shelf_id == 0) return -1;
+  const std::string name = "storage_unit" + std::to_string(shelf_id);
+  const auto at = world.storage.unit_of_id.find(shelf_id);
+  if (at == world.storage.unit_of_id.end()) fail("there is no " + name);
+  const int carrier = world.storage.units[at->second].carrier;
+  if (carrier >= 0 && carrier != robot) {
+    fail(name + " is carried by " + world.fleet.robots[carrier].name);
+  }
+  return at->second;
+}
+
+void checkFinite(const RobotReport& report) {
+  if (std::isfinite(report.x) && std::isfinite(report.y) && std::isfinite(report.yaw)) return;
+  fail("the pose of a shadow must be finite");
+}
+
+/// The unit is put onto the robot, wherever it stood: the robot that is elsewhere has it.
+void load(ModelView& world, int robot, int unit) {
+  Model& model = *world.models[world.storage.units[unit].model];
+  const PlanarPose at = {world.fleet.x[robot], world.fleet.y[robot], world.fleet.yaw[robot]};
+  const double yaw = unitPose(world, unit).Rot().Yaw();
+  placeModel(world, model, {Pose(at.x, at.y, world.floor.extent.z, 0, 0, yaw), {}});
+  takeUp(world, robot, unit);
+  world.fleet.tower[robot] = world.fleet.robots[robot].lift.height;
+}
+
+void exchangeLoad(ModelView& world, int robot, int unit) {
+  if (world.fleet.unit[robot] == unit) return;
+  if (world.fleet.unit[robot] >= 0) {
+    putDown(world, robot);
+    world.fleet.tower[robot] = 0;
+  }
+  if (unit >= 0) load(world, robot, unit);
+}
+
+void tell(ModelView& world, int robot, const ShadowReport& told) {
+  FleetState& f = world.fleet;
+  setStatus(world, robot, told.report.status, told.report.state);
+  f.path_id[robot] = told.report.path_id;
+  f.reached[robot] = told.report.reached;
+  f.left[robot] = told.report.left;
+  f.last_end[robot] = told.report.last_end;
+  f.failures[robot] = told.failures;
+  f.charge[robot] = told.charge;
+}
+
+/// Puts the robot there, its wheels at rest.
+void place(ModelView& world, int robot, const RobotReport& report) {
+  const Pose at(report.x, report.y, world.floor.extent.z, 0, 0, report.yaw);
+  placeModel(world, world.models.of(world.fleet.robots[robot]), {at, {}});
+  for (auto& speeds : world.fleet.wheel_speed) speeds[robot] = 0;
+}
+
+bool isThere(const Fleet& f, int robot, const RobotReport& report) {
+  return f.x[robot] == report.x && f.y[robot] == report.y && f.yaw[robot] == report.yaw;
+}
+
+}  // namespace
+
+void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& told) {
+  checkFinite(told.report);
+  const int robot = findRobot(world, kiva_id);
+  const int unit = findLoad(world, robot, told.report.shelf_id);
+  if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, told.report)) {
+    place(world, robot, told.report);
+  }
+  shadows.kiva_ids.insert(kiva_id);
+  exchangeLoad(world, robot, unit);
+  tell(world, robot, told);
+}
+
+void endShadow(Shadows& shadows, int kiva_id) { shadows.kiva_ids.erase(kiva_id); }
+
+}  // namespace kiva

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadows of robots that are elsewhere: they stand where those are, and do what those do.
+#pragma once
+
+#include "core/state/model_view.h"
+#include "core/state/shadows.h"
+
+namespace kiva {
+
+/// Implements World::shadow.
+void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& report);
+/// Forgets that the robot of that id was a shadow.
+void endShadow(Shadows& shadows, int kiva_id);
+
+}  // namespace kiva

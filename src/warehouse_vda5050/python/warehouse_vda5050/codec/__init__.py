@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turns messages into the JSON of one version of VDA 5050 and back.
+
+codec = codec_for("2.1.0")
+payload = codec.encode(State(...))
+order, unknown = codec.decode(Kind.ORDER, payload)
+"""
+
+from warehouse_vda5050.codec.base import Codec, Decoded
+from warehouse_vda5050.codec.v2 import CodecV2
+from warehouse_vda5050.codec.v3 import CodecV3
+
+VERSIONS = ("2.0.0", "2.1.0", "3.0.0")
+DEFAULT_VERSION = "2.1.0"
+
+
+class VersionError(ValueError):
+    """A version that is not spoken here; the message says which are."""
+
+
+def codec_for(version: str = DEFAULT_VERSION) -> Codec:
+    """Returns the codec of a version. Raises VersionError."""
+    if version not in VERSIONS:
+        raise VersionError(f"version is {version!r}; one of {', '.join(VERSIONS)} was expected")
+    return CodecV3(version) if version.startswith("3") else CodecV2(version)
+
+
+__all__ = ["DEFAULT_VERSION", "VERSIONS", "Codec", "Decoded", "VersionError", "codec_for"]

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Factsheets in the JSON of 2.1.0."""
+
+from typing import Any
+
+from warehouse_vda5050.codec.base import header_json
+from warehouse_vda5050.model import Factsheet, Header, SupportedAction
+from warehouse_vda5050.validation.fields import Fields
+
+
+def factsheet_json(sheet: Factsheet) -> dict[str, Any]:
+    """Returns the object of a factsheet."""
+    return {
+        **header_json(sheet.header),
+        "typeSpecification": {
+            "seriesName": sheet.series,
+            "seriesDescription": sheet.description,
+            "agvKinematic": sheet.kinematics,
+            "agvClass": sheet.vehicle_class,
+            "maxLoadMass": sheet.max_load_mass,
+            "localizationTypes": list(sheet.localization),
+            "navigationTypes": list(sheet.navigation),
+        },
+        "physicalParameters": {
+            "speedMin": 0.0,
+            "speedMax": sheet.max_speed,
+            "accelerationMax": sheet.max_acceleration,
+            "decelerationMax": sheet.max_deceleration,
+            "heightMin": sheet.height,
+            "heightMax": sheet.height,
+            "width": sheet.width,
+            "length": sheet.length,
+        },
+        "protocolLimits": _limits_json(sheet),
+        "protocolFeatures": {
+            "optionalParameters": [
+                {"parameter": name, "support": support, "description": text}
+                for name, support, text in sheet.parameters
+            ],
+            "agvActions": [_action_json(action) for action in sheet.actions],
+        },
+        "agvGeometry": {"envelopes2d": [_outline_json(sheet)]},
+        "loadSpecification": _loads_json(sheet),
+        "vehicleConfig": {
+            "versions": [{"key": key, "value": value} for key, value in sheet.versions]
+        },
+    }
+
+
+def _limits_json(sheet: Factsheet) -> dict[str, Any]:
+    return {
+        "maxStringLens": {"msgLen": sheet.max_message},
+        "maxArrayLens": {
+            "order.nodes": sheet.max_nodes,
+            "order.edges": sheet.max_nodes,
+            "node.actions": sheet.max_actions,
+            "edge.actions": 0,
+            "instantActions": sheet.max_actions,
+            "trajectory.knotVector": 0,
+            "trajectory.controlPoints": 0,
+            "state.nodeStates": sheet.max_nodes,
+            "state.edgeStates": sheet.max_nodes,
+            "state.loads": 1,
+            "state.errors": sheet.max_errors,
+        },
+        "timing": {
+            "minOrderInterval": 0.0,
+            "minStateInterval": 0.0,
+            "defaultStateInterval": sheet.state_interval,
+        },
+    }
+
+
+def _action_json(action: SupportedAction) -> dict[str, Any]:
+    return {
+        "actionType": action.type,
+        "actionDescription": action.description,
+        "actionScopes": list(action.scopes),
+        "actionParameters": [
+            {"key": key, "valueDataType": kind, "isOptional": optional, "description": text}
+            for key, kind, optional, text in action.parameters
+        ],
+        # No blockingTypes: there is no value that fits the published schema of 2.1.0.
+    }
+
+
+def _outline_json(sheet: Factsheet) -> dict[str, Any]:
+    x, y = sheet.length / 2, sheet.width / 2
+    corners = [(x, y), (-x, y), (-x, -y), (x, -y)]
+    return {"set": "chassis", "polygonPoints": [{"x": x, "y": y} for x, y in corners]}
+
+
+def _loads_json(sheet: Factsheet) -> dict[str, Any]:
+    length, width = sheet.load_size
+    unit = {
+        "setName": "unit",
+        "loadType": "unit",
+        "loadDimensions": {"length": length, "width": width},
+        "maxWeight": sheet.max_load_mass,
+        "pickTime": sheet.lift_time,
+        "dropTime": sheet.lift_time,
+    }
+    return {"loadPositions": ["lift"], "loadSets": [unit]}
+
+
+def read_factsheet(fields: Fields, header: Header) -> Factsheet:
+    """Returns a factsheet, as far as masters here make use of it. Raises MessageError."""
+    kind = fields.object("typeSpecification") or Fields({})
+    body = fields.object("physicalParameters") or Fields({})
+    features = fields.object("protocolFeatures") or Fields({})
+    default = Factsheet()
+    return Factsheet(
+        kind.text("seriesName", ""),
+        kind.text("seriesDescription", ""),
+        kind.text("agvKinematic", ""),
+        kind.text("agvClass", ""),
+        kind.number("maxLoadMass", 0.0),
+        body.number("length", default.length),
+        body.number("width", default.width),
+        body.number("heightMax", default.height),
+        body.number("speedMax", default.max_speed),
+        body.number("accelerationMax", default.max_acceleration),
+        body.number("decelerationMax", default.max_deceleration),
+        actions=tuple(_read_action(action) for action in features.objects("agvActions", ())),
+        header=header,
+    )
+
+
+def _read_action(fields: Fields) -> SupportedAction:
+    scopes = fields.any("actionScopes", [])
+    told = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
+    return SupportedAction(fields.text("actionType"), told, fields.text("actionDescription", ""))

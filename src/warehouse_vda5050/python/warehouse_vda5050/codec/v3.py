@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""VDA 5050 3.0.0, as a renaming of 2.1.0: what it adds beyond new names is not made use of.
+
+Names are those of the schemas published with the specification. Zones, corridors that are asked
+for, shared paths and RETRIABLE actions are refused or ignored as their counterparts in 2.1.0 are.
+"""
+
+from typing import Any
+
+from warehouse_vda5050.codec.v2 import CodecV2
+from warehouse_vda5050.model import ActionState, Message, State
+from warehouse_vda5050.topics import Kind
+
+# Of 2.1.0 and of 3.0.0, in whatever object of a message of that kind.
+DESCRIPTIONS = {
+    "nodeDescription": "nodeDescriptor",
+    "edgeDescription": "edgeDescriptor",
+    "actionDescription": "actionDescriptor",
+}
+NAMES: dict[Kind, dict[str, str]] = {
+    Kind.ORDER: {
+        **DESCRIPTIONS,
+        "maxSpeed": "maximumSpeed",
+        "maxHeight": "maximumMobileRobotHeight",
+        "minHeight": "minimumLoadHandlingDeviceHeight",
+    },
+    Kind.INSTANT_ACTIONS: DESCRIPTIONS,
+    Kind.STATE: {
+        **DESCRIPTIONS,
+        "agvPosition": "mobileRobotPosition",
+        "positionInitialized": "localized",
+        "batteryState": "powerSupply",
+        "batteryCharge": "stateOfCharge",
+        "reach": "range",
+        "resultDescription": "actionResult",
+        "eStop": "activeEmergencyStop",
+    },
+    Kind.VISUALIZATION: {
+        "agvPosition": "mobileRobotPosition",
+        "positionInitialized": "localized",
+    },
+    Kind.CONNECTION: {},
+    Kind.FACTSHEET: {
+        "agvKinematic": "mobileRobotKinematics",
+        "agvClass": "mobileRobotClass",
+        "maxLoadMass": "maximumLoadMass",
+        "speedMin": "minimumSpeed",
+        "speedMax": "maximumSpeed",
+        "accelerationMax": "maximumAcceleration",
+        "decelerationMax": "maximumDeceleration",
+        "heightMin": "minimumHeight",
+        "heightMax": "maximumHeight",
+        "maxStringLens": "maximumStringLengths",
+        "msgLen": "maximumMessageLength",
+        "maxArrayLens": "maximumArrayLengths",
+        "minOrderInterval": "minimumOrderInterval",
+        "minStateInterval": "minimumStateInterval",
+        "agvActions": "mobileRobotActions",
+        "agvGeometry": "mobileRobotGeometry",
+        "set": "envelope2dId",
+        "polygonPoints": "vertices",
+        "maxWeight": "maximumWeight",
+        "vehicleConfig": "mobileRobotConfiguration",
+    },
+}
+# Values of enumerations, by the name of their field in 2.1.0.
+VALUES: dict[str, dict[str, str]] = {
+    "connectionState": {"CONNECTIONBROKEN": "CONNECTION_BROKEN"},
+    "operatingMode": {"TEACHIN": "TEACH_IN"},
+    "agvKinematic": {"DIFF": "DIFFERENTIAL", "OMNI": "OMNIDIRECTIONAL"},
+}
+# What 3.0.0 knows and 2.1.0 has no word for, as the nearest that it has.
+NEAREST: dict[str, dict[str, str]] = {
+    "connectionState": {"HIBERNATING": "ONLINE"},
+    "operatingMode": {"STARTUP": "SERVICE", "INTERVENED": "MANUAL"},
+    "errorLevel": {"URGENT": "WARNING", "CRITICAL": "FATAL"},
+    "actionStatus": {"RETRIABLE": "FAILED"},
+}
+KINDS = {"State": Kind.STATE, "Order": Kind.ORDER, "InstantActions": Kind.INSTANT_ACTIONS}
+KINDS |= {"Connection": Kind.CONNECTION, "Visualization": Kind.VISUALIZATION}
+KINDS |= {"Factsheet": Kind.FACTSHEET}
+
+
+class CodecV3(CodecV2):
+    """3.0.0."""
+
+    def to_json(self, message: Message) -> dict[str, Any]:
+        """Returns the object that stands for a message."""
+        kind = KINDS[type(message).__name__]
+        value = _renamed(super().to_json(message), NAMES[kind], VALUES)
+        if isinstance(message, State):
+            _part_actions(value, message.actions)
+        for edge in value.get("edges", ()):
+            edge.pop("startNodeId", None), edge.pop("endNodeId", None)
+        for action in value.get("protocolFeatures", {}).get("mobileRobotActions", ()):
+            action["pauseAllowed"] = action["cancelAllowed"] = "true"
+        return value
+
+    def of_json(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
+        """Returns an object of 3.0.0 as 2.1.0 would have it."""
+        names = {new: old for old, new in NAMES[kind].items()}
+        values = {key: {new: old for old, new in pairs.items()} for key, pairs in VALUES.items()}
+        for key, pairs in NEAREST.items():
+            values[key] = {**values.get(key, {}), **pairs}
+        value = _renamed(value, names, values)
+        instant = value.pop("instantActionStates", None)
+        if kind is Kind.STATE and isinstance(instant, list):
+            marked = [{**item, "instant": True} for item in instant if isinstance(item, dict)]
+            told = value.get("actionStates")
+            value["actionStates"] = [*(told if isinstance(told, list) else ()), *marked]
+        return value
+
+
+def _renamed(value: Any, names: dict[str, str], values: dict[str, dict[str, str]]) -> Any:
+    """Returns JSON with other names of fields, and other words in those named in `values`."""
+    if isinstance(value, list):
+        return [_renamed(item, names, values) for item in value]
+    if not isinstance(value, dict):
+        return value
+    return {names.get(key, key): _word(key, item, names, values) for key, item in value.items()}
+
+
+def _word(key: str, item: Any, names: dict[str, str], values: dict[str, dict[str, str]]) -> Any:
+    words = values.get(key) or values.get(names.get(key, ""))
+    if words and isinstance(item, str):
+        return words.get(item, item)
+    return item if key == "actionParameters" else _renamed(item, names, values)
+
+
+def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:
+    """Parts the states of instant actions from those of the order, and tells what is paused."""
+    told = value.pop("actionStates")
+    for item, action in zip(told, actions):
+        item["actionStatus"] = action.status.value
+    value["actionStates"] = [a for a, b in zip(told, actions) if not b.instant]
+    value["instantActionStates"] = [a for a, b in zip(told, actions) if b.instant]

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All vehicles behind the broker: commands by robot's number in, messages by vehicle out."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.master.commands import Cancel, Command, Stop
+from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
+from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.shadow import Shadow, shadow_of
+from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.topics import Identity
+
+ALL = 0  # the number that stands for every robot in a Stop
+
+
+class RemoteFleet:
+    """The vehicles of a file of robots. One thread at a time."""
+
+    def __init__(self, robots: Iterable[RemoteRobot], grid: Grid, run: str) -> None:
+        self._vehicles = {robot.number: RemoteVehicle(robot, grid, run) for robot in robots}
+        self._by_identity = {v.robot.identity: v for v in self._vehicles.values()}
+
+    @property
+    def vehicles(self) -> Sequence[RemoteVehicle]:
+        """The vehicles, by number."""
+        return list(self._vehicles.values())
+
+    def has(self, kiva_id: int) -> bool:
+        """Returns whether a robot is one of these."""
+        return kiva_id in self._vehicles
+
+    def command(self, kiva_id: int, command: Command) -> None:
+        """Gives a command to its vehicle; those to other robots are others' business."""
+        if kiva_id == ALL and isinstance(command, (Stop, Cancel)):
+            for vehicle in self._vehicles.values():
+                vehicle.command(command)
+        elif kiva_id in self._vehicles:
+            self._vehicles[kiva_id].command(command)
+
+    def take(self, identity: Identity, message: State | Connection, now: float) -> None:
+        """Takes in what a vehicle tells; that of vehicles that are in no file is dropped."""
+        vehicle = self._by_identity.get(identity)
+        if vehicle is None:
+            return
+        if isinstance(message, State):
+            vehicle.take_state(message, now)
+        else:
+            vehicle.take_connection(message.state, now)
+
+    def messages(self, now: float) -> Iterator[tuple[Identity, Order | InstantActions]]:
+        """Yields what is to be sent now, and to which vehicle."""
+        for vehicle in self._vehicles.values():
+            for message in vehicle.messages(now):
+                yield vehicle.robot.identity, message
+
+    def shadows(self, now: float) -> list[Shadow]:
+        """Returns what the warehouse is told now, of the vehicles that have told where they are."""
+        told = (shadow_of(vehicle, now) for vehicle in self._vehicles.values())
+        return [shadow for shadow in told if shadow is not None]
+
+    def take_events(self) -> list[Happened]:
+        """Returns what has happened since the last call."""
+        return [event for v in self._vehicles.values() for event in v.take_events()]

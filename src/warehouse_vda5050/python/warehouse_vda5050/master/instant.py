@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instant actions that are sent until the vehicle tells what became of them."""
+
+from dataclasses import dataclass
+
+from warehouse_vda5050.model import Action, ActionStatus, BlockingType, InstantActions, State
+
+RESEND = 2.0  # [s] without an answer
+MOST_TIMES = 10
+
+
+@dataclass
+class _Pending:
+    action: Action
+    times: int = 0
+    due: float = 0.0
+
+
+class InstantRequests:
+    """The instant actions of one vehicle that are not over yet. Times are [s] of any clock."""
+
+    def __init__(self, run: str) -> None:
+        self._run, self._count = run, 0
+        self._pending: dict[str, _Pending] = {}
+
+    def ask(self, kind: str) -> str:
+        """Adds an action, and returns its id."""
+        self._count += 1
+        action = Action(kind, f"{self._run}-i{self._count}", BlockingType.NONE)
+        self._pending[action.id] = _Pending(action)
+        return action.id
+
+    def due(self, now: float) -> InstantActions | None:
+        """Returns what is to be sent now."""
+        due = [one for one in self._pending.values() if one.due <= now]
+        for one in due:
+            one.times, one.due = one.times + 1, now + RESEND
+            if one.times >= MOST_TIMES:
+                del self._pending[one.action.id]
+        return InstantActions(tuple(one.action for one in due)) if due else None
+
+    def is_pending(self, name: str) -> bool:
+        """Returns whether the vehicle has not answered an action yet, and it is still sent."""
+        return name in self._pending
+
+    def take(self, state: State) -> dict[str, ActionStatus]:
+        """Takes in a state; returns the ids of the actions that it answers, and how far they are."""
+        told = {one.id: one.status for one in state.actions if one.id in self._pending}
+        for name in told:
+            del self._pending[name]
+        return told

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A path as orders: point i is node 2i, the way from it to the next one is edge 2i + 1."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from warehouse_vda5050.driver import Point
+from warehouse_vda5050.master.commands import Follow, RefusedError
+from warehouse_vda5050.model import Action, Edge, Node, Order, Position
+
+PlaceNode = Callable[[Point], tuple[str, Position]]  # a point's node id, and where its vehicle has it
+
+
+@dataclass
+class Journey:
+    """A path under way, and what of it the vehicle has.
+
+    A base is never taken back: what is released stays so. An order is resent as it was until the
+    vehicle has it; changes wait meanwhile, and go together into the next update.
+    """
+
+    path_id: int
+    order_id: str
+    points: list[Point]
+    released: int
+    had: int = 0  # how many points the vehicle has as released
+    update: int = -1  # the last orderUpdateId sent
+    is_changed: bool = True  # since then
+    sent: Order | None = field(default=None, repr=False)
+    actions: tuple[Action, ...] = ()  # at the last point
+
+    def change(self, command: Follow) -> None:
+        """Takes in what is released or planned now. Raises RefusedError, with nothing changed."""
+        if command.released < self.released:
+            raise RefusedError(
+                f"{self.released} points are released; over VDA 5050 none can be taken back"
+            )
+        points = self.points
+        if command.points:
+            if not self.released <= command.first <= len(self.points):
+                raise RefusedError(
+                    f"points from number {command.first} on can't be replaced:"
+                    f" {self.released} of {len(self.points)} are released"
+                )
+            points = [*self.points[: command.first], *command.points]
+        if command.released > len(points):
+            raise RefusedError(f"{command.released} of {len(points)} points can't be released")
+        if (points, command.released) == (self.points, self.released):
+            return
+        self.points, self.released, self.is_changed = points, command.released, True
+
+    @property
+    def awaits_answer(self) -> bool:
+        """Whether the vehicle has not told yet that it has the last order sent."""
+        return self.sent is not None
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether the vehicle has all of the path, and all of it is released."""
+        whole = self.released == len(self.points)
+        return whole and not self.is_changed and not self.awaits_answer
+
+    def confirm(self, order_id: str, update: int) -> None:
+        """Notes the order that a vehicle tells it has."""
+        if self.sent and (order_id, update) == (self.order_id, self.update):
+            self.had = (self.sent.base[-1].sequence // 2) + 1
+            self.sent = None
+
+    def refuse(self) -> None:
+        """Goes back to what the vehicle has: it refused the last order."""
+        self.sent, self.is_changed = None, False
+        self.released = self.had
+        self.update -= 1
+
+    def next_order(self, place: PlaceNode) -> Order | None:
+        """Returns the order that says what has changed; None as long as there is nothing to say, or
+        the vehicle is yet to tell that it has the last one."""
+        if self.awaits_answer or not self.is_changed:
+            return None
+        self.update += 1
+        first = max(0, self.had - 1)
+        nodes = tuple(self._node(i, place) for i in range(first, len(self.points)))
+        edges = tuple(self._edge(i, place) for i in range(first, len(self.points) - 1))
+        self.sent = Order(self.order_id, self.update, nodes, edges)
+        self.is_changed = False
+        return self.sent
+
+    def _node(self, i: int, place: PlaceNode) -> Node:
+        name, position = place(self.points[i])
+        actions = self.actions if i == len(self.points) - 1 else ()
+        return Node(name, 2 * i, i < self.released, position, actions)
+
+    def _edge(self, i: int, place: PlaceNode) -> Edge:
+        start, end = (place(point)[0] for point in self.points[i : i + 2])
+        return Edge(f"{start}-{end}", 2 * i + 1, i + 1 < self.released, start, end)
+
+
+def begin(command: Follow, order_id: str, actions: Sequence[Action] = ()) -> Journey:
+    """Returns the journey of a new path. Raises RefusedError."""
+    if command.first != 0 or not command.points:
+        raise RefusedError("a new path begins with point 0, where the robot stands")
+    if not 1 <= command.released <= len(command.points):
+        raise RefusedError(
+            f"{command.released} of {len(command.points)} points can't be released"
+        )
+    points, released = list(command.points), command.released
+    return Journey(command.path_id, order_id, points, released, actions=tuple(actions))

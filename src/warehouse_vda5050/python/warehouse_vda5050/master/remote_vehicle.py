@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A vehicle behind a broker that takes the commands of this project: one state machine.
+
+Commands and states go in; orders and instant actions, reports and events come out. Times are wall
+clock [s] of any zero.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from warehouse_vda5050.driver import Point
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.master import journey
+from warehouse_vda5050.master.commands import Cancel, Command, Follow, Lift, RefusedError, Stop
+from warehouse_vda5050.master.instant import MOST_TIMES, RESEND, InstantRequests
+from warehouse_vda5050.master.journey import Journey
+from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.vehicle_view import VehicleView
+from warehouse_vda5050.model import (
+    Action,
+    ActionStatus,
+    ConnectionState,
+    InstantActions,
+    Order,
+    Position,
+    State,
+)
+
+ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
+NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
+
+
+class EventKind(str, Enum):
+    """What became of a command, as in warehouse_msgs/Event."""
+
+    ACCEPTED = "ACCEPTED"
+    REFUSED = "REFUSED"
+    DONE = "DONE"
+    BLOCKED = "BLOCKED"
+    LIFTED = "LIFTED"
+    DROPPED = "DROPPED"
+
+
+@dataclass(frozen=True)
+class Happened:
+    """An event of one robot; unit is the storage unit's number, 0 if none takes part."""
+
+    kiva_id: int
+    kind: EventKind
+    text: str
+    unit: int = 0
+
+
+class RemoteVehicle:
+    """Drives one vehicle. `run` tells the orders of this run from those of others."""
+
+    def __init__(self, robot: RemoteRobot, grid: Grid, run: str) -> None:
+        self.robot, self._grid, self._run = robot, grid, run
+        self.view = VehicleView(robot.frame)
+        self._instants = InstantRequests(f"{run}-{robot.number}")
+        self._count = 0  # of orders
+        self._journey: Journey | None = None
+        self._lift: Lift | None = None  # that the journey is made for
+        self._cancelling, self._cancel_id = False, ""
+        self._sent_at, self._times = 0.0, 0
+        self._events: list[Happened] = []
+        self.load = 0  # the number of the unit that it carries
+        self.path_id = self.reached = 0
+        self.last_end: EventKind | None = None
+
+    # --- in
+
+    def command(self, command: Command) -> None:
+        """Takes a command; the answer is an event."""
+        try:
+            self._obey(command)
+        except RefusedError as refusal:
+            self._happened(EventKind.REFUSED, str(refusal))
+
+    def take_state(self, state: State, now: float) -> None:
+        """Takes in what the vehicle tells; what is older than what it told before is dropped."""
+        if not self.view.take_state(state, now):
+            return
+        self._instants.take(state)
+        self._take_load(state)
+        if self._cancelling and not self._journey and self._is_cancelled(state):
+            self._cancelling = False
+        self._end_foreign(state)
+        if self._journey:
+            self._advance(self._journey, state)
+
+    def take_connection(self, state: ConnectionState, now: float) -> None:
+        """Takes in whether the vehicle is there."""
+        self.view.take_connection(state, now)
+
+    # --- out
+
+    def messages(self, now: float) -> list[Order | InstantActions]:
+        """Returns what is to be sent now."""
+        if not self.view.hears:
+            return []
+        order, instants = self._due_order(now), self._instants.due(now)
+        return [message for message in (instants, order) if message is not None]
+
+    def take_events(self) -> list[Happened]:
+        """Returns what has happened since the last call."""
+        events, self._events = self._events, []
+        return events
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether it takes a new command."""
+        return self._journey is None and not self._cancelling
+
+    @property
+    def lifts(self) -> bool:
+        """Whether its command is to take up or put down a unit."""
+        return self._lift is not None
+
+    @property
+    def waits(self) -> bool:
+        """Whether it stands at the end of what is released, on a path that goes on."""
+        way = self._journey
+        return way is not None and self.reached >= way.released and not self.view.driving
+
+    # --- commands
+
+    def _obey(self, command: Command) -> None:
+        if isinstance(command, Cancel):
+            self._cancel()
+        elif isinstance(command, Stop):
+            self._instants.ask("startPause" if command.stop else "stopPause")
+        elif isinstance(command, Follow):
+            self._follow(command)
+        elif isinstance(command, Lift):
+            self._begin_lift(command)
+        else:
+            raise RefusedError(
+                f"a vehicle behind a broker takes paths, lifts, cancel and stop; no {command.what}"
+            )
+
+    def _follow(self, command: Follow) -> None:
+        way = self._journey
+        if way and not self._lift and command.path_id == way.path_id:
+            if self._cancelling:
+                raise RefusedError("its path is being cancelled")
+            return way.change(command)
+        self._check_ready()
+        if command.path_id == 0:
+            raise RefusedError("path_id must not be 0")
+        way = journey.begin(command, self._next_id())
+        self._check_start(way.points[0])
+        self._begin(way, None, f"follow path {way.path_id}")
+        self.path_id, self.reached = way.path_id, 1
+        return None
+
+    def _begin_lift(self, command: Lift) -> None:
+        self._check_ready()
+        if command.up and self.load:
+            raise RefusedError(f"it carries storage_unit{self.load}")
+        if not command.up and not self.load:
+            raise RefusedError("it carries nothing")
+        unit = command.shelf_id or self.load
+        x, y, _ = self.view.pose
+        here = self._grid.position(self._grid.cell_at(x, y))
+        action = self._action("pick" if command.up else "drop", unit)
+        way = Journey(0, self._next_id(), [here], 1, actions=(action,))
+        self._begin(way, Lift(command.up, unit), f"{'carry' if command.up else 'drop'} {unit}")
+        self.path_id = self.reached = 0
+
+    def _action(self, kind: str, unit: int) -> Action:
+        told = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
+        parameters = tuple({**told, **self.robot.action_parameters}.items())
+        return Action(kind, f"{self._run}-{self.robot.number}-a{self._count}", parameters=parameters)
+
+    def _begin(self, way: Journey, lift: Lift | None, text: str) -> None:
+        self._journey, self._lift, self._times = way, lift, 0
+        self.last_end = None
+        self._happened(EventKind.ACCEPTED, text, lift.shelf_id if lift else 0)
+
+    def _check_ready(self) -> None:
+        if why := self.view.why_not:
+            raise RefusedError(why)
+        if not self.is_idle:
+            raise RefusedError("it is not idle")
+
+    def _check_start(self, start: Point) -> None:
+        x, y, _ = self.view.pose
+        if max(abs(start[0] - x), abs(start[1] - y)) > NEAR * self._grid.spacing:
+            raise RefusedError(
+                f"its path begins at {start[0]:g}, {start[1]:g} m, and it stands at {x:.2f}, {y:.2f}"
+            )
+
+    def _cancel(self) -> None:
+        if self._journey and not self._cancelling:
+            self._ask_to_cancel()
+
+    def _ask_to_cancel(self) -> None:
+        self._cancelling, self._cancel_id = True, self._instants.ask("cancelOrder")
+
+    def _is_cancelled(self, state: State) -> bool:
+        return not state.nodes and not self._instants.is_pending(self._cancel_id)
+
+    # --- the order under way
+
+    def _next_id(self) -> str:
+        self._count += 1
+        return f"{self._run}-{self.robot.number}-{self._count}"
+
+    def _place(self, point: Point) -> tuple[str, Position]:
+        cell = self._grid.cell_at(*point)
+        x, y = self.robot.frame.to_vehicle(*point)
+        return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
+
+    def _due_order(self, now: float) -> Order | None:
+        """Returns the next order; or the last one again, while the vehicle does not tell it."""
+        way = self._journey
+        if way is None or self._cancelling:
+            return None
+        if way.awaits_answer:
+            return self._again(way, now)
+        order = way.next_order(self._place)
+        if order is not None:
+            self._sent_at, self._times = now, 0
+        return order
+
+    def _again(self, way: Journey, now: float) -> Order | None:
+        """Returns the last order once more, if that is due.
+
+        An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
+        """
+        if now < self._sent_at + RESEND:
+            return None
+        self._sent_at, self._times = now, self._times + 1
+        if self._times % ASKS_AFTER == 0:
+            self._instants.ask("stateRequest")
+        if way.had or self._times < MOST_TIMES:
+            return way.sent
+        self._give_up(way, "the vehicle does not tell that it has the order")
+        self._ask_to_cancel()  # it may have it all the same
+        return None
+
+    def _give_up(self, way: Journey, why: str) -> None:
+        """Ends what the vehicle never had; keeps what it has of a path."""
+        self._happened(EventKind.REFUSED, why)
+        way.refuse()
+        if not way.had:
+            self._journey = self._lift = None
+
+    def _advance(self, way: Journey, state: State) -> None:
+        self._note_refusal(way, state)
+        if self._journey is None or state.order_id != way.order_id:
+            if self._cancelling and self._is_cancelled(state):
+                self._end(EventKind.DONE, "cancelled")
+            return
+        way.confirm(state.order_id, state.order_update)
+        if not self._lift and state.last_node_sequence <= 2 * (way.had - 1):
+            self.reached = max(self.reached, state.last_node_sequence // 2 + 1)
+        if not state.nodes and not state.driving:
+            self._settle(way, state)
+
+    def _settle(self, way: Journey, state: State) -> None:
+        """Ends the command where nothing of it is left to be done."""
+        if self._cancelling and self._is_cancelled(state):
+            return self._end(EventKind.DONE, "cancelled")
+        mine = {action.id for action in way.actions}
+        told = {one.id: one for one in state.actions if one.id in mine}
+        failed = [one for one in told.values() if one.status == ActionStatus.FAILED]
+        if failed:
+            return self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
+        if not way.is_whole or not all(name in told for name in mine):
+            return None
+        if all(one.status.is_over for one in told.values()):
+            self._finish(way)
+        return None
+
+    def _finish(self, way: Journey) -> None:
+        lift = self._lift
+        if lift:
+            self.load = lift.shelf_id if lift.up else 0
+            self._happened(EventKind.LIFTED if lift.up else EventKind.DROPPED, "", lift.shelf_id)
+        else:
+            self.reached = len(way.points)
+        self._end(EventKind.DONE, f"done: {'lift' if lift else f'follow path {way.path_id}'}")
+
+    def _end(self, kind: EventKind, text: str) -> None:
+        self._journey, self._lift, self._cancelling = None, None, False
+        self.last_end = kind
+        self._happened(kind, text)
+
+    def _note_refusal(self, way: Journey, state: State) -> None:
+        """Takes an error that names the order for its refusal, as long as it is not confirmed."""
+        if not way.awaits_answer:
+            return
+        for error in state.errors:
+            told = dict(error.references)
+            update = told.get("orderUpdateId", str(way.update))
+            if told.get("orderId") == way.order_id and update == str(way.update):
+                return self._give_up(way, f"{error.type}: {error.description}")
+
+    # --- what others did
+
+    def _take_load(self, state: State) -> None:
+        """Believes what the vehicle says of its load, where it says which unit that is."""
+        if self._lift or not self.view.tells_loads:
+            return
+        if not state.loads:
+            self.load = 0
+            return
+        digits = "".join(c for c in state.loads[0].id if c.isdigit())
+        if digits:
+            self.load = int(digits)
+
+    def _end_foreign(self, state: State) -> None:
+        """Has an order cancelled that an earlier run or another master left."""
+        if self._journey or self._cancelling or not state.nodes:
+            return
+        self._ask_to_cancel()
+
+    def _happened(self, kind: EventKind, text: str, unit: int = 0) -> None:
+        self._events.append(Happened(self.robot.number, kind, text, unit))

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the file that says which robots are vehicles behind a broker.
+
+    21: {manufacturer: acme, serial: "0007", origin: [4.0, 2.0, 1.5708]}
+    22: {manufacturer: acme, serial: "0008", action_parameters: {stationType: floor}}
+
+The number is the robot's in the warehouse (kiva21); origin is where the vehicle's own map has its
+zero point in the frame world, x y [m] theta [rad]; action_parameters go with each pick and drop.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from warehouse_vda5050.master.frame import Frame
+from warehouse_vda5050.topics import Identity, TopicError
+
+MOST_NUMBER = 1_000_000  # of a robot, as in the world
+FIELDS = ("manufacturer", "serial", "origin", "action_parameters")
+
+
+class RobotsFileError(ValueError):
+    """A file that can't be read; the message names file, robot and field."""
+
+
+@dataclass(frozen=True)
+class RemoteRobot:
+    """A robot of the warehouse that is a vehicle behind the broker."""
+
+    number: int
+    identity: Identity
+    frame: Frame = Frame()
+    action_parameters: Mapping[str, Any] = field(default_factory=dict)
+
+
+def read(path: Path) -> list[RemoteRobot]:
+    """Returns the robots of a file, by number. Raises RobotsFileError."""
+    try:
+        told = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise RobotsFileError(f"{path}: {error}") from error
+    if not isinstance(told, dict) or not told:
+        raise RobotsFileError(f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}")
+    robots = [_robot(f"{path}: robot {number}", number, one) for number, one in told.items()]
+    _check_distinct(path, robots)
+    return sorted(robots, key=lambda robot: robot.number)
+
+
+def _robot(where: str, number: Any, told: Any) -> RemoteRobot:
+    if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= MOST_NUMBER:
+        raise RobotsFileError(f"{where}: its number must be whole, from 1 to {MOST_NUMBER}")
+    if not isinstance(told, dict):
+        raise RobotsFileError(f"{where}: manufacturer and serial were expected, not {told!r}")
+    for name in told:
+        if name not in FIELDS:
+            raise RobotsFileError(f"{where}: unknown field {name!r}; known are {', '.join(FIELDS)}")
+    try:
+        identity = Identity(_text(where, told, "manufacturer"), _text(where, told, "serial"))
+    except TopicError as error:
+        raise RobotsFileError(f"{where}: {error}") from error
+    parameters = told.get("action_parameters", {})
+    if not isinstance(parameters, dict):
+        raise RobotsFileError(f"{where}: action_parameters must be names with values")
+    return RemoteRobot(number, identity, _frame(where, told.get("origin", [0, 0, 0])), parameters)
+
+
+def _text(where: str, told: Mapping[str, Any], name: str) -> str:
+    value = told.get(name)
+    if not isinstance(value, str):
+        hint = "; put it in quotes" if isinstance(value, int) else ""
+        raise RobotsFileError(f"{where}: {name} must be a text, not {value!r}{hint}")
+    return value
+
+
+def _frame(where: str, origin: Any) -> Frame:
+    numbers = origin if isinstance(origin, list) else []
+    is_number = [isinstance(n, (int, float)) and not isinstance(n, bool) for n in numbers]
+    if len(numbers) != 3 or not all(is_number) or not all(map(math.isfinite, numbers)):
+        raise RobotsFileError(f"{where}: origin must be [x, y, theta] in metres and radians")
+    return Frame(*map(float, numbers))
+
+
+def _check_distinct(path: Path, robots: list[RemoteRobot]) -> None:
+    seen: dict[Identity, int] = {}
+    for robot in robots:
+        other = seen.setdefault(robot.identity, robot.number)
+        if other != robot.number:
+            name = f"{robot.identity.manufacturer}/{robot.identity.serial}"
+            raise RobotsFileError(f"{path}: robots {other} and {robot.number} are both {name}")

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of a vehicle by what it tells."""
+
+from dataclasses import dataclass, field
+
+from warehouse_vda5050.master.frame import Frame, Pose
+from warehouse_vda5050.model import ConnectionState, ErrorLevel, OperatingMode, State
+
+SILENT = 45.0  # [s] without a state: vehicles tell one each 30 s at the latest
+TAKES_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)
+
+
+@dataclass
+class VehicleView:
+    """The newest state of a vehicle, in the warehouse's terms."""
+
+    frame: Frame
+    state: State | None = None
+    connection: ConnectionState | None = None
+    pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
+    heard_at: float = 0.0  # when the last state came [s]
+    tells_loads: bool = False
+    _stamp: tuple[str, int] = field(default=("", 0), repr=False)
+
+    def take_state(self, state: State, now: float) -> bool:
+        """Takes in a state. Returns False for one that is older than the one before.
+
+        Of one time the header's number decides; it begins again at 0 after 2³² of them.
+        """
+        stamp = state.header.timestamp, state.header.header_id
+        if stamp < self._stamp:
+            return False
+        self._stamp = stamp
+        self.state, self.heard_at = state, now
+        self.tells_loads |= bool(state.loads)
+        if state.position:
+            at = state.position
+            self.pose = self.frame.to_world(at.x, at.y, at.theta)
+        return True
+
+    def take_connection(self, connection: ConnectionState, now: float) -> None:
+        """Takes in whether the vehicle is there. One that comes back may set its clock back."""
+        if connection == ConnectionState.ONLINE and self.connection != connection:
+            self._stamp, self.heard_at = ("", 0), now
+        self.connection = connection
+
+    @property
+    def is_there(self) -> bool:
+        """Whether the vehicle has ever told where it is."""
+        return self.state is not None and self.state.position is not None
+
+    @property
+    def hears(self) -> bool:
+        """Whether the vehicle is connected, as far as it is known."""
+        return self.connection in (None, ConnectionState.ONLINE)
+
+    def is_silent(self, now: float) -> bool:
+        """Returns whether the vehicle is not heard: it is not connected, or tells nothing."""
+        return not self.hears or now > self.heard_at + SILENT
+
+    @property
+    def driving(self) -> bool:
+        """Whether it says that it drives."""
+        return self.state is not None and self.state.driving
+
+    @property
+    def map_id(self) -> str:
+        """The map that it says it is on."""
+        at = self.state.position if self.state else None
+        return at.map_id if at else ""
+
+    @property
+    def is_localized(self) -> bool:
+        """Whether it knows where it is."""
+        at = self.state.position if self.state else None
+        return at is not None and at.initialized
+
+    @property
+    def fatal(self) -> list[str]:
+        """What a person has to come for, as text."""
+        errors = self.state.errors if self.state else ()
+        return [f"{e.type}: {e.description}" for e in errors if e.level == ErrorLevel.FATAL]
+
+    @property
+    def takes_orders(self) -> bool:
+        """Whether its mode is one in which it takes orders."""
+        return self.state is not None and self.state.mode in TAKES_ORDERS
+
+    @property
+    def why_not(self) -> str:
+        """Why it can't be given an order, '' if it can."""
+        if not self.hears:
+            return f"its connection is {self.connection.value}" if self.connection else "not there"
+        if self.state is None:
+            return "it has told nothing yet"
+        if not self.is_localized:
+            return "it does not know where it is"
+        if not self.takes_orders:
+            return f"its operating mode is {self.state.mode.value}"
+        return ""

@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What master and vehicle tell each other, free of any version's names: SI units, radians.
+
+A codec turns these into the JSON of one version of VDA 5050 and back. All are values: none is
+changed once made.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+MAP_ID = "warehouse"  # the one map that robots of this project know
+
+
+class BlockingType(StrEnum):
+    """What an action keeps from happening beside it."""
+
+    NONE = "NONE"  # nothing
+    SINGLE = "SINGLE"  # other actions; 3.0 alone has it
+    SOFT = "SOFT"  # driving
+    HARD = "HARD"  # driving and other actions
+
+
+class ActionStatus(StrEnum):
+    """How far an action has come."""
+
+    WAITING = "WAITING"
+    INITIALIZING = "INITIALIZING"
+    RUNNING = "RUNNING"
+    PAUSED = "PAUSED"
+    FINISHED = "FINISHED"
+    FAILED = "FAILED"
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it changes no more."""
+        return self in (ActionStatus.FINISHED, ActionStatus.FAILED)
+
+
+class ConnectionState(StrEnum):
+    """Whether a vehicle hears its broker."""
+
+    ONLINE = "ONLINE"
+    OFFLINE = "OFFLINE"
+    CONNECTIONBROKEN = "CONNECTIONBROKEN"
+
+
+class OperatingMode(StrEnum):
+    """Who commands a vehicle; orders are taken in AUTOMATIC and SEMIAUTOMATIC."""
+
+    AUTOMATIC = "AUTOMATIC"
+    SEMIAUTOMATIC = "SEMIAUTOMATIC"
+    MANUAL = "MANUAL"
+    SERVICE = "SERVICE"
+    TEACHIN = "TEACHIN"
+
+
+class ErrorLevel(StrEnum):
+    """WARNING: the vehicle goes on. FATAL: a person has to come."""
+
+    WARNING = "WARNING"
+    FATAL = "FATAL"
+
+
+class ErrorType(StrEnum):
+    """The kinds of errors that 2.1 names, and those of robots of this project."""
+
+    VALIDATION = "validationError"
+    ORDER = "orderError"
+    ORDER_UPDATE = "orderUpdateError"
+    NO_ROUTE = "noRouteError"
+    NO_ORDER_TO_CANCEL = "noOrderToCancel"
+    ORDER_ACTION = "orderActionError"  # an action of an order failed
+    INSTANT_ACTION = "instantActionError"  # an instant action cannot be carried out
+    UNKNOWN_FIELD = "unknownField"  # told, and otherwise ignored
+    LOST = "localizationError"
+    MOTOR = "motorError"
+    LIFT = "liftError"
+    LASER = "laserError"
+    BATTERY = "batteryEmpty"
+    WHEELS = "wheelSlip"
+
+
+@dataclass(frozen=True)
+class Header:
+    """Stands before each message; headerId and timestamp are of the sender's topic."""
+
+    header_id: int = 0
+    timestamp: str = ""  # ISO 8601, UTC, wall clock
+    version: str = ""
+    manufacturer: str = ""
+    serial: str = ""
+
+
+@dataclass(frozen=True)
+class Position:
+    """A point of a map [m]; theta [rad] is None where any heading will do."""
+
+    x: float
+    y: float
+    theta: float | None = None
+    map_id: str = ""
+
+
+@dataclass(frozen=True)
+class Action:
+    """What a vehicle shall do at a node or an edge, or at once."""
+
+    type: str
+    id: str
+    blocking: BlockingType = BlockingType.HARD
+    parameters: tuple[tuple[str, Any], ...] = ()
+    description: str = ""
+
+    def parameter(self, key: str, default: Any = None) -> Any:
+        """Returns the value of a parameter, as it was sent."""
+        return dict(self.parameters).get(key, default)
+
+
+# At once, rather than with an order; blocking is BlockingType.NONE as a rule.
+InstantAction = Action
+
+
+@dataclass(frozen=True)
+class Node:
+    """A point of an order; `position` is None where its id says where it is."""
+
+    id: str
+    sequence: int
+    released: bool
+    position: Position | None = None
+    actions: tuple[Action, ...] = ()
+    description: str = ""
+
+
+@dataclass(frozen=True)
+class Edge:
+    """The way between two nodes, straight; what else was asked for stands in `unsupported`."""
+
+    id: str
+    sequence: int
+    released: bool
+    start: str = ""  # node ids; 3.0 has none
+    end: str = ""
+    actions: tuple[Action, ...] = ()
+    max_speed: float | None = None  # [m/s]
+    unsupported: tuple[str, ...] = ()  # fields that this project has no room for: trajectory …
+
+
+@dataclass(frozen=True)
+class Order:
+    """Nodes with the edges between them; those released come first and are the base, the rest is
+    the horizon."""
+
+    id: str
+    update: int
+    nodes: tuple[Node, ...]
+    edges: tuple[Edge, ...] = ()
+    header: Header = Header()
+
+    @property
+    def base(self) -> tuple[Node, ...]:
+        """The released nodes."""
+        return tuple(node for node in self.nodes if node.released)
+
+
+@dataclass(frozen=True)
+class InstantActions:
+    """Actions to be carried out at once."""
+
+    actions: tuple[InstantAction, ...]
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
+class NodeState:
+    """A node that is yet to be passed."""
+
+    id: str
+    sequence: int
+    released: bool
+    position: Position | None = None
+
+
+@dataclass(frozen=True)
+class EdgeState:
+    """An edge that is yet to be driven."""
+
+    id: str
+    sequence: int
+    released: bool
+
+
+@dataclass(frozen=True)
+class ActionState:
+    """How far an action has come; `instant` tells it from those of the order."""
+
+    id: str
+    type: str
+    status: ActionStatus
+    result: str = ""
+    instant: bool = False
+
+
+@dataclass(frozen=True)
+class Error:
+    """What is wrong with a message or a vehicle; references are (key, value): orderId, nodeId …"""
+
+    type: str
+    level: ErrorLevel = ErrorLevel.WARNING
+    description: str = ""
+    hint: str = ""
+    references: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Battery:
+    """charge in 0 … 100 percent."""
+
+    charge: float = 100.0
+    charging: bool = False
+
+
+@dataclass(frozen=True)
+class AgvPosition:
+    """Where a vehicle is [m, rad]; `initialized` is whether it knows that."""
+
+    x: float
+    y: float
+    theta: float
+    map_id: str = MAP_ID
+    initialized: bool = True
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """In the vehicle's own frame, x forward [m/s, rad/s]."""
+
+    vx: float = 0.0
+    vy: float = 0.0
+    omega: float = 0.0
+
+
+@dataclass(frozen=True)
+class Load:
+    """What a vehicle carries."""
+
+    id: str
+    type: str = "unit"
+
+
+@dataclass(frozen=True)
+class State:
+    """All that a vehicle tells: at every event, and after 30 s at the latest."""
+
+    order_id: str = ""
+    order_update: int = 0
+    last_node: str = ""
+    last_node_sequence: int = 0
+    nodes: tuple[NodeState, ...] = ()
+    edges: tuple[EdgeState, ...] = ()
+    actions: tuple[ActionState, ...] = ()
+    driving: bool = False
+    paused: bool = False
+    new_base_request: bool = False
+    position: AgvPosition | None = None
+    velocity: Velocity | None = None
+    loads: tuple[Load, ...] = ()
+    battery: Battery = Battery()
+    mode: OperatingMode = OperatingMode.AUTOMATIC
+    errors: tuple[Error, ...] = ()
+    emergency_stop: bool = False
+    field_violation: bool = False
+    maps: tuple[str, ...] = ()
+    distance_since_last_node: float | None = None  # [m]
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
+class Connection:
+    """Whether a vehicle is there; retained by the broker."""
+
+    state: ConnectionState
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
+class Visualization:
+    """Position and speed alone, for pictures."""
+
+    position: AgvPosition | None = None
+    velocity: Velocity | None = None
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
+class SupportedAction:
+    """An action that a vehicle knows; scopes are INSTANT, NODE, EDGE, parameters are (key, type,
+    optional, description)."""
+
+    type: str
+    scopes: tuple[str, ...]
+    description: str = ""
+    parameters: tuple[tuple[str, str, bool, str], ...] = ()
+    blocking: tuple[BlockingType, ...] = (BlockingType.NONE,)
+
+
+@dataclass(frozen=True)
+class Factsheet:
+    """What a kind of vehicle is and can [m, kg, s]."""
+
+    series: str = "Kiva"
+    description: str = ""
+    kinematics: str = "DIFF"
+    vehicle_class: str = "CARRIER"
+    max_load_mass: float = 450.0
+    length: float = 0.76
+    width: float = 0.6
+    height: float = 0.4
+    max_speed: float = 1.5
+    max_acceleration: float = 1.0
+    max_deceleration: float = 1.0
+    lift_time: float = 2.2
+    load_size: tuple[float, float] = (0.8, 0.8)
+    localization: tuple[str, ...] = ("GRID",)
+    navigation: tuple[str, ...] = ("VIRTUAL_LINE_GUIDED",)
+    actions: tuple[SupportedAction, ...] = ()
+    # Parameters of orders and what a vehicle makes of them, SUPPORTED or REQUIRED.
+    parameters: tuple[tuple[str, str, str], ...] = ()
+    max_nodes: int = 1000
+    max_actions: int = 20
+    max_message: int = 1 << 20  # bytes
+    max_errors: int = 20
+    state_interval: float = 30.0
+    versions: tuple[tuple[str, str], ...] = ()
+    header: Header = field(default_factory=Header)
+
+
+Message = Order | InstantActions | State | Connection | Visualization | Factsheet

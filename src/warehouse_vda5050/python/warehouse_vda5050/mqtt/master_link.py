@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A master at a broker: one connection, by which it hears its vehicles and commands them."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+from warehouse_vda5050.codec import Codec
+from warehouse_vda5050.headers import Headers
+from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.mqtt.loop import Link, Outgoing
+from warehouse_vda5050.mqtt.settings import BrokerSettings
+from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
+from warehouse_vda5050.validation import MessageError
+
+HEARD = (Kind.CONNECTION, Kind.STATE)
+
+
+class MasterLink:
+    """Carries messages between a master and the vehicles `who`.
+
+    `link` is to be added to an MqttLoop, whose poll() calls take(identity, message); `tell` writes
+    lines for a person: what a vehicle sent that can't be read.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        who: Iterable[Identity],
+        codec: Codec,
+        topics: Topics,
+        broker: BrokerSettings,
+        take: Callable[[Identity, State | Connection], None],
+        tell: Callable[[str], None] = lambda _line: None,
+    ) -> None:
+        self._codec, self._topics, self._take, self._tell = codec, topics, take, tell
+        self._headers = {one: Headers(one, codec.version) for one in who}
+        wanted = [(topics.of(one, kind), kind.qos) for one in self._headers for kind in HEARD]
+        self.link = Link(name, broker, wanted, self._on_message)
+
+    def send(self, identity: Identity, message: Order | InstantActions) -> None:
+        """Sends a message to a vehicle, if there is a connection."""
+        kind = Kind.ORDER if isinstance(message, Order) else Kind.INSTANT_ACTIONS
+        message = replace(message, header=self._headers[identity].next(kind))
+        topic = self._topics.of(identity, kind)
+        self.link.publish(Outgoing(topic, self._codec.encode(message), kind.qos, kind.retained))
+
+    def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
+        try:
+            identity, kind = self._topics.parse(topic)
+            if retained and kind is not Kind.CONNECTION:
+                return  # left by an earlier run: the vehicle may be elsewhere
+            message = self._codec.decode(kind, payload).message
+        except (MessageError, TopicError) as error:
+            self._tell(f"{topic}: {error}")
+            return
+        self._take(identity, message)

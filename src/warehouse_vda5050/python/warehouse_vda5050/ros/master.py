@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The master as a ROS node: robots behind a broker take the commands of a running warehouse.
+
+Commands come by the topics that the world listens to; it leaves those to robots that are elsewhere
+to this node, and shows where they are by /warehouse/shadows.
+"""
+
+import math
+import time
+from collections.abc import Callable, Iterable
+from queue import Empty, SimpleQueue
+
+import rospy
+
+from warehouse_client.engine import Engine, EngineError
+from warehouse_client.warehouse import Warehouse
+from warehouse_fleet.message_enums import EventKind as Kind
+from warehouse_fleet.message_enums import FailureKind, Mode
+from warehouse_layout import models
+from warehouse_layout.floor_plan import FloorPlan
+from warehouse_msgs.msg import Event, FleetState
+from warehouse_msgs.srv import SetRobotMode
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.master.commands import Command
+from warehouse_vda5050.master.fleet import RemoteFleet
+from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
+from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.shadow import Shadow
+from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.ros.commands import CommandTopics
+from warehouse_vda5050.topics import Identity
+
+PERIOD = 0.1  # of shadows [s, wall]
+Send = Callable[[Identity, Order | InstantActions], None]
+MODES = {True: Mode.AUTOMATIC, False: Mode.MANUAL}  # by whether the vehicle takes orders
+
+
+class Master:
+    """Hosts a RemoteFleet: what vehicles tell comes by take(), `send` carries what they are told.
+
+    run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
+    a word that no run before had, `poll` waits at most some seconds for messages of vehicles.
+    """
+
+    def __init__(self, robots: Iterable[RemoteRobot], warehouse: Warehouse, run: str) -> None:
+        self._robots, self._run = list(robots), run
+        self._warehouse = warehouse
+        self._fleet: RemoteFleet | None = None
+        self._next_shadows = 0.0
+        self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
+        self._spawned: set[int] = set()
+        self._modes: dict[int, bool] = {}
+        self._shadows = rospy.Publisher("/warehouse/shadows", FleetState, queue_size=10)
+        self._events = rospy.Publisher("/warehouse/events", Event, queue_size=1000)
+        self._set_mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        numbers = frozenset(robot.number for robot in self._robots)
+        CommandTopics(numbers, self._post_command, self._timeline)
+
+    def take(self, identity: Identity, message: State | Connection) -> None:
+        """Takes in what a vehicle tells; called by poll()."""
+        if self._fleet is not None:
+            self._fleet.take(identity, message, time.monotonic())
+
+    def run(self, send: Send, poll: Callable[[float], None]) -> None:
+        """Serves until ROS shuts down."""
+        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run)
+        while not rospy.is_shutdown():
+            poll(PERIOD / 4)
+            self._take_posted(fleet)
+            for identity, message in fleet.messages(time.monotonic()):
+                send(identity, message)
+            if time.monotonic() >= self._next_shadows:
+                self._next_shadows = time.monotonic() + PERIOD
+                self._show(fleet)
+            self._publish_events(fleet.take_events())
+        self._show_silence(fleet)
+
+    # --- in
+
+    def _post_command(self, kiva_id: int, command: Command) -> None:
+        self._posted.put(lambda fleet: fleet.command(kiva_id, command))
+
+    def _timeline(self) -> int:
+        return self._warehouse.timeline if self._warehouse.fleet is not None else 0
+
+    def _take_posted(self, fleet: RemoteFleet) -> None:
+        try:
+            while True:
+                self._posted.get_nowait()(fleet)
+        except Empty:
+            return
+
+    def _grid(self) -> Grid:
+        while not rospy.is_shutdown() and not self._warehouse.is_known:
+            rospy.loginfo_once("waits for the warehouse")
+            time.sleep(PERIOD)
+        return grid_of(self._warehouse.plan())
+
+    # --- out
+
+    def _show(self, fleet: RemoteFleet) -> None:
+        shadows = fleet.shadows(time.monotonic())
+        for shadow in shadows:
+            self._ensure_there(shadow)
+        there = [shadow for shadow in shadows if shadow.kiva_id in self._spawned]
+        if there:
+            self._shadows.publish(message_of(there))
+        for vehicle in fleet.vehicles:
+            self._follow_mode(vehicle)
+
+    def _show_silence(self, fleet: RemoteFleet) -> None:
+        """Leaves the shadows as obstacles: the robots are still where they were seen last."""
+        radio = 1 << FailureKind.RADIO_LOST
+        left = [
+            Shadow(**{**vars(shadow), "failures": shadow.failures | radio})
+            for shadow in fleet.shadows(time.monotonic())
+        ]
+        if left:
+            self._shadows.publish(message_of(left))
+
+    def _ensure_there(self, shadow: Shadow) -> None:
+        """Adds the robot to the world that stands for a vehicle."""
+        number = shadow.kiva_id
+        if number in self._spawned:
+            return
+        part = models.include("kiva", number, shadow.x, shadow.y, yaw=shadow.yaw)
+        try:
+            with Engine(rospy) as engine:
+                if part.name not in engine.names():
+                    engine.spawn(models.document([part]), part.name)
+        except EngineError as error:
+            rospy.logwarn_throttle(10, f"kiva{number} can't be shown: {error}")
+            return
+        self._spawned.add(number)
+        rospy.loginfo(f"kiva{number} is at {shadow.x:.2f}, {shadow.y:.2f} m")
+
+    def _follow_mode(self, vehicle: RemoteVehicle) -> None:
+        """Has the coordinator command a vehicle as long as it takes orders."""
+        number, takes = vehicle.robot.number, vehicle.view.takes_orders
+        if number not in self._spawned or self._modes.get(number) == takes:
+            return
+        if number not in self._modes and takes:
+            self._modes[number] = True  # as it was added
+            return
+        try:
+            answer = self._set_mode(number, MODES[takes])
+        except rospy.ServiceException:
+            return  # no coordinator runs
+        if answer.success:
+            self._modes[number] = takes
+
+    def _publish_events(self, events: list[Happened]) -> None:
+        for event in events:
+            message = Event(kind=Kind[event.kind.value], model=f"kiva{event.kiva_id}")
+            message.header.stamp = rospy.Time.now()
+            message.other = f"storage_unit{event.unit}" if event.unit else ""
+            message.text = event.text
+            self._events.publish(message)
+
+
+def grid_of(plan: FloorPlan) -> Grid:
+    """Returns the cells of a FloorPlan as nodes."""
+    rows, columns = plan.shape
+    return Grid(float(plan.origin[0]), float(plan.origin[1]), plan.spacing, columns, rows)
+
+
+def message_of(shadows: list[Shadow]) -> FleetState:
+    """Returns shadows as the world takes them."""
+    message = FleetState()
+    for name in vars(shadows[0]):
+        setattr(message, name, [getattr(shadow, name) for shadow in shadows])
+    message.yaw = [math.remainder(yaw, math.tau) for yaw in message.yaw]
+    return message

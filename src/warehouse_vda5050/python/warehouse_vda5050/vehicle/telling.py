@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a vehicle tells of itself, and when: at every event, and now and then without one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from warehouse_vda5050.driver import Report
+from warehouse_vda5050.model import MAP_ID, AgvPosition, Battery, Load, State, Velocity
+
+if TYPE_CHECKING:
+    from warehouse_vda5050.vehicle.vehicle import Vehicle
+
+REACTION = 1.0  # what a master may take to send more [s]
+
+
+class Teller:
+    """Makes the states of one vehicle."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self._vehicle = vehicle
+        self._told: State | None = None  # without what changes all the time
+        self._told_at = -math.inf
+        self._requested = False
+        self._deceleration = max(0.1, vehicle.driver.factsheet().max_deceleration)
+        self._top_speed = vehicle.driver.factsheet().max_speed
+
+    def request(self) -> None:
+        """Lets the next take() return a state in any case."""
+        self._requested = True
+
+    def take(self, now: float) -> State | None:
+        """Returns the state if something happened, it is time, or it was asked for."""
+        if self._vehicle.report is None:
+            return None
+        state = self.state()
+        lasting = _lasting(state)
+        settings = self._vehicle.settings
+        interval = settings.moving if state.driving else settings.interval
+        due = now - self._told_at >= min(interval, settings.interval)
+        if lasting == self._told and not due and not self._requested:
+            return None
+        self._told, self._told_at, self._requested = lasting, now, False
+        return state
+
+    def state(self) -> State:
+        """Returns the state as it is now."""
+        vehicle, report = self._vehicle, self._vehicle.report
+        state = State(
+            actions=(*vehicle.actions.states(vehicle.paused), *vehicle.instant.states()),
+            paused=vehicle.paused,
+            errors=vehicle.told_errors(),
+            maps=(MAP_ID,),
+        )
+        if report is None:
+            return state
+        return self._with_order(_with_report(state, report), report)
+
+    def _with_order(self, state: State, report: Report) -> State:
+        grid, order = self._vehicle.grid, self._vehicle.order
+        here = grid.cell_at(report.x, report.y)
+        if order is None:
+            return replace(state, last_node=grid.node_id(here))
+        # Once the order is over others may move the robot.
+        away = self._vehicle.is_free and here != order.cells[0]
+        x, y = grid.position(order.cells[0])
+        return replace(
+            state,
+            order_id=order.id,
+            order_update=order.update,
+            last_node=grid.node_id(here) if away else order.last.id,
+            last_node_sequence=order.last.sequence,
+            nodes=order.node_states(),
+            edges=order.edge_states(),
+            new_base_request=self._needs_base(report),
+            distance_since_last_node=round(abs(report.x - x) + abs(report.y - y), 3),
+        )
+
+    def _needs_base(self, report: Report) -> bool:
+        """Returns whether the robot is about to brake for the end of its base."""
+        order, grid = self._vehicle.order, self._vehicle.grid
+        if order is None or not order.has_horizon:
+            return False
+        speed = self._top_speed
+        ahead = speed * REACTION + speed * speed / (2 * self._deceleration) + grid.spacing
+        here = (report.x, report.y)
+        for cell in order.cells[1 : order.base_end + 1]:
+            there = grid.position(cell)
+            ahead -= abs(there[0] - here[0]) + abs(there[1] - here[1])
+            if ahead < 0:
+                return False
+            here = there
+        return True
+
+
+def _with_report(state: State, report: Report) -> State:
+    forward = report.vx * math.cos(report.yaw) + report.vy * math.sin(report.yaw)
+    aside = report.vy * math.cos(report.yaw) - report.vx * math.sin(report.yaw)
+    charge = round(min(100.0, max(0.0, report.battery.charge)), 2)
+    return replace(
+        state,
+        driving=report.moving,
+        position=AgvPosition(
+            round(report.x, 4),
+            round(report.y, 4),
+            round(math.remainder(report.yaw, 2 * math.pi), 4),
+            initialized=report.localized,
+        ),
+        velocity=Velocity(round(forward, 3), round(aside, 3), round(report.omega, 3)),
+        loads=(Load(report.load),) if report.load else (),
+        battery=Battery(charge, report.battery.charging),
+        mode=report.mode,
+        emergency_stop=report.stopped,
+        field_violation=report.blocked,
+    )
+
+
+def _lasting(state: State) -> State:
+    """Returns a state without what changes all the time and is no event."""
+    position = state.position
+    known = position and replace(position, x=0.0, y=0.0, theta=0.0)
+    battery = Battery(0.0, state.battery.charging)
+    return replace(
+        state, position=known, velocity=None, battery=battery, distance_since_last_node=None
+    )

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Drives the base of an order: gives a driver the released points, leg by leg.
+
+A leg is one path of the driver: it ends where the robot has to stand for an action, and is
+lengthened while it is under way. What was sent is sent again until the robot's report shows it.
+"""
+
+from dataclasses import dataclass
+
+from warehouse_vda5050.driver import Driver, Point, Report
+from warehouse_vda5050.grid import Cell, Grid, GridError
+from warehouse_vda5050.vehicle.actions import holds_at
+from warehouse_vda5050.vehicle.progress import OrderProgress
+
+PATIENCE = 3.0  # until a command that is not heard is sent again [s]
+RETRY = 5.0  # after a refusal [s]
+
+
+@dataclass
+class Leg:
+    """A path given to the driver; `counted` of its points were taken as passed."""
+
+    path_id: int
+    points: list[Point]
+    sent: float
+    counted: int = 1
+    heard: bool = False
+
+
+class Wheels:
+    """The way of one vehicle along its order. `first_path` is the number of its first path."""
+
+    def __init__(self, driver: Driver, grid: Grid, first_path: int) -> None:
+        self._driver, self.grid = driver, grid
+        self._next_path = first_path
+        self._leg: Leg | None = None
+        self._retry_at = 0.0
+        self._cancelled_at: float | None = None
+        self.fault = ""  # why the robot does not drive on, '' if it does or need not
+
+    @property
+    def rest(self) -> bool:
+        """Whether no path is under way."""
+        return self._leg is None
+
+    def begin(self) -> None:
+        """Prepares for a new order."""
+        self.fault, self._retry_at, self._cancelled_at = "", 0.0, None
+
+    def count(self, report: Report, now: float) -> int:
+        """Returns how many further nodes the robot has come to; ends a leg that is over."""
+        leg = self._leg
+        if leg is None:
+            return 0
+        if report.path_id == leg.path_id:
+            return self._count_heard(leg, report)
+        refused = report.refusal and now - leg.sent > 0.5
+        if refused or (self._cancelled_at and now - leg.sent > PATIENCE):
+            self._leg = None
+            self.fault = report.refusal
+            self._retry_at = now + RETRY
+        return 0
+
+    def _count_heard(self, leg: Leg, report: Report) -> int:
+        leg.heard = True
+        self.fault = ""
+        reached = min(report.reached, len(leg.points))
+        passed = max(0, reached - leg.counted)
+        leg.counted += passed
+        if not report.busy:
+            self._leg = None
+        return passed
+
+    def drive(self, order: OrderProgress, report: Report, now: float) -> None:
+        """Begins a leg, lengthens it, or sends it again if it was not heard."""
+        goal = self._goal(order)
+        leg = self._leg
+        if leg is None:
+            if goal and not report.busy and now >= self._retry_at:
+                self._begin_leg(order, report, goal, now)
+        elif not leg.heard and now - leg.sent > PATIENCE:
+            leg.sent = now
+            self._driver.follow(leg.path_id, 0, leg.points, len(leg.points))
+        else:
+            self._lengthen(leg, order, goal)
+
+    def _goal(self, order: OrderProgress) -> int:
+        """Returns the index of the node that the robot may drive to."""
+        for k in range(1, order.base_end + 1):
+            if holds_at(order.nodes[k]):
+                return k
+        return order.base_end
+
+    def _begin_leg(self, order: OrderProgress, report: Report, goal: int, now: float) -> None:
+        here = self.grid.cell_at(report.x, report.y)
+        try:
+            way = self.grid.between(order.cells[0], order.cells[1])
+        except GridError as error:  # checked when the order was accepted
+            raise AssertionError(str(error)) from error
+        if here not in way[:-1]:
+            self.fault = (
+                f"the robot stands at {self.grid.node_id(here)}, not on its way from"
+                f" {order.nodes[0].id} to {order.nodes[1].id}"
+            )
+            return
+        points = self._points([here, *order.cells[1 : goal + 1]])
+        self._leg = Leg(self._next_path, points, now)
+        self._next_path = self._next_path % 0xFFFFFFFF + 1
+        self._driver.follow(self._leg.path_id, 0, points, len(points))
+
+    def _lengthen(self, leg: Leg, order: OrderProgress, goal: int) -> None:
+        # Point `counted - 1` of the leg is the order's node 0, the last passed one.
+        beyond = len(leg.points) - leg.counted
+        if goal <= beyond:
+            return
+        first, points = len(leg.points), self._points(order.cells[beyond + 1 : goal + 1])
+        leg.points += points
+        self._driver.follow(leg.path_id, first, points, len(leg.points))
+
+    def _points(self, cells: list[Cell]) -> list[Point]:
+        return [self.grid.position(cell) for cell in cells]
+
+    def cancel(self, now: float) -> None:
+        """Ends the leg under way at the next grid point; asks again until it is over."""
+        if self._leg and (self._cancelled_at is None or now - self._cancelled_at > PATIENCE):
+            self._cancelled_at = now
+            self._driver.cancel()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Serves the floor's page for a recording on this machine, without ROS."""
+
+from contextlib import suppress
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from warehouse_viewer.replay.routes import Recording, RecordingRoutes
+from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.server.connections import listen_near
+from warehouse_viewer.server.http_server import Server, config_of
+from warehouse_viewer.server.site import FLOOR, Site
+from warehouse_viewer.server.sockets import SocketLimit
+
+HOST = "127.0.0.1"
+RECORDED = "this is a recording: it can be watched, and not commanded"
+
+
+def application(recording: Recording) -> Starlette:
+    """Returns the ASGI application with the floor's page and the recording."""
+    sockets = SocketLimit()
+
+    async def live(socket: WebSocket) -> None:
+        await sockets.admit(socket, _wait)
+
+    return Starlette(
+        routes=[
+            WebSocketRoute("/live", live),
+            *RecordingRoutes(recording).routes(),
+            *Site(FLOOR).routes(),
+            Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
+        ]
+    )
+
+
+async def _wait(socket: WebSocket) -> None:
+    """Tells nothing: a page asks what there is, and leaves."""
+    with suppress(WebSocketDisconnect, RuntimeError):
+        while True:
+            await socket.receive_text()
+
+
+async def _refuse(_: Request) -> Response:
+    return JSONResponse({"detail": RECORDED}, 409)
+
+
+class ReplayServer:
+    """Listens at `port` of this machine or one of the next. Raises OSError if none is free."""
+
+    def __init__(self, recording: Recording, port: int) -> None:
+        self._listener = listen_near(HOST, port)
+        self.url = f"http://localhost:{self._listener.getsockname()[1]}/"
+        access = AccessControl(application(recording))
+        self.server = Server(config_of(access, ws="wsproto"), lambda: None)
+
+    def run(self) -> None:
+        """Serves until it is stopped."""
+        self.server.run(sockets=[self._listener])

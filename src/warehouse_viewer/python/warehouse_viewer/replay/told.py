@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of a shift behind ROS, as a recording has them."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.api.operations_json import plain, stations
+
+SHOWN: dict[str, Callable[[Any], Any]] = {
+    "kpis": plain,
+    "stations": stations,
+    "fleet": catalogue.plain_coordinator,
+}
+
+
+def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns Kpis, StationStates and CoordinatorState, as far as there are any, as JSON has
+    them."""
+    return {name: SHOWN[name](one) for name, one in messages.items() if one is not None}
+
+
+class Told:
+    """The newest of those messages. feed: a ros.feed.Feed; shift: a ros.shift_feed.ShiftFeed."""
+
+    def __init__(self, feed: Any, shift: Any) -> None:
+        self._feed, self._shift = feed, shift
+
+    def figures(self) -> dict[str, Any] | None:
+        """Returns them as JSON has them; None where neither coordinator nor shift runs."""
+        messages = {name: self._shift[name] for name in ("kpis", "stations")}
+        return shown(messages | {"fleet": self._feed.coordinator}) or None

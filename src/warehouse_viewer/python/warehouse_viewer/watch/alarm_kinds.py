@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The kinds of alarms: how bad each is, how long it must last, and what a person should do."""
+
+from typing import NamedTuple
+
+CRITICAL, WARNING, NOTE = "critical", "warning", "note"
+SEVERITIES = (CRITICAL, WARNING, NOTE)  # the worst first
+
+
+class AlarmKind(NamedTuple):
+    """What holds for all alarms of a kind. `after`: it counts once it has lasted so long [s]."""
+
+    severity: str
+    title: str
+    to_do: str
+    after: float = 0.0
+
+
+KINDS = {
+    "ROBOT_BROKEN": AlarmKind(
+        CRITICAL,
+        "Robot is broken",
+        "Take it out of service on the floor page, repair or push it away, then set it AUTOMATIC.",
+    ),
+    "ROBOT_LOST": AlarmKind(
+        CRITICAL,
+        "Robot has lost its place",
+        "Put it straight on a grid point, then set it AUTOMATIC.",
+    ),
+    "ROBOT_STALLED": AlarmKind(
+        CRITICAL,
+        "Robot does not move",
+        "Look for what holds it. If nothing does, take it out of service and have it checked.",
+    ),
+    "ROBOT_BLOCKED": AlarmKind(
+        CRITICAL,
+        "Robot stands before an obstacle",
+        "Clear its way, then give it another command or set it AUTOMATIC.",
+        after=15.0,
+    ),
+    "UNIT_TIPPED": AlarmKind(
+        CRITICAL,
+        "Storage unit tipped over",
+        "Close the aisle: take the robots near it out of service before anyone goes there.",
+    ),
+    "COLLISION": AlarmKind(
+        CRITICAL,
+        "Collision",
+        "Look at robot and load; take the robot out of service if either is damaged.",
+    ),
+    "NO_COORDINATOR": AlarmKind(
+        CRITICAL,
+        "No coordinator answers",
+        "Robots finish what they were told and stand. Restart the node `coordinator`.",
+        after=10.0,
+    ),
+    "COORDINATOR": AlarmKind(
+        CRITICAL,
+        "The coordinator can't work as it should",
+        "Correct what the sentence names; the rest of the floor goes on.",
+    ),
+    "STATION_UNATTENDED": AlarmKind(
+        CRITICAL,
+        "Station needs a person",
+        "Send a person to the station, set it to automatic, or close it.",
+    ),
+    "ITEM_FALLEN": AlarmKind(
+        WARNING,
+        "Item lies on the floor",
+        "Pick it up: choose it on the floor page, and 'Pick up'. Its pieces are out of stock.",
+    ),
+    "ROBOT_WAITS": AlarmKind(
+        WARNING,
+        "Robot has waited for long",
+        "Look on the floor page for whom it waits; the first of the queue is the cause.",
+    ),
+    "STATION_STARVED": AlarmKind(
+        WARNING,
+        "Station waits for storage units",
+        "If robots rest, look for a jam; if none does, too few robots work for so many stations.",
+    ),
+    "WATCHDOG": AlarmKind(
+        WARNING,
+        "Robots made no progress for 30 s",
+        "The coordinator has planned again. If it recurs, look for a jam on the floor page.",
+    ),
+    "PLAN_REFUSED": AlarmKind(
+        WARNING,
+        "A plan was refused",
+        "Robots keep their last plan. Tell those who look after the planner what the sentence is.",
+    ),
+    "NOTICE": AlarmKind(
+        NOTE,
+        "Notice of the shift",
+        "Correct the order, file or station that the sentence names.",
+    ),
+}

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The four figures by which a shift is led, with their last hour and their targets.
+
+Pieces per hour: nine tenths of what the open stations can do at most. Orders per hour: as many as
+come in. Late orders: one in fifty at most. Robots available, that is, neither waiting for too long
+nor in need of help nor out of service: nineteen in twenty.
+"""
+
+from collections import deque
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+PIECES_OF_BOUND, MOST_LATE, LEAST_AVAILABLE = 0.9, 0.02, 0.95  # the targets
+MINUTE, HOUR = 60.0, 3600.0  # [s, simulated]
+SMOOTHED = 5  # intervals of a throughput that a point of a line is the mean of
+RECENT = 15  # those of the figure itself
+
+
+class Sample(NamedTuple):
+    """Shares and counts at a time [s]; orders: that came in so far."""
+
+    time: float
+    late: float
+    available: float
+    orders: int
+
+
+class Figures:
+    """Keeps what the shift's messages do not tell of its last hour. One thread at a time."""
+
+    def __init__(self) -> None:
+        self._samples: deque[Sample] = deque()
+
+    def update(self, now: float, kpis: Any, available: float) -> None:
+        """Takes in Kpis, and the share of robots that are available, at `now` [s]."""
+        if self._samples and now < self._samples[-1].time:
+            self._samples.clear()
+        if not self._samples or now - self._samples[-1].time >= MINUTE:
+            orders = kpis.orders_completed + kpis.orders_waiting + kpis.orders_at_stations
+            late = kpis.late_orders_fraction
+            self._samples.append(Sample(now, late, available, orders))
+        while now - self._samples[0].time > HOUR:
+            self._samples.popleft()
+
+    def told(self, kpis: Any, throughput: Any, available: float, robots: int) -> dict[str, Any]:
+        """Returns the four figures as JSON has them; `throughput` a Throughput, `robots` how many
+        there are."""
+        bound = kpis.item_upper_bound_per_hour
+        times = [sample.time for sample in self._samples]
+        return {
+            "pieces": _figure(
+                *_rates(throughput, throughput.items_picked), PIECES_OF_BOUND * bound, bound
+            ),
+            "orders": _figure(*_rates(throughput, throughput.orders_completed), self._incoming()),
+            "late": _figure(
+                kpis.late_orders_fraction, times, [s.late for s in self._samples], MOST_LATE
+            ),
+            "available": _figure(
+                available, times, [s.available for s in self._samples], LEAST_AVAILABLE, robots
+            ),
+        }
+
+    def _incoming(self) -> float:
+        """Returns how many orders come in an hour; 0 if that is not known yet."""
+        first, last = self._samples[0], self._samples[-1]
+        seconds = last.time - first.time
+        return 3600 * max(0, last.orders - first.orders) / seconds if seconds else 0.0
+
+
+def _figure(
+    value: float, times: Sequence[float], values: Sequence[float], target: float, of: float = 0.0
+) -> dict[str, Any]:
+    return {
+        "value": round(value, 4),
+        "target": round(target, 4),
+        "of": round(of, 1),
+        "times": [round(time, 1) for time in times],
+        "values": [round(one, 4) for one in values],
+    }
+
+
+def _rates(throughput: Any, counts: Sequence[int]) -> tuple[float, list[float], list[float]]:
+    """Returns what is done in an hour now, and the ends of the intervals that are over [s] with
+    what was done in an hour up to each."""
+    interval, begin = throughput.interval, throughput.begin
+    first = begin // interval
+    ends = [(first + i + 1) * interval for i in range(len(counts) - 1)]
+
+    def rate(last: int, most: int) -> float:
+        start = max(0, last + 1 - most)
+        seconds = ends[last] - max(begin, (first + start) * interval)
+        return 3600 * sum(counts[start : last + 1]) / max(seconds, 1.0)
+
+    values = [rate(i, SMOOTHED) for i in range(len(ends))]
+    return (rate(len(ends) - 1, RECENT) if ends else 0.0), ends, values

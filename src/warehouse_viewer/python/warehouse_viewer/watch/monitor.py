@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Notes twice a second what the warehouse does, whether or not a page is open."""
+
+import asyncio
+import logging
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.page.activities import Activity, activity, wait_too_long
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.watch import troubles
+from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
+from warehouse_viewer.watch.figures import Figures
+from warehouse_viewer.watch.span_log import SpanLog
+from warehouse_viewer.watch.station_watch import StationWatch
+
+PERIOD = 0.5  # between two looks [s, wall]
+HINDERED = (Activity.WAITING, Activity.NEEDS_HELP)
+LOG = logging.getLogger(__name__)
+
+
+class Monitor:
+    """Reads what the feeds hear into spans, alarms, stations and figures. Lives in an asyncio loop.
+
+    `feed` is a ros.feed.Feed, `shift` a ShiftFeed; what changes is noted in a ChangeBook under
+    `alarms` and `figures`.
+    """
+
+    def __init__(self, feed: Any, shift: Any, journal: Journal, book: ChangeBook) -> None:
+        self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
+        self.spans, self.alarms = SpanLog(), AlarmBook()
+        self.stations, self._figures = StationWatch(), Figures()
+        self._moments = troubles.Moments()
+        self._event = journal.last_id
+        self._told: dict[str, Any] = {}
+        self._read: dict[str, Any] = {}  # the messages that were taken in last
+        self.now = 0.0
+
+    async def run(self) -> None:
+        """Looks until it is cancelled."""
+        self._feed.keep()
+        while True:
+            try:
+                self.look()
+            except (ValueError, AttributeError, IndexError):
+                LOG.exception("what the warehouse tells can't be read")
+            await asyncio.sleep(PERIOD)
+
+    def look(self) -> None:
+        """Takes in what has come since the last look."""
+        fleet, stations = self._feed["fleet"], self._shift["stations"]
+        if fleet is None and stations is None:
+            return
+        stamps = [fleet.stamp] if fleet else []
+        stamps += [stations.header.stamp] if stations else []
+        self.now = max(stamp.to_sec() for stamp in stamps)
+        rows = stations.stations if stations else ()
+        if stations is not self._read.get("stations") or fleet is not self._read.get("fleet"):
+            self._read |= {"stations": stations, "fleet": fleet}
+            self.stations.update(self.now, rows, fleet)
+            self._note_spans(fleet, rows)
+        self._note_alarms(fleet, rows)
+        self._note_figures()
+
+    def _note_spans(self, fleet: Any, stations: Collection[Any]) -> None:
+        if fleet is not None:
+            names = [f"kiva{number}" for number in fleet.kiva_id]
+            waiting = wait_too_long(self._feed.coordinator)
+            does = activity(fleet, waiting)
+            self.spans.update(self.now, "robot", names, does)
+            self._told["available"] = _available(does, self._feed.coordinator)
+        if stations:
+            names = [one.name for one in stations]
+            self.spans.update(self.now, "station", names, self.stations.states(stations))
+
+    def _note_alarms(self, fleet: Any, stations: Collection[Any]) -> None:
+        for event in self._journal.since(self._event):
+            self._event = event["id"]
+            self._moments.take_event(event)
+        self.alarms.update(self.now, self._troubles(fleet, stations))
+        self._note("alarms", self.alarms.told())
+
+    def _troubles(self, fleet: Any, stations: Collection[Any]) -> list[Trouble]:
+        found: list[Trouble] = []
+        state = self._feed.coordinator
+        if fleet is not None:
+            found += troubles.of_fleet(fleet)
+        if state:
+            self._moments.take_watchdog(state.watchdog, self.now)
+            found += _without(troubles.of_coordinator(state), bool(stations))
+        elif stations:
+            text = "a shift runs, and no coordinator tells what robots do"
+            found.append(Trouble("NO_COORDINATOR", "coordinator", text))
+        found += troubles.of_stations(stations, self.now, self.stations.starved)
+        found += self._moments.lasting(self.now)
+        notices = self._shift["notices"]
+        return found + list(troubles.of_notices(notices.notices if notices else ()))
+
+    def see(self, number: int, by: str) -> dict[str, Any] | None:
+        """Notes that a person has seen an alarm; see AlarmBook.see."""
+        alarm = self.alarms.see(number, by)
+        self._note("alarms", self.alarms.told())
+        return alarm
+
+    def _note_figures(self) -> None:
+        kpis, throughput = self._shift["kpis"], self._shift["throughput"]
+        if not (kpis and throughput) or throughput is self._read.get("throughput"):
+            return
+        self._read["throughput"] = throughput
+        available, robots = self._told.get("available", (1.0, 0))
+        self._figures.update(self.now, kpis, available)
+        self._note("figures", self._figures.told(kpis, throughput, available, robots))
+
+    def _note(self, topic: str, told: Any) -> None:
+        """Notes what a topic tells now, if it is something else than before."""
+        if self._told.get(topic) != told:
+            self._told[topic] = told
+            self._book.note(topic, topic, told)
+
+    def figures(self) -> dict[str, Any] | None:
+        """Returns the four figures as JSON has them; None if no shift has told any."""
+        return self._told.get("figures")
+
+    def station(self, station: Any) -> dict[str, Any]:
+        """Returns what JSON has of a StationState beside its own fields."""
+        return self.stations.told(station)
+
+
+def _available(does: np.ndarray, coordinator: Any) -> tuple[float, int]:
+    """Returns the share of robots that can work, and how many robots there are."""
+    hindered = int(np.isin(does, HINDERED).sum())
+    away = coordinator.out_of_service if coordinator else 0
+    return max(0.0, 1 - (hindered + away) / max(len(does), 1)), len(does)
+
+
+def _without(found: Any, has_stations: bool) -> list[Trouble]:
+    """Leaves out what stations tell themselves, more exactly."""
+    return [one for one in found if not (has_stations and one.kind == "STATION_UNATTENDED")]

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what is wrong from what robots, coordinator, stations and shift tell."""
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from warehouse_client.message_names import failures_of
+from warehouse_viewer.message_enums import EventKind
+from warehouse_viewer.watch.alarm_book import Trouble
+
+UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
+STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
+HELD_UP = 120.0  # that a robot waits [s, simulated]
+LASTING = 600.0  # for which what happened in a moment is told [s, simulated]
+
+# By what the coordinator's sentences are like; the first group is whom they concern.
+SENTENCES = (
+    (re.compile(r"(kiva\d+): "), "ROBOT_BROKEN"),
+    (re.compile(r"(kiva\d+) does not move$"), "ROBOT_STALLED"),
+    (re.compile(r"(kiva\d+) was pushed "), "ROBOT_LOST"),
+    (re.compile(r"(.+) has waited for a person for "), "STATION_UNATTENDED"),
+    (re.compile(r"(.+) lies on the floor, off "), "ITEM_FALLEN"),
+    (re.compile(r"(a plan was refused): "), "PLAN_REFUSED"),
+)
+MOMENTS = {EventKind.COLLISION.name: "COLLISION", EventKind.TIPPED.name: "UNIT_TIPPED"}
+
+
+def of_coordinator(state: Any) -> Iterator[Trouble]:
+    """Yields what a CoordinatorState tells a person, and which robots wait for long."""
+    for text in state.alarms:
+        yield of_sentence(text)
+    now = state.header.stamp.to_sec()
+    waits = zip(state.waiting_kiva, state.waiting_since, state.waiting_text)
+    for robot, since, why in waits:
+        if now - since >= HELD_UP:
+            yield Trouble("ROBOT_WAITS", f"kiva{robot}", f"kiva{robot} waits {why}", since)
+
+
+def of_sentence(text: str) -> Trouble:
+    """Returns what a sentence of the coordinator's alarms means."""
+    for pattern, kind in SENTENCES:
+        if found := pattern.match(text):
+            return Trouble(kind, found[1], text)
+    return Trouble("COORDINATOR", text, text)
+
+
+def of_fleet(fleet: Any) -> Iterator[Trouble]:
+    """Yields the robots of a FleetState that need help."""
+    failures = np.frombuffer(bytes(fleet.failures), np.uint8)
+    for i in np.flatnonzero(failures):
+        name = f"kiva{fleet.kiva_id[i]}"
+        yield Trouble("ROBOT_BROKEN", name, f"{name}: {', '.join(failures_of(failures[i]))}")
+    blocked = np.frombuffer(bytes(fleet.last_end), np.uint8) == EventKind.BLOCKED
+    for i in np.flatnonzero(blocked & (failures == 0)):
+        name = f"kiva{fleet.kiva_id[i]}"
+        yield Trouble("ROBOT_BLOCKED", name, f"{name}: its last command ended before an obstacle")
+
+
+def of_stations(
+    stations: Iterable[Any], now: float, starved: dict[str, float]
+) -> Iterator[Trouble]:
+    """Yields the stations, as StationState, that wait for a person or for storage units; `starved`
+    has since when [s] each has had orders and no unit."""
+    for one in stations:
+        if one.waiting >= UNATTENDED:
+            what = "confirm a pick" if one.kind == "PICK" else "put new stock in"
+            text = f"unit {one.shelf_id} is at {one.name}: a person has to {what}"
+            yield Trouble("STATION_UNATTENDED", one.name, text, now - one.waiting)
+        since = starved.get(one.name, now)
+        if now - since >= STARVED:
+            coming = f"{len(one.inbound)} on their way" if one.inbound else "none is on its way"
+            text = f"{one.name} works at {len(one.orders)} orders and has no unit; {coming}"
+            yield Trouble("STATION_STARVED", one.name, text, since)
+
+
+def of_notices(notices: Iterable[str]) -> Iterator[Trouble]:
+    """Yields a shift's notices."""
+    for text in notices:
+        yield Trouble("NOTICE", text, text)
+
+
+class Moments:
+    """What happened in a moment, and is told for LASTING seconds after it happened last."""
+
+    def __init__(self) -> None:
+        self._kept: dict[tuple[str, str], tuple[Trouble, float, int]] = {}
+        self._watchdog: int | None = None
+
+    def add(self, trouble: Trouble, now: float) -> None:
+        """Adds one, or counts it again."""
+        key = trouble.kind, trouble.subject
+        _, _, times = self._kept.get(key, (trouble, now, 0))
+        self._kept[key] = trouble._replace(since=now), now, times + 1
+
+    def take_event(self, event: dict[str, Any]) -> None:
+        """Adds an event of the journal if it is one of MOMENTS."""
+        kind = MOMENTS.get(event["kind"])
+        if kind:
+            self.add(
+                Trouble(kind, event["model"], f"{event['model']}: {event['text']}"), event["time"]
+            )
+
+    def take_watchdog(self, count: int, now: float) -> None:
+        """Adds what a CoordinatorState's count of its watchdog has grown by."""
+        if self._watchdog is not None and count > self._watchdog:
+            text = f"the watchdog has acted {count} times since the coordinator began"
+            self.add(Trouble("WATCHDOG", "watchdog", text), now)
+        self._watchdog = count
+
+    def lasting(self, now: float) -> list[Trouble]:
+        """Returns those that still count at `now` [s]."""
+        self._kept = {key: kept for key, kept in self._kept.items() if 0 <= now - kept[1] < LASTING}
+        return [_counted(trouble, times) for trouble, _, times in self._kept.values()]
+
+
+def _counted(trouble: Trouble, times: int) -> Trouble:
+    return trouble if times == 1 else trouble._replace(text=f"{trouble.text} ({times} times)")

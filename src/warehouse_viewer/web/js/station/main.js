@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen of a person at a station, for a scanner, fingers in gloves, or a keyboard.
+
+import { get, put } from '../api.js';
+import { $, on, press } from '../dom.js';
+import { PickOutcome, StationMode } from '../message_enums.js';
+import { confirmed } from '../question.js';
+import { stayAwake } from './awake.js';
+import { Bench } from './bench.js';
+import { meaningOf } from './codes.js';
+import { News } from './news.js';
+import { Outbox } from './outbox.js';
+import { Scanner } from './scanner.js';
+import { senderOf } from './send.js';
+import { Settings } from './settings.js';
+import { Shelf } from './shelf.js';
+import { Sounds } from './sounds.js';
+import { View } from './view.js';
+
+const TICK = 1000; // between two looks at what goes by the clock [ms]
+
+class Page {
+  constructor(name) {
+    this.name = name;
+    const shelf = new Shelf(`station/${name}/`);
+    this.outbox = new Outbox(`station/${name}/out/`, localStorage, senderOf(name), {
+      changed: () => this.view?.show(),
+      answered: (entry) => this.bench.answered(entry),
+      refused: (entry, reason) => this.refused(entry, reason),
+    });
+    this.bench = new Bench(name, shelf, this.outbox);
+    this.view = new View(this.bench);
+    this.sounds = new Sounds(new Shelf('station/'));
+    this.scanner = new Scanner((code) => this.scan(code));
+    this.settings = new Settings(name, this.scanner, (code) => this.scan(code));
+    this.scanner.listen(document);
+    this.bindButtons();
+    this.news = new News({ take: (stations) => this.take(stations), link: (state) => this.link(state) });
+    this.view.show();
+    this.outbox.run();
+    setInterval(() => this.view.show(), TICK);
+  }
+
+  bindButtons() {
+    on($('confirm'), 'click', () => this.confirm());
+    on($('fewer'), 'click', () => this.view.step(-1));
+    on($('more'), 'click', () => this.view.step(1));
+    on($('undo'), 'click', () => this.undo());
+    on($('short'), 'click', () => this.writeOff(PickOutcome.SHORT));
+    on($('damaged'), 'click', () => this.writeOff(PickOutcome.DAMAGED));
+    on($('by-hand'), 'click', () => this.switchMode());
+    on($('sound'), 'click', () => this.mute(!this.sounds.isMuted));
+    press($('sound'), !this.sounds.isMuted);
+  }
+
+  // --- what comes from the server
+
+  take(stations) {
+    const sound = this.bench.take(stations);
+    if (sound) this.tell({ ok: true, sound, text: `storage unit ${this.bench.told.shelf_id} is here` });
+    this.view.show();
+  }
+
+  link(state) {
+    this.view.showLink(state);
+    if (state !== 'away') this.outbox.hurry();
+    this.view.show();
+  }
+
+  /** What was kept here can't be booked: a person must know, in plain words. */
+  refused({ what, kind }, reason) {
+    const text = kind === 'undo' ? `${what} is not taken back: ${reason}` : `${what} is not booked: ${reason}`;
+    this.tell({ ok: false, sound: 'refused', text });
+  }
+
+  tell(result) {
+    this.sounds.play(result.sound);
+    this.view.say(result);
+  }
+
+  // --- what a person does
+
+  scan(code) {
+    if ($('question').open) return this.answer(code);
+    const { kind, name } = meaningOf(code, this.name, this.bench.stations);
+    if (kind !== 'command' || code === this.bench.task?.sku) return this.do(() => this.bench.scan(code));
+    const [short, damaged] = [PickOutcome.SHORT, PickOutcome.DAMAGED];
+    const acts = { ALL: () => this.confirm(true), UNDO: () => this.undo(), SHORT: () => this.writeOff(short), DAMAGED: () => this.writeOff(damaged) };
+    if (acts[name]) return acts[name]();
+    return this.tell({ ok: false, sound: 'refused', text: 'nothing is asked that has yes or no for an answer' });
+  }
+
+  /** A scanned YES or NO answers the question that is open. */
+  answer(code) {
+    const { name } = meaningOf(code, this.name, this.bench.stations);
+    if (name === 'YES' || name === 'NO') $(name === 'YES' ? 'question-yes' : 'question-no').click();
+    else this.tell({ ok: false, sound: 'refused', text: `${code}: answer the question first` });
+  }
+
+  /** Tells the result of act(), or why this device could not keep it. */
+  do(act) {
+    try {
+      this.tell(act());
+    } catch (error) {
+      this.tell({ ok: false, sound: 'refused', text: `this device can't keep it: ${error.message}` });
+    }
+    this.view.show();
+  }
+
+  confirm(isScanned = false) {
+    const { task } = this.bench;
+    if (!task || !(isScanned || this.view.isSettled)) return;
+    this.do(() => this.bench.confirm(isScanned ? task.quantity : this.view.pieces));
+  }
+
+  undo() {
+    this.do(() => this.bench.undo());
+  }
+
+  /** Asks before something is written off; at a picking station SHORT is for the whole bin. */
+  async writeOff(outcome) {
+    const { bench } = this, { task } = bench;
+    if (!task) return;
+    const isEmpty = outcome === PickOutcome.SHORT && bench.isPicking, pieces = this.view.pieces;
+    const booked = isEmpty ? await inBin(task).catch(() => null) : pieces;
+    const what = `${booked ?? 'all'} × ${task.sku}`, verb = bench.isPicking ? 'Write off' : 'Leave out';
+    const why = outcome === PickOutcome.DAMAGED ? 'Damaged' : isEmpty ? `Bin ${task.item} is empty` : 'Not there';
+    if (!await confirmed(`${why}?`, `${verb} ${what}, in bin ${task.item}.`, `${verb} ${what}`, 'Back')) return;
+    if (bench.task?.sequence !== task.sequence) return this.tell({ ok: false, sound: 'refused', text: `${task.sku} is no longer asked for` });
+    this.do(() => {
+      bench.report(task, outcome, isEmpty ? 0 : pieces);
+      return { ok: true, sound: 'done', text: `${what} in ${task.item}: written off` };
+    });
+  }
+
+  async switchMode() {
+    const { told } = this.bench;
+    const mode = told.mode === StationMode.MANUAL ? StationMode.AUTOMATIC : StationMode.MANUAL;
+    try {
+      await put(`/stations/${encodeURIComponent(this.name)}`, { open: told.open, mode });
+      this.view.say({ ok: true, text: '' });
+    } catch (error) {
+      this.tell({ ok: false, sound: 'refused', text: error.message });
+    }
+  }
+
+  mute(isMuted) {
+    this.sounds.mute(isMuted);
+    press($('sound'), !isMuted);
+  }
+}
+
+/** Pieces in a task's bin, by the books. */
+async function inBin({ sku, item }) {
+  const { places } = await get(`/stock?limit=1000&sku=${encodeURIComponent(sku)}`);
+  return places.find((place) => place.item === item)?.quantity ?? null;
+}
+
+stayAwake();
+window.page = new Page(decodeURIComponent(location.pathname.split('/')[2])); // for a look from the console

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws what a person at a station has to do. Its elements stay: the focus and a finger on its way find
+// what they aimed at.
+
+import { $ } from '../dom.js';
+import { StationMode } from '../message_enums.js';
+import { UnitDrawing } from './unit_drawing.js';
+import { Wall } from './wall.js';
+
+const LONG = 13; // characters of a SKU that may be broken into lines
+const SETTLES = 700; // what was drawn just now is not meant by a finger on its way [ms]
+
+export class View {
+  constructor(bench) {
+    Object.assign(this, { bench, shown: '', drawnAt: 0, pieces: 0, link: 'away' });
+    this.front = new UnitDrawing($('front'));
+    this.wall = new Wall($('wall'));
+    $('name').textContent = bench.name;
+    document.title = `${bench.name}: Kiva warehouse`;
+  }
+
+  /** Whether what is shown has been there long enough to be meant. */
+  get isSettled() {
+    return performance.now() - this.drawnAt > SETTLES;
+  }
+
+  show() {
+    const { bench } = this, { task, told } = bench;
+    $('unit').textContent = told?.shelf_id ? `storage unit ${told.shelf_id}` : '';
+    for (const id of ['take', 'buttons']) $(id).hidden = !task && !(id === 'buttons' && bench.undoable);
+    $('put').hidden = told?.mode !== StationMode.MANUAL || !bench.isPicking || !told.slots;
+    $('idle').hidden = Boolean(task);
+    $('work').dataset.shows = task ? bench.isPicking ? 'pick' : 'store' : 'idle';
+    $('undo').disabled = !bench.undoable;
+    if (task) this.showTask(task);
+    else this.showIdle();
+    this.showTotes(task);
+    this.showLink();
+  }
+
+  showTask(task) {
+    const { bench } = this, { sequence, sku, quantity, item } = task, { hand, placed } = bench.counted;
+    const key = JSON.stringify([sequence, quantity]);
+    if (key !== this.shown) Object.assign(this, { shown: key, drawnAt: performance.now(), pieces: quantity });
+    const isPicking = bench.isPicking;
+    put('amount', `${isPicking ? 'Take' : 'Put in'} ${quantity} ×`);
+    put('sku', sku);
+    $('sku').classList.toggle('long', sku.length > LONG);
+    put('bin', `${isPicking ? 'from' : 'into'} bin ${item}`);
+    put('progress', hand + placed ? `${hand + placed} of ${quantity} counted${placed ? `, ${placed} in the tote` : ''}` : '');
+    const more = bench.tasks.length - 1;
+    put('next', more ? `then ${more} more from this unit` : 'the last one of this unit');
+    this.front.show(bench.told.shelf_id, item, quantity);
+    this.showCount(task);
+  }
+
+  showCount({ quantity, tote }) {
+    const where = tote ? ` in tote ${tote}` : ' put in', { pieces } = this;
+    const all = quantity === 1 ? `1${where}` : `All ${quantity}${where}`;
+    put('confirm', pieces === quantity ? all : `${pieces} of ${quantity}${where}`);
+    put('count', pieces);
+    for (const id of ['confirm', 'short', 'damaged']) $(id).hidden = false;
+    $('confirm').parentElement.querySelector('.count').hidden = quantity === 1;
+    $('fewer').disabled = pieces <= 1;
+    $('more').disabled = pieces >= quantity;
+    $('confirm').disabled = !this.bench.isPicking && pieces !== quantity; // a bundle goes in whole
+  }
+
+  /** Changes how many pieces the buttons are about. */
+  step(by) {
+    const { task } = this.bench;
+    if (!task) return;
+    this.pieces = Math.max(1, Math.min(task.quantity, this.pieces + by));
+    this.showCount(task);
+  }
+
+  showIdle() {
+    const { bench } = this, { told } = bench;
+    this.shown = '';
+    for (const id of ['confirm', 'short', 'damaged']) $(id).hidden = true;
+    document.querySelector('#buttons .count').hidden = true;
+    const [text, more, button] = this.idle(told);
+    put('idle-text', text);
+    put('idle-more', more);
+    $('by-hand').hidden = !button;
+    put('by-hand', button);
+  }
+
+  /** [text, what to do, the button's text] where nothing is to be done. */
+  idle(told) {
+    const { bench, link } = this, kept = bench.outbox.entries.length;
+    if (!told) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];
+    if (told.mode !== StationMode.MANUAL) return [`${told.name} works automatically.`, '', 'Work manually'];
+    if (kept && link !== 'live') return ['All is done here.', 'The next storage unit comes when the network is back.', ''];
+    if (kept) return ['All is done here.', 'Telling the server …', ''];
+    const back = 'Back to automatic';
+    if (!told.open) return ['The station is closed.', '', back];
+    const { length: coming } = told.inbound;
+    if (!coming) return ['Nothing to be done.', 'No storage unit is on its way.', back];
+    return ['The next storage unit is on its way.', coming > 1 ? `${coming} are coming.` : '', back];
+  }
+
+  showTotes(task) {
+    put('tote', task?.tote ? `tote ${task.tote}` : 'no tote');
+    put('order', task?.reference ?? '');
+    $('put').dataset.lit = String(Boolean(task?.tote));
+    if (!$('put').hidden) this.wall.show(this.bench.totes, task?.quantity ?? 0);
+  }
+
+  showLink(link = this.link) {
+    this.link = link;
+    const { outbox } = this.bench, kept = outbox.entries.length, isStuck = kept > 0 && outbox.isStuck;
+    const isAway = link === 'away' || isStuck;
+    $('link').dataset.state = isAway ? 'away' : link;
+    const waiting = kept ? `: ${kept} kept here, nothing is lost` : '';
+    put('link', isAway ? `offline${waiting}` : link === 'idle' ? `no shift is running${waiting}` : 'live');
+  }
+
+  /** Tells what became of something; it stays until something else is told. */
+  say({ ok, text }) {
+    put('told', text);
+    $('told').dataset.kind = ok ? 'done' : 'refused';
+  }
+}
+
+/** Changes a text only where it is another one: a screen reader hears each change. */
+function put(id, text) {
+  if ($(id).textContent !== String(text)) $(id).textContent = text;
+}

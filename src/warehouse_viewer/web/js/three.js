@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page takes of three.js, as the module that its own modules import: the server tells this
+// file as /three/build/three.module.js, and index.html loads three.min.js before, which is half as large.
+
+export const {
+  Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
+  DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, Frustum, Group,
+  HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, LinearFilter,
+  LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
+  OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster,
+  RingBufferGeometry, Scene, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
+  Vector3, VertexColors, WebGLRenderer,
+} = window.THREE;

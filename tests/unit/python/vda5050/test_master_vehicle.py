@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A vehicle behind a broker takes the commands of this project."""
+
+from dataclasses import replace
+
+import pytest
+
+from warehouse_fleet.message_enums import FailureKind, Status
+from warehouse_fleet.message_enums import State as Does
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.master.commands import Cancel, Follow, Lift, Other, Stop
+from warehouse_vda5050.master.frame import Frame
+from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
+from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.master.shadow import shadow_of
+from warehouse_vda5050.model import (
+    ActionState,
+    ActionStatus,
+    AgvPosition,
+    ConnectionState,
+    Error,
+    ErrorLevel,
+    Header,
+    InstantActions,
+    Load,
+    NodeState,
+    OperatingMode,
+    Order,
+    State,
+)
+from warehouse_vda5050.topics import Identity
+
+GRID = Grid(-5, -5, 1.0, 20, 20)
+ROBOT = RemoteRobot(21, Identity("acme", "7"), action_parameters={"stationType": "floor-1"})
+WAY = ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0))
+
+
+class Bench:
+    """A RemoteVehicle, and what its vehicle tells."""
+
+    def __init__(self, robot=ROBOT):
+        self.vehicle = RemoteVehicle(robot, GRID, "run")
+        self.now = 0.0
+        self.state = State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
+        self.stamps = 0
+        self.vehicle.take_connection(ConnectionState.ONLINE, self.now)
+        self.tell()
+
+    def tell(self, **changes):
+        """What the vehicle tells, with those changes; it goes on being so."""
+        self.stamps += 1
+        self.state = replace(self.state, header=Header(timestamp=f"t{self.stamps:03}"), **changes)
+        self.vehicle.take_state(self.state, self.now)
+
+    def sent(self, wait=0.0):
+        self.now += wait
+        return self.vehicle.messages(self.now)
+
+    def order(self, wait=0.0):
+        (order,) = [one for one in self.sent(wait) if isinstance(one, Order)]
+        return order
+
+    def instants(self, wait=0.0):
+        messages = [one for one in self.sent(wait) if isinstance(one, InstantActions)]
+        return [action for message in messages for action in message.actions]
+
+    def events(self):
+        return [(event.kind.value, event.text) for event in self.vehicle.take_events()]
+
+    def take(self, order, at=0):
+        """The vehicle has an order, and is at the node of that sequence number."""
+        nodes = tuple(NodeState(n.id, n.sequence, n.released) for n in order.nodes if n.sequence > at)
+        self.tell(order_id=order.id, order_update=order.update, nodes=nodes, last_node_sequence=at)
+
+    def follow(self, released=2):
+        self.vehicle.command(Follow(9, 0, WAY, released))
+        order = self.order()
+        self.take(order)
+        return order
+
+    @property
+    def shadow(self):
+        return shadow_of(self.vehicle, self.now)
+
+
+@pytest.fixture
+def bench():
+    return Bench()
+
+
+def test_a_path_becomes_an_order(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    order = bench.order()
+    assert [(n.id, n.sequence, n.released) for n in order.nodes] == [
+        ("c5_5", 0, True),
+        ("c6_5", 2, True),
+        ("c7_5", 4, False),
+        ("c7_6", 6, False),
+    ]
+    assert [(e.sequence, e.start, e.end, e.released) for e in order.edges] == [
+        (1, "c5_5", "c6_5", True),
+        (3, "c6_5", "c7_5", False),
+        (5, "c7_5", "c7_6", False),
+    ]
+    assert bench.events() == [("ACCEPTED", "follow path 9")]
+    assert (bench.shadow.status, bench.shadow.path_id) == (Status.BUSY, 9)
+
+
+def test_more_released_is_stitched_at_the_last_released_node(bench):
+    first = bench.follow()
+    bench.vehicle.command(Follow(9, 0, (), 3))
+    bench.vehicle.command(Follow(9, 0, (), 4))  # both go together
+    order = bench.order()
+    assert (order.id, order.update) == (first.id, 1)
+    assert [(n.id, n.sequence, n.released) for n in order.nodes] == [
+        ("c6_5", 2, True),
+        ("c7_5", 4, True),
+        ("c7_6", 6, True),
+    ]
+
+
+def test_changes_wait_until_the_vehicle_has_the_last_order(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    order = bench.order()
+    bench.vehicle.command(Follow(9, 0, (), 3))
+    assert bench.sent() == []
+    bench.take(order)
+    assert bench.order().update == 1
+
+
+def test_an_order_is_resent_as_it_was(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    order = bench.order()
+    bench.vehicle.command(Follow(9, 0, (), 3))
+    assert bench.sent(1.0) == []
+    assert bench.order(1.5) == order
+
+
+def test_an_order_that_is_never_taken_is_refused(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    asked = []
+    for _ in range(15):
+        asked = bench.instants(2.5) or asked
+    assert bench.events()[-1] == ("REFUSED", "the vehicle does not tell that it has the order")
+    cancel = asked[-1]
+    assert cancel.type == "cancelOrder"  # it may have the order all the same
+    bench.tell(actions=(ActionState(cancel.id, "cancelOrder", ActionStatus.FAILED),))
+    assert bench.shadow.status == Status.IDLE
+
+
+def test_how_far_it_has_come(bench):
+    order = bench.follow(4)
+    bench.take(order, at=4)
+    assert (bench.shadow.reached, bench.shadow.left) == (3, 2)
+    bench.take(order, at=6)
+    assert bench.events()[-1] == ("DONE", "done: follow path 9")
+    assert (bench.shadow.reached, bench.shadow.status) == (4, Status.IDLE)
+
+
+def test_it_waits_at_the_end_of_what_is_released(bench):
+    order = bench.follow(2)
+    bench.take(order, at=2)
+    assert (bench.shadow.state, bench.shadow.reached) == (Does.WAITING, 2)
+    assert bench.events() == [("ACCEPTED", "follow path 9")]
+
+
+@pytest.mark.parametrize(
+    ("command", "why"),
+    [
+        (Follow(9, 0, (), 1), "none can be taken back"),
+        (Follow(9, 1, ((1.0, 0.0),), 3), "2 of 4 are released"),
+        (Follow(9, 0, (), 5), "5 of 4 points"),
+        (Follow(8, 0, WAY, 2), "not idle"),
+        (Lift(True, 3), "not idle"),
+        (Other("turns"), "no turns"),
+    ],
+)
+def test_what_can_not_be_said_is_refused(bench, command, why):
+    bench.follow()
+    bench.events()
+    bench.vehicle.command(command)
+    ((kind, text),) = bench.events()
+    assert kind == "REFUSED"
+    assert why in text
+    assert bench.sent() == []
+
+
+def test_a_refused_update_leaves_what_the_vehicle_has(bench):
+    bench.follow(2)
+    bench.vehicle.command(Follow(9, 0, (), 4))
+    order = bench.order()
+    error = Error("orderUpdateError", description="no", references=(("orderId", order.id),))
+    bench.tell(errors=(error,))
+    assert bench.events()[-1] == ("REFUSED", "orderUpdateError: no")
+    bench.tell(errors=())
+    bench.vehicle.command(Follow(9, 0, (), 3))
+    again = bench.order()
+    assert (again.update, again.nodes[0].id, len(again.base)) == (1, "c6_5", 2)
+
+
+def test_a_refused_order_is_over(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    order = bench.order()
+    references = (("orderId", order.id), ("orderUpdateId", "0"))
+    bench.tell(errors=(Error("noRouteError", description="far", references=references),))
+    assert bench.events()[-1] == ("REFUSED", "noRouteError: far")
+    assert bench.shadow.status == Status.IDLE
+
+
+def lift(bench, up=True):
+    bench.vehicle.command(Lift(up, 12))
+    order = bench.order()
+    (action,) = order.nodes[0].actions
+    bench.take(order)
+    return action
+
+
+def test_it_takes_up_and_puts_down(bench):
+    action = lift(bench)
+    assert (action.type, action.blocking.value) == ("pick", "HARD")
+    assert action.parameter("loadId") == "storage_unit12"
+    assert action.parameter("stationType") == "floor-1"
+    bench.tell(actions=(ActionState(action.id, "pick", ActionStatus.RUNNING),))
+    assert (bench.shadow.state, bench.shadow.shelf_id) == (Does.LIFTING, 0)
+    bench.tell(actions=(ActionState(action.id, "pick", ActionStatus.FINISHED),))
+    assert bench.shadow.shelf_id == 12
+    assert [kind for kind, _ in bench.events()] == ["ACCEPTED", "LIFTED", "DONE"]
+    drop = lift(bench, up=False)
+    bench.tell(actions=(ActionState(drop.id, "drop", ActionStatus.FINISHED),))
+    assert bench.shadow.shelf_id == 0
+
+
+def test_a_lift_that_fails_is_blocked(bench):
+    action = lift(bench)
+    bench.tell(actions=(ActionState(action.id, "pick", ActionStatus.FAILED, "stuck"),))
+    assert bench.events()[-1] == ("BLOCKED", "stuck")
+    assert bench.shadow.shelf_id == 0
+
+
+def test_a_cancelled_path_is_done(bench):
+    bench.follow(4)
+    bench.vehicle.command(Cancel())
+    (action,) = bench.instants()
+    assert action.type == "cancelOrder"
+    assert bench.instants(2.5) == [action]  # until it is answered
+    bench.tell(nodes=(), actions=(ActionState(action.id, "cancelOrder", ActionStatus.FINISHED),))
+    assert bench.events()[-1] == ("DONE", "cancelled")
+    assert bench.instants(2.5) == []
+
+
+def test_a_state_from_before_ends_no_cancelled_path(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    bench.sent()
+    bench.vehicle.command(Cancel())
+    bench.tell()
+    assert bench.events() == [("ACCEPTED", "follow path 9")]
+
+
+def test_stop_and_go_on(bench):
+    bench.vehicle.command(Stop(True))
+    assert [one.type for one in bench.instants()] == ["startPause"]
+    bench.vehicle.command(Stop(False))
+    assert [one.type for one in bench.instants()] == ["stopPause"]
+
+
+def test_an_order_of_an_earlier_run_is_cancelled(bench):
+    bench.tell(order_id="old", nodes=(NodeState("c9_9", 2, True),))
+    (action,) = bench.instants()
+    assert action.type == "cancelOrder"
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    assert bench.events() == [("REFUSED", "it is not idle")]
+    bench.tell(nodes=(), actions=(ActionState(action.id, "cancelOrder", ActionStatus.FINISHED),))
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    assert bench.events() == [("ACCEPTED", "follow path 9")]
+
+
+@pytest.mark.parametrize(
+    ("state", "why"),
+    [
+        ({"mode": OperatingMode.MANUAL}, "operating mode is MANUAL"),
+        ({"position": AgvPosition(0, 0, 0, initialized=False)}, "does not know where it is"),
+        ({"position": AgvPosition(3, 0, 0)}, "it stands at 3.00, 0.00"),
+    ],
+)
+def test_a_vehicle_that_can_not_is_given_no_order(bench, state, why):
+    bench.tell(**state)
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    ((kind, text),) = bench.events()
+    assert kind == "REFUSED"
+    assert why in text
+
+
+def test_a_silent_vehicle_is_not_heard(bench):
+    radio = 1 << FailureKind.RADIO_LOST
+    assert bench.shadow.failures == 0
+    bench.now = 60
+    assert bench.shadow.failures == radio
+    bench.tell()
+    assert bench.shadow.failures == 0
+    bench.vehicle.take_connection(ConnectionState.CONNECTIONBROKEN, bench.now)
+    assert bench.shadow.failures == radio
+    assert bench.sent() == []
+
+
+def test_a_fatal_error_is_a_broken_drive(bench):
+    bench.tell(errors=(Error("motorError", ErrorLevel.FATAL),))
+    assert bench.shadow.failures == 1 << FailureKind.MOTOR
+
+
+def test_an_older_state_is_dropped(bench):
+    bench.tell(position=AgvPosition(1, 0, 0))
+    bench.vehicle.take_state(State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0")), 0)
+    assert bench.shadow.x == 1
+
+
+def test_a_load_that_it_tells_is_believed(bench):
+    bench.tell(loads=(Load("storage_unit5"),))
+    assert bench.shadow.shelf_id == 5
+    bench.tell(loads=())
+    assert bench.shadow.shelf_id == 0
+
+
+def test_a_person_ahead_blocks_it(bench):
+    bench.follow(4)
+    bench.tell(field_violation=True)
+    assert (bench.shadow.status, bench.shadow.state) == (Status.BLOCKED, Does.BLOCKED)
+
+
+def test_its_map_may_lie_anywhere():
+    bench = Bench(replace(ROBOT, frame=Frame(4.0, 2.0, 1.5707963267948966)))
+    shadow = bench.shadow
+    assert (shadow.x, shadow.y) == (4.0, 2.0)
+    assert shadow.yaw == pytest.approx(1.5708, abs=1e-4)
+    bench.vehicle.command(Follow(9, 0, ((4.0, 2.0), (4.0, 3.0)), 2))
+    node = bench.order().nodes[1]
+    assert node.id == "c9_8"
+    assert (node.position.x, node.position.y) == pytest.approx((1.0, 0.0))
+
+
+def test_kinds_of_events_are_those_of_the_messages():
+    assert {kind.value for kind in EventKind} <= {kind.name for kind in _event_kinds()}
+
+
+def _event_kinds():
+    from warehouse_fleet.message_enums import EventKind as Kinds  # noqa: PLC0415
+
+    return Kinds
