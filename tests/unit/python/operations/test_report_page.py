@@ -15,8 +15,9 @@ import pytest
 from browser import browser
 from instance_file import write_instance
 
+from warehouse_layout import page_font
 from warehouse_operations import report
-from warehouse_operations.document import canvas, inter, page, sheets, tokens
+from warehouse_operations.document import canvas, page, sheets, tokens
 from warehouse_operations.simulation import Description, simulate
 
 DESIGN = paths.ROOT / "src" / "warehouse_viewer" / "web" / "design.css"
@@ -130,14 +131,14 @@ def test_what_is_told_is_no_markup():
 
 
 def test_a_report_without_the_font_is_a_report(monkeypatch, tmp_path):
-    monkeypatch.setattr(inter, "FONT", tmp_path / "no.ttf")
-    inter.face.cache_clear()
-    inter.woff2.cache_clear()
+    monkeypatch.setattr(page_font, "FONT", tmp_path / "no.ttf")
+    page_font.face.cache_clear()
+    page_font.woff2.cache_clear()
     try:
         assert "@font-face" not in page.document("", "", "", "", "")
     finally:
-        inter.face.cache_clear()
-    assert not inter.FONT.exists()
+        page_font.face.cache_clear()
+    assert not page_font.FONT.exists()
 
 
 def test_a_workbook_has_the_figures(runs, file):

@@ -14,7 +14,8 @@ from matplotlib import font_manager
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from warehouse_operations.document import inter, tokens
+from warehouse_layout import page_font
+from warehouse_operations.document import tokens
 
 WIDE, NARROW = 680, 350  # [px]
 SMALL = 12  # size of type [px]
@@ -150,8 +151,8 @@ def _top(group: Sequence[float], least: float) -> float:
 def _look() -> dict[str, Any]:
     """Returns how matplotlib draws; where Inter is not installed, in the font that it has."""
     manager = font_manager.fontManager
-    if inter.FONT.exists() and not any(font.name == "Inter" for font in manager.ttflist):
-        manager.addfont(str(inter.FONT))
+    if page_font.FONT.exists() and not any(font.name == "Inter" for font in manager.ttflist):
+        manager.addfont(str(page_font.FONT))
     has_inter = any(font.name == "Inter" for font in manager.ttflist)
     return _LOOK | {"font.family": ["Inter", "DejaVu Sans"][not has_inter :]}
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a report looks: on a screen of any width, dark and light, and on A4."""
 
-from warehouse_operations.document import inter, tokens
+from warehouse_layout import page_font
+from warehouse_operations.document import tokens
 
 NARROW = 620  # [px] below which charts are drawn narrow
 STYLE = f"""
@@ -93,4 +94,4 @@ details table {{ color: var(--text); }}
 
 def css() -> str:
     """Returns the style of a report: its colours, its font and how it is laid out."""
-    return tokens.css() + inter.face() + STYLE
+    return tokens.css() + page_font.face() + STYLE

@@ -4,13 +4,13 @@
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-from warehouse_operations.document import inter
+from warehouse_layout import page_font
 
 CACHED = "private, max-age=604800"
 
 
 def serve(_: Request) -> Response:
     """Answers with the font as WOFF2; 404 where it is not installed: the system's is taken."""
-    if not inter.FONT.exists():
-        return PlainTextResponse(f"no {inter.FONT}", 404)
-    return Response(inter.woff2(), media_type="font/woff2", headers={"cache-control": CACHED})
+    if not page_font.FONT.exists():
+        return PlainTextResponse(f"no {page_font.FONT}", 404)
+    return Response(page_font.woff2(), media_type="font/woff2", headers={"cache-control": CACHED})
