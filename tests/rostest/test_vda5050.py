@@ -44,13 +44,13 @@ class Vehicles(unittest.TestCase):
         self.assertEqual((told.order[0], told.errors[0]), ("", ""))
 
     def test_2_lost_radio_is_a_broken_connection(self):
-        call("/warehouse/fail", Fail, kiva_id=1, kind=4, repair_time=0.0)
+        call("/warehouse/fail", Fail, 1, 4, 0.0)
         self.master.until(lambda: self.master.online.get(ROBOT) is False, 30, "the will")
-        call("/warehouse/fail", Fail, kiva_id=1, kind=0, repair_time=0.0)
+        call("/warehouse/fail", Fail, 1, 0, 0.0)
         self.master.until(lambda: self.master.online.get(ROBOT), 30, "the robot")
 
     def test_3_broken_drive_is_told(self):
-        call("/warehouse/fail", Fail, kiva_id=1, kind=1, repair_time=0.0)
+        call("/warehouse/fail", Fail, 1, 1, 0.0)
 
         def types():
             return {error.type for error in self.master.states[ROBOT].errors}
