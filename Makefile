@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench wheel lint tidy format install clean
+.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -34,6 +34,9 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@echo "watch it: http://localhost:8080 and http://localhost:8080/operations   its figures: rostopic echo /warehouse/kpis"
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
+vda5050: build  ## a broker, robots as vehicles, and a master that lets one fetch a unit (VDA 5050)
+	@scripts/vda5050 $(ARGS)
+
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
 # their tests are skipped, and say so.
 test: deps  ## build and run every test; make test ARGS="-L unit" only those
@@ -43,6 +46,7 @@ test: deps  ## build and run every test; make test ARGS="-L unit" only those
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
 	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
+	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py; \
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
@@ -53,6 +57,9 @@ test-wheel: wheel  ## use the wheel in an environment with nothing else, with St
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)
+
+test-vda5050: build  ## let masters of other makers drive robots over VDA 5050; from PyPI and npm
+	@scripts/test-vda5050 $(ARGS)
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers

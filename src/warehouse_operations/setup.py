@@ -4,5 +4,10 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-names = ("warehouse_operations", "warehouse_operations.policies", "warehouse_operations.sizing")
+names = (
+    "warehouse_operations",
+    "warehouse_operations.document",
+    "warehouse_operations.policies",
+    "warehouse_operations.sizing",
+)
 setup(**generate_distutils_setup(packages=list(names), package_dir={"": "python"}))

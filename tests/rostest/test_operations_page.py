@@ -46,7 +46,9 @@ class OperationsPage(WorkPageTest):
         self.assertIn("ARRIVED", {transport["state"] for transport in seen["transports"]})
         self.assertTrue(seen["stations"])
         self.page.until(f"({ROW.format('page-1')})?.includes('done')")
-        self.page.until("document.querySelectorAll('#chart-picked rect').length > 0")
+        self.page.until("page.chart.plot.chart?.data.datasets[0].data.length > 0")
+        self.page.until("document.querySelectorAll('.figure .value').length === 4")
+        self.page.until("page.gantt.rows.length === 7 && page.gantt.frames > 0")
         self.page.until("document.getElementById('robots-legend').textContent.length > 0")
 
     async def follow(self, reference):
@@ -161,7 +163,38 @@ class OperationsPage(WorkPageTest):
         self.page.click_on("heat")
         self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")
 
-    def test_6_prometheus_gets_the_same_figures(self):
+    def test_6_orders_are_typed_in_and_uploaded_and_alarms_are_seen(self):
+        self.page.open(f"{address()}operations")
+        self.page.until("page.orders.total > 0 && page.kpis")
+        self.page.click_on("new-order")
+        self.page.type("typed-1", "entry-reference")
+        self.page.read("document.querySelector('#entry-lines input').focus()")
+        self.page.type("no-such-sku\n")
+        self.page.until(
+            "document.querySelector('.entry-lines .fault')?.textContent.includes('no-such-sku')"
+        )
+        self.page.read("(document.querySelector('#entry-lines input').value = 'sku-2')")
+        self.page.read("document.getElementById('entry-form').requestSubmit()")
+        self.page.until("!document.getElementById('entry').open")
+        self.page.type("typed-1", "search")
+        self.page.until(ROW.format("typed-1"))
+        upload = "page.upload.check(new File([{}], 'orders.csv'))"
+        wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
+        self.page.read(upload.format(json.dumps(wrong)))
+        self.page.until(
+            "document.querySelector('#sheet-faults tbody').textContent.startsWith('3quantity')"
+        )
+        self.assertEqual(ask("/orders?search=up-1")[1]["total"], 0)
+        self.page.read("document.getElementById('sheet').close()")
+        self.page.read(upload.format(json.dumps(wrong.replace("none", "2"))))
+        self.click("#sheet-yes:not([hidden])")
+        self.page.until("!document.getElementById('sheet').open")
+        self.assertEqual(ask("/orders?search=up-")[1]["total"], 2)
+        status, sheet = fetch("api/v1/orders.csv?search=up-2")
+        self.assertEqual((status, sheet.decode("utf-8-sig").count("up-2")), (200, 1))
+        self.assertEqual(fetch("api/v1/orders.xlsx?search=up-2")[1][:2], b"PK")
+
+    def test_7_prometheus_gets_the_same_figures(self):
         status, text = fetch("metrics")
         families = text_string_to_metric_families(text.decode())
         told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}

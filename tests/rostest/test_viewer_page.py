@@ -77,7 +77,7 @@ class ViewerPage(PageTest):
 
     def test_a_processor_that_draws_gets_time_for_other_things(self):
         self.page.until("page.stage.pace.cost > 0")
-        self.page.until("page.stage.pace.gap >= Math.min(500, 5.9 * page.stage.pace.cost)")
+        self.page.until("page.stage.pace.gap >= Math.min(500, 1.4 * page.stage.pace.cost)")
         self.page.until("page.connection.gap > 0")  # it wants no more updates than it shows
 
     def test_nothing_is_drawn_where_nothing_changes(self):
@@ -161,11 +161,49 @@ class ViewerPage(PageTest):
     def test_space_presses_what_the_tab_key_reached(self):
         self.page.click_on("search")
         self.page.type(Keys.TAB * 2)
-        self.assertEqual(self.page.read("document.activeElement.dataset.filter"), "2")
+        self.assertEqual(self.page.read("document.activeElement.dataset.filter"), "4")
         self.page.type(Keys.SPACE)
-        self.page.until("page.list.filter === '2'")
+        self.page.until("page.list.filter === '4'")
         self.page.read("page.list.setFilter('')")
         self.page.read("document.activeElement.blur()")
+
+    def test_the_picture_goes_by_keys(self):
+        self.page.read("page.stage.canvas.focus()")
+        chosen = set()
+        for key in (Keys.ARROW_RIGHT, Keys.ARROW_LEFT, Keys.ARROW_UP, Keys.ARROW_DOWN):
+            self.page.type([key])
+            chosen.add(self.page.read("page.selected"))
+            self.assertIn(self.page.read("page.selected"), self.page.text("spoken"))
+        self.assertGreater(len(chosen), 1)
+        self.page.until("page.overlays.ring.visible")
+        self.page.type(Keys.ENTER)
+        self.page.until("!page.navigator.flight")
+        centre = "page.stage.controls.target.distanceTo(page.overlays.ring.position)"
+        self.page.until(f"{centre} < 0.5")
+        self.page.type("h")
+
+    def test_above_lies_as_all_does(self):
+        for view in ("h", "t"):
+            self.page.type(view)
+            left, right = self.page.pixel(*FLOOR[:1], 0), self.page.pixel(FLOOR[1], 0)
+            low, high = self.page.pixel(0, FLOOR[2]), self.page.pixel(0, FLOOR[3])
+            self.assertTrue(left[0] < right[0] and high[1] < low[1], view)
+        self.assertTrue(self.page.read("page.stage.camera.isOrthographicCamera"))
+        x, y, _ = place("kiva2")
+        self.page.click(x, y, 0.4)
+        self.page.until("page.selected === 'kiva2'")
+        self.page.type("h")
+
+    def test_drawers_are_as_one_left_them(self):
+        self.page.read("page.drawers.open('log-panel')")
+        self.page.type("1")
+        self.page.until("!page.drawers.isOpen('list-panel')")
+        self.page.read("location.reload()")
+        self.page.until(self.ready)
+        self.assertTrue(self.page.read("page.drawers.isOpen('log-panel')"))
+        self.assertFalse(self.page.read("page.drawers.isOpen('list-panel')"))
+        self.page.type("14")
+        self.page.until("page.drawers.isOpen('list-panel') && !page.drawers.isOpen('log-panel')")
 
     # --- clicks
     def test_an_aisle_behind_units_can_be_clicked(self):
@@ -196,6 +234,27 @@ class ViewerPage(PageTest):
     # --- the simulation
     def until_link(self, state):
         self.page.until(f"document.getElementById('link').dataset.state === '{state}'")
+
+    def test_the_past_is_seen_while_the_simulation_goes_on(self):
+        self.page.until("!document.getElementById('timeline').hidden")
+        then, before = self.page.read("page.world.stamp"), self.drawn(2)
+        Robot(2).do("/movx", distance=-1.0)
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
+        # Back by the keyboard, as far as the moment before.
+        self.page.driver.find_element("id", "replay-track").send_keys(Keys.ARROW_LEFT)
+        self.page.until("document.body.classList.contains('replaying')")
+        self.page.read(f"(location.hash = 't={then}', 1)")
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0]}) < 0.01")
+        self.assertEqual(self.page.read("page.timeline.player.time"), then)
+        self.assertIn("back to Live first", self.page.read("document.getElementById('pause').title"))
+        self.assertAlmostEqual(place("kiva2")[0], before[0] - 1, places=3)
+        self.page.click_on("replay-play")
+        self.page.until(f"page.world.stamp > {then} + 0.5")
+        self.page.click_on("replay-live")
+        self.until_link("live")
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
+        self.page.until("!document.getElementById('pause').disabled")
+        Robot(2).do("/movx", distance=1.0)
 
     def test_pauses(self):
         self.page.click_on("pause")

@@ -3,11 +3,15 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ratesOf, ticksOf } from '../../../src/warehouse_viewer/web/js/chart.js';
+import { verdict } from '../../../src/warehouse_viewer/web/js/figures.js';
 import { coloursOf } from '../../../src/warehouse_viewer/web/js/heat.js';
 import { topOf } from '../../../src/warehouse_viewer/web/js/heat_scale.js';
+import { whole } from '../../../src/warehouse_viewer/web/js/order_entry.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
-import { waitingOf } from '../../../src/warehouse_viewer/web/js/stations.js';
+import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
+import { waitingOf, waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
+import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
+import { clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
 
 test('rates are of the time that an interval really had', () => {
@@ -19,11 +23,41 @@ test('rates are of the time that an interval really had', () => {
   assert.equal(ratesOf({ ...told, end: 185 }, [1, 3, 2]).length, 2);
 });
 
-test('an axis has a few round numbers', () => {
-  assert.deepEqual(ticksOf(828), [0, 200, 400, 600, 800]);
-  assert.deepEqual(ticksOf(1000), [0, 200, 400, 600, 800, 1000]);
-  assert.deepEqual(ticksOf(400), [0, 100, 200, 300, 400]);
-  assert.deepEqual(ticksOf(1.15), [0, 0.5, 1]);
+test('points of a chart lie in the middle of their intervals, in minutes before now', () => {
+  const told = { interval: 60, begin: 60, end: 180 };
+  assert.deepEqual(pointsOf(told, [1, 2]), [{ x: -1.5, y: 60 }, { x: -0.5, y: 120 }]);
+  assert.deepEqual(smoothed([0, 1, 2, 3, 4, 5].map((x) => ({ x, y: x }))).map(({ y }) => y), [0, 0.5, 1, 1.5, 2, 3]);
+});
+
+test('a figure is judged by its target', () => {
+  assert.deepEqual(verdict({ value: 99, target: 100 })[0], 'good');
+  assert.deepEqual(verdict({ value: 92, target: 100 })[0], 'near');
+  assert.deepEqual(verdict({ value: 80, target: 100 })[0], 'missed');
+  assert.deepEqual(verdict({ value: 5, target: 0 }), ['', '']);
+  assert.deepEqual([0.02, 0.03, 0.05].map((value) => verdict({ value, target: 0.02 }, true)[0]), ['good', 'near', 'missed']);
+});
+
+test('spans of time are told in words', () => {
+  assert.deepEqual([40, 99.6, 720, 3900].map(lasting), ['40 s', '2 min', '12 min', '1 h 5 min']);
+  assert.equal(clock(3723), '1:02:03');
+});
+
+test('a row of a station tells who waits for whom', () => {
+  const none = { waiting: 0, shelf_id: 0, since: 10, queue: [], activity: 'RESTING', open: true, orders: [] };
+  assert.deepEqual(waitsOf(none, 50), ['', '']);
+  assert.deepEqual(waitsOf({ ...none, shelf_id: 4 }, 50), ['unit 4 is there, for 40 s', '']);
+  assert.deepEqual(waitsOf({ ...none, shelf_id: 4, waiting: 180 }, 50), ['unit 4 has waited for a person for 3 min', 'is-bad']);
+  assert.deepEqual(waitsOf({ ...none, queue: [{ unit: 7 }], activity: 'WAITING' }, 100), ['waits for unit 7, for 90 s', 'is-long']);
+  assert.deepEqual(waitsOf({ ...none, orders: [1] }, 50), ['waits for a unit, for 40 s', '']);
+});
+
+test('a typed number is whole and within its bounds, or says what was expected', () => {
+  assert.equal(whole(' 12 ', 1, 255), 12);
+  for (const text of ['', '1.5', '-1', '256', 'two', '1e2']) assert.throws(() => whole(text, 1, 255), /from 1 to 255 was expected/);
+});
+
+test('a table of orders is told by its size', () => {
+  assert.equal(sizeOf({ orders: 1, lines: 2, pieces: 1200 }), '1 order, 2 lines, 1,200 pieces');
 });
 
 test('a station that a person leaves alone says so, by the minute', () => {

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
-import { HURRIED, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/pace.js';
+import { HURRIED, MOST, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/pace.js';
 
 let now, told, pace;
 
@@ -49,4 +49,13 @@ test('one late picture does not slow the next ones down', async () => {
   await draw(80);
   for (let i = 0; i < 9; ++i) await draw(8);
   assert.ok(await draw(8) < 60);
+});
+
+test('pictures come more often while the simulation keeps its speed, and seldom when it falls behind', async () => {
+  for (let i = 0; i < 20; ++i) pace.yieldTo(0.99, 1);
+  assert.ok(Math.abs(await draw(40) - 40 / MOST) < 1);
+  for (let i = 0; i < 3; ++i) pace.yieldTo(0.8, 1);
+  assert.ok(Math.abs(await draw(40) - 40 / SHARE) < 1);
+  pace.yieldTo(30, 0); // as fast as it can
+  assert.ok(Math.abs(await draw(40) - 40 / SHARE) < 1);
 });

@@ -42,10 +42,10 @@ function benchWith(send = () => new Promise(() => {}), storage = new Storage()) 
   return { bench, outbox, storage };
 }
 
+const meaning = (code) => meaningOf(code, 'pick1', ['pick1', 'pick2']);
 const settled = () => new Promise((resolve) => { setTimeout(resolve, 20); });
 
 test('a code is a tote of this station or of another one, a button, or goods', () => {
-  const meaning = (code) => meaningOf(code, 'pick1', ['pick1', 'pick2']);
   for (const code of ['T05', 't5', 'pick1-5', 'PICK1-05']) assert.deepEqual(meaning(code), { kind: 'tote', position: 5 });
   assert.equal(meaning('pick2-5').kind, 'other tote');
   assert.equal(meaning('sku-5').kind, 'sku');

@@ -13,8 +13,8 @@ const offered = text('three.js').match(/export const \{([^}]*)\}/)[1].split(',')
 
 test('the module offers what the page and the controls use, and nothing that is not there', () => {
   const used = new Set();
-  for (const file of readdirSync(FOLDER, { recursive: true }).filter((file) => file.endsWith('.js'))) {
-    for (const [, what] of text(file).matchAll(/THREE\.([A-Z]\w+)/g)) used.add(what);
+  for (const path of readdirSync(FOLDER, { recursive: true }).filter((file) => file.endsWith('.js'))) {
+    for (const [, what] of text(path).matchAll(/THREE\.([A-Z]\w+)/g)) used.add(what);
   }
   const [, controls] = readFileSync(CONTROLS, 'utf8').match(/import \{([^}]*)\} from "..\/..\/..\/build/);
   for (const name of controls.split(',')) used.add(name.trim());

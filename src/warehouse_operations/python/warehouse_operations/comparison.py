@@ -179,6 +179,8 @@ def _word(key: str, value: Any) -> str:
     name = key.rpartition(".")[2]
     if name == "physics":
         return "physics" if value else "ideal robots"
+    if name == "seconds":
+        return f"{value / 60:g} min"
     if isinstance(value, dict):
         options = ", ".join(f"{k} {v}" for k, v in value.items() if k != "name")
         value = f"{value['name']} ({options})" if options else value["name"]

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
+ASKED = 16  # cycles after which the progress is told: those of a large world take seconds
 
 
 class Operations:
@@ -123,7 +124,7 @@ class Operations:
             self.driven_m[int(self.shift.now // kpis.INTERVAL)] = self.fleet.distance_m
             observe(self)
             count += 1
-            if progress and count % 256 == 0 and progress(self):
+            if progress and count % ASKED == 0 and progress(self):
                 break
         self.wall_s += clock.monotonic() - began
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows the progress of a shift on one line of a terminal; elsewhere as a line now and then."""
+"""Shows the progress of a shift on one line of a terminal; elsewhere as a line now and then, and to
+programs as lines of JSON."""
 
+import json
 import sys
 import time
 from collections.abc import Callable
@@ -53,6 +55,32 @@ class ProgressBar:
             f"{hourly:,.0f} pieces/h, {ops.time / max(wall, 1e-9):,.1f} x real time"
         )
         self._stream.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
+        self._stream.flush()
+
+
+class ProgressLines(ProgressBar):
+    """Tells programs how far a shift is: {time, of [simulated s], pieces, wall_s}, a line each."""
+
+    PERIOD = 0.5  # [s, wall]
+
+    def __init__(
+        self,
+        seconds: float,
+        stream: TextIO = sys.stderr,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__(seconds, stream, clock)
+        self._period = self.PERIOD
+        self._next = self._began + self._period
+
+    def _show(self, ops: "Operations", wall: float) -> None:
+        told = {
+            "time": round(ops.time, 1),
+            "of": self._seconds,
+            "pieces": ops.shift.tally.items_picked,
+            "wall_s": round(wall, 2),
+        }
+        self._stream.write(json.dumps(told) + "\n")
         self._stream.flush()
 
 

@@ -84,7 +84,7 @@ def find_stock(
 
 
 def matching(names: Iterable[str], search: str) -> list[str]:
-    """Returns the names that contain a text: those that begin with it first, sku-2 before sku-10."""
+    """Returns the names with a text in them: those that begin with it first, sku-2 before sku-10."""
     text = search.casefold()
     found = [name for name in names if text in name.casefold()]
     return sorted(found, key=lambda name: (not name.casefold().startswith(text), _natural(name)))
@@ -93,5 +93,6 @@ def matching(names: Iterable[str], search: str) -> list[str]:
 def _natural(name: str) -> list[tuple[int, str]]:
     """What orders names with numbers as people do."""
     return [
-        (int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", name)
+        (int(part), "") if part.isdecimal() else (-1, part)
+        for part in re.split(r"(\d+)", name.casefold())
     ]

@@ -1,28 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report's figures as CSV, for a spreadsheet: links that hold their file themselves."""
+"""The report's figures as tables for a spreadsheet."""
 
-import base64
-import csv
-import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from warehouse_operations.comparison import Group, value_of
+from warehouse_operations.document.sheets import Rows
+from warehouse_operations.report_figures import ROWS
 from warehouse_operations.runs import Run
 
 Row = Sequence[Any]
 
 
-def links(groups: Sequence[Group], names: Iterable[str]) -> str:
-    """Returns HTML links to CSV files: figures (those of `names`), throughput and stations."""
+def tables(groups: Sequence[Group]) -> dict[str, Rows]:
+    """Returns the tables by name: figures, throughput and stations of all runs."""
     runs = [(group.label, run) for group in groups for run in group.runs]
-    files = {
-        "figures.csv": figures(runs, list(names)),
-        "throughput.csv": throughput(runs),
-        "stations.csv": stations(runs),
+    return {
+        "figures": list(figures(runs, [name for name, *_ in ROWS])),
+        "throughput": list(throughput(runs)),
+        "stations": list(stations(runs)),
     }
-    text = " ".join(_link(name, rows) for name, rows in files.items())
-    return f'<p class="export">For a spreadsheet: {text}</p>'
 
 
 def figures(runs: Sequence[tuple[str, Run]], names: Sequence[str]) -> Iterator[Row]:
@@ -49,10 +46,3 @@ def stations(runs: Sequence[tuple[str, Run]]) -> Iterator[Row]:
     for label, run in runs:
         for station in run.data["stations"]:
             yield label, run.seed, *(station[column] for column in columns)
-
-
-def _link(name: str, rows: Iterable[Row]) -> str:
-    file = io.StringIO()
-    csv.writer(file, lineterminator="\n").writerows(rows)
-    content = base64.b64encode(file.getvalue().encode()).decode()
-    return f'<a download="{name}" href="data:text/csv;base64,{content}">{name}</a>'

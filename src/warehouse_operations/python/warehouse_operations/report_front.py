@@ -1,28 +1,46 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report's first page: what a shift came to, what limits it, and on which assumptions."""
+"""The report's first sheet: what a shift came to, what limits it, and on which assumptions."""
 
-from collections.abc import Iterator
-from html import escape
+from collections.abc import Iterator, Sequence
+from datetime import date
 from typing import Any
 
+from warehouse_operations import charts
 from warehouse_operations.comparison import Group
+from warehouse_operations.document import page
+from warehouse_operations.report_figures import number
+from warehouse_operations.runs import Run
 
 SATURATED = 0.95  # of the stations' upper bound: they are what limits
 IDLE = 0.15  # of the robots' time: they lack work
 HELD_UP = 1.15  # driven over planned time: traffic holds robots up
+# Of kpis.json: name, words, unit, factor, digits.
+BIG: tuple[tuple[str, str, str, float, int], ...] = (
+    ("item_throughput_per_hour", "pieces an hour", "", 1, 0),
+    ("item_score", "of what the stations can at most", "%", 100, 0),
+    ("late_orders_fraction", "of the orders late", "%", 100, 1),
+    ("distance_per_item_m", "driven for a piece", "m", 1, 1),
+)
 
 
-def opening(group: Group, figures: str) -> str:
-    """Returns the HTML of the answer and what limits it, with the `figures` between them."""
-    return (
-        f'<p class="answer">{escape(answer(group))}</p>{figures}'
-        f"<p><b>What limits it: {limit(group)}.</b> {escape(reason(group))}</p>"
+def sheet(group: Group) -> str:
+    """Returns the HTML of the first sheet about one configuration."""
+    return "\n".join(
+        [
+            page.opening(question(group), answer(group)),
+            page.big(_big(group)),
+            _warning(group),
+            page.section(f"What limits it: {limit(group)}", f"<p>{reason(group)}</p>"),
+            charts.throughput([group]).html(),
+            page.section("Assumptions", page.facts(assumptions(group.runs))),
+        ]
     )
 
 
-def assumptions(group: Group) -> str:
-    """Returns the HTML of what was simulated, as a list."""
-    return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in _assumptions(group))}</ul>"
+def question(group: Group) -> str:
+    """Returns what the report answers."""
+    run = group.runs[0]
+    return f"What does {run.config.get('site') or 'the warehouse'} do in {_hours(run)}?"
 
 
 def answer(group: Group) -> str:
@@ -76,20 +94,82 @@ def reason(group: Group) -> str:
     }[limit(group)]
 
 
-def _assumptions(group: Group) -> Iterator[str]:
-    config, kpis = group.runs[0].config, group.runs[0].kpis
-    seeds = ", ".join(str(run.seed) for run in group.runs)
-    yield f"Warehouse: {config.get('site', '')}. Simulated: {kpis['simulated_s'] / 3600:.3g} h."
-    yield f"Orders: {config.get('orders', '')}. Seeds: {seeds}."
+def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, str]]:
+    """Yields what was simulated: what all these runs have in common, as (term, fact).
+
+    warm_up: what of the beginning is left out, if anything is.
+    """
+    told = [dict(_facts(run)) for run in runs]
+    for term, fact in told[0].items():
+        if all(one.get(term) == fact for one in told):
+            yield term, fact
+    seeds = sorted({run.seed for run in runs})
+    yield "Seeds", f"{_listed(seeds)} ({len(runs)} {'shift' if len(runs) == 1 else 'shifts'})"
+    yield from _origin(runs)
+    yield "Warm-up", warm_up or "nothing is left out: stations begin without units"
+
+
+def common(runs: Sequence[Run]) -> Iterator[str]:
+    """Yields words for the conditions that all runs share, for the top of the page."""
+    told = [list(_conditions(run)) for run in runs]
+    yield from (words for words in told[0] if all(words in one for one in told))
+
+
+def _conditions(run: Run) -> Iterator[str]:
+    yield run.config.get("site", "")
+    yield _hours(run)
+    yield "simulated robots" if run.config.get("physics") else "ideal robots"
+
+
+def _facts(run: Run) -> Iterator[tuple[str, str]]:
+    config, kpis = run.config, run.kpis
+    yield "Warehouse", config.get("site", "")
+    yield "Simulated", _hours(run)
+    yield "Robots", f"{kpis['robots']:,.0f}"
+    picking, other = (f"{kpis[f'{kind}_stations']:,.0f}" for kind in ("pick", "replenish"))
+    yield "Stations", f"{picking} picking, {other} replenishing"
+    yield "Orders", config.get("orders", "")
     if config.get("physics"):
         day = config.get("realism", "ideal")
-        yield f"Robots with bodies, motors and sensors, on a day that is {day}."
+        yield "Traffic", f"robots with bodies, motors and sensors, on a day that is {day}"
     else:
-        yield "Ideal robots, which meet no traffic: simulate with physics to see what that costs."
-    yield "Nothing of the beginning is left out: stations begin without units."
-    policies = config.get("policies", {})
-    if policies:
-        yield "Decisions: " + ", ".join(f"{k}: {_word(v)}" for k, v in policies.items()) + "."
+        yield "Traffic", "none: ideal robots do not meet; simulate with physics to see its cost"
+    if policies := config.get("policies", {}):
+        yield "Decisions", ", ".join(f"{k}: {_word(v)}" for k, v in policies.items())
+
+
+def _origin(runs: Sequence[Run]) -> Iterator[tuple[str, str]]:
+    """Yields when and by which version these runs were simulated; runs of before don't say it."""
+    dates = sorted({run.data["date"][:10] for run in runs if "date" in run.data})
+    if dates:
+        days = [date.fromisoformat(one).strftime("%-d %B %Y") for one in dates]
+        yield "Date", days[0] if len(days) == 1 else f"{days[0]} to {days[-1]}"
+    versions = sorted({run.data["version"] for run in runs if run.data.get("version")})
+    if versions:
+        yield "Version", ", ".join(versions)
+
+
+def _big(group: Group) -> Iterator[tuple[str, str, str]]:
+    for kpi, words, unit, factor, digits in BIG:
+        figure, _, half = number(group.estimate(kpi), factor, digits).partition(" ± ")
+        yield f"{figure} {unit}".strip(), f"± {half}" if half else "", words
+
+
+def _warning(group: Group) -> str:
+    collisions = group.estimate("collisions").mean
+    return f'<p class="warning">{collisions:g} collisions.</p>' if collisions else ""
+
+
+def _hours(run: Run) -> str:
+    seconds = run.kpis["simulated_s"]
+    return f"{seconds / 3600:.3g} h" if seconds >= 3600 else f"{seconds / 60:.3g} min"
+
+
+def _listed(seeds: Sequence[int]) -> str:
+    """Returns numbers as text; those in a row by the first and the last."""
+    if len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1:
+        return f"{seeds[0]} to {seeds[-1]}"
+    return ", ".join(map(str, seeds))
 
 
 def _word(policy: Any) -> str:

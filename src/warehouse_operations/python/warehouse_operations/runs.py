@@ -2,16 +2,17 @@
 """The files that a shift leaves in its folder: kpis.json, and run.json with data for the report.
 
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
-stored, completed: a list each}, driven_m [metres in each of these], stations [{name, kind,
-busy_fraction, pieces, visits}], completed_s, turnover_s and throughput_s of each order,
+stored, completed: a list each}, driven_m [metres in each of these], stations [{name, kind, cell
+[x, y], busy_fraction, pieces, visits}], completed_s, turnover_s and throughput_s of each order,
 robots {activity: seconds}, floor [a text a row], traffic and waiting (h, w) or null,
 failures [{kind, count, repairs, mean_repair_s}],
-lateness.
+lateness, date [when it was simulated], version.
 """
 
 import json
 import os
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ import numpy as np
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.kpis import INTERVAL
 from warehouse_operations.stations import WorkStation
+from warehouse_operations.version import version
 
 if TYPE_CHECKING:
     from warehouse_operations.operations import Operations
@@ -96,6 +98,8 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
     return {
         "config": config,
         "seed": seed,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "version": version(),
         "intervals": {"seconds": INTERVAL}
         | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
         "stations": [_station(station, shift) for station in shift.stations],
@@ -138,10 +142,17 @@ def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
     return {
         "name": station.name,
         "kind": station.kind,
+        "cell": _cell(station.name, shift.floor.plan),
         "busy_fraction": station.busy_fraction(shift.now),
         "pieces": station.pieces,
         "visits": station.visits,
     }
+
+
+def _cell(name: str, plan: FloorPlan) -> list[int]:
+    """Returns [x, y] of the cell in which units stand at a station."""
+    place = next(one for one in plan.stations if one.name == name)
+    return list(divmod(place.service_cell, plan.shape[1]))[::-1]
 
 
 def _map(fleet: Any, name: str) -> list[list[float]] | None:

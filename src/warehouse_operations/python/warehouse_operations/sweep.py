@@ -13,10 +13,14 @@ grid:                         # each key is an axis
   policies.orders: [random, pile-on]
   policies.units: [nearest, most lines]
   orders: [fill, "poisson:300"]
+
+Files are beside this one. Without a grid and with `out: .` the shifts are beside it, too, as
+seed-1, seed-2, …
 """
 
 import contextlib
 import itertools
+import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
@@ -47,6 +51,7 @@ KINDS: dict[str, tuple[Any, str]] = {
     "stations": (int, "a whole number above 0"),
     "minutes": ((int, float), "a number above 0"),
     "physics": (bool, "true or false"),
+    "realism": (str, "ideal, typical, bad_day or a file"),
     "orders": (str, "fill, fill:N, poisson:PER_HOUR, FILE.csv or none"),
     "policies": ((dict, type(None)), "roles with a policy each"),
 }
@@ -95,7 +100,7 @@ def read(path: str | Path) -> Sweep:
     for point in _points(path, data.get("grid") or {}):
         one = _description(path, data, point)
         words = [f"{key.rpartition('.')[2]}={_word(value)}" for key, value in point.items()]
-        name = re.sub(r"[^\w=.,-]+", "-", ",".join(words)) or "all"
+        name = re.sub(r"[^\w=.,-]+", "-", ",".join(words)) or _only(data)
         for seed in _seeds(path, data.get("seeds", 1)):
             jobs.append((replace(one, seed=seed), folder / name / f"seed-{seed}"))
     return Sweep(folder, tuple(jobs))
@@ -180,6 +185,16 @@ def _points(path: Path, grid: Any) -> Iterator[dict[str, Any]]:
         yield dict(zip(grid, values))
 
 
+def _only(data: dict[str, Any]) -> str:
+    """Returns the folder of the only configuration."""
+    return "" if data.get("out") == "." else "all"
+
+
+def _beside(path: Path, given: str) -> str:
+    """Returns a file that a sweep names, by the same path whichever folder that is seen from."""
+    return os.path.abspath(path.parent / given)
+
+
 def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
     merged = data | {k: v for k, v in point.items() if not k.startswith("policies.")}
     policies = dict(data.get("policies") or {})
@@ -190,7 +205,10 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
     given = {key: merged[key] for key in merged.keys() & known}
     for key in ("layout", "instance", "settings"):
         if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
-            given[key] = str(path.parent / given[key])
+            given[key] = _beside(path, given[key])
+    orders = given.get("orders", "")
+    if orders.endswith(".csv") and os.path.exists(_beside(path, orders)):
+        given["orders"] = _beside(path, orders)
     sites = [key for key in ("size", "layout", "instance") if key in given]
     if len(sites) > 1:
         raise SweepError(f"{path}: {' and '.join(sites)}: one of them was expected")

@@ -33,15 +33,20 @@ class Verdict:
     difference: Difference
     p_value: float
 
-    def __str__(self) -> str:
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The confidence interval of the difference, over the mean of the first."""
         found = self.difference
+        return found.relative - _half(found), found.relative + _half(found)
+
+    def __str__(self) -> str:
+        found, (low, high) = self.difference, self.bounds
         sure = "significant" if found.significant else "not significant"
         pairs = ", seed by seed" if found.paired else ""
-        least = found.relative - _half(found), found.relative + _half(found)
         return (
             f"{self.group.label}: {100 * found.relative:+.1f} % {self.words} against"
             f" {self.first.label} ({sure}, {p_text(self.p_value)}, 95 %:"
-            f" {100 * least[0]:+.1f} to {100 * least[1]:+.1f} %, effect {found.effect:+.1f},"
+            f" {100 * low:+.1f} to {100 * high:+.1f} %, effect {found.effect:+.1f},"
             f" {found.estimate.count} runs{pairs})"
         )
 

@@ -72,6 +72,8 @@ class ErrorType(StrEnum):
     ORDER_UPDATE = "orderUpdateError"
     NO_ROUTE = "noRouteError"
     NO_ORDER_TO_CANCEL = "noOrderToCancel"
+    ORDER_ACTION = "orderActionError"  # an action of an order failed
+    INSTANT_ACTION = "instantActionError"  # an instant action cannot be carried out
     UNKNOWN_FIELD = "unknownField"  # told, and otherwise ignored
     LOST = "localizationError"
     MOTOR = "motorError"

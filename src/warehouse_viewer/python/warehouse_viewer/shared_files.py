@@ -11,4 +11,3 @@ RVIZ_CONFIG = SHARE / "rviz" / "warehouse.rviz"
 PACKED = SHARE / "three"  # in a wheel
 THREE = PACKED if PACKED.is_dir() else Path("/usr/share/javascript/three")  # of libjs-three
 CHART = Path("/usr/share/javascript/chart.js")  # of libjs-chart.js
-FONT = Path("/usr/share/fonts/truetype/inter-vf/Inter-roman.var.ttf")  # of fonts-inter-variable

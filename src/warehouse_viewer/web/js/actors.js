@@ -10,7 +10,7 @@ import { addShadows } from './shadows.js';
 import { boardsOf, flatMaterial, shelfGeometry, shelfPicture, speckGeometry, variantOf } from './shelves.js';
 
 // From so many pixels a metre on a thing is drawn in detail.
-const DETAIL = { unit: 45, item: 45, scenery: 15 };
+const DETAIL = { unit: 110, item: 110, scenery: 15 };
 // Of storage units that stand, and of walls, by theme.
 const STEEL = { dark: new THREE.Color(0xb9c2ce), light: new THREE.Color(0xf7f9fb) };
 const WALL = { dark: new THREE.Color(0x5a6473), light: new THREE.Color(0xaab3be) };

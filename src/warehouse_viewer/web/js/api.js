@@ -19,7 +19,15 @@ export function remove(path) {
   return request('DELETE', path);
 }
 
+let forbidden = ''; // why nothing is commanded
+
+/** Refuses every command from now on, for a reason; '': it is over. */
+export function forbid(reason) {
+  forbidden = reason;
+}
+
 async function request(method, path, body) {
+  if (forbidden && method !== 'GET') throw Object.assign(new Error(forbidden), { refused: true });
   let answer;
   try {
     const sent = body && { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };

@@ -39,6 +39,7 @@ function library() {
 export class Plot {
   constructor(canvas, look) {
     Object.assign(this, { canvas, look, chart: null, data: null });
+    if (!plots.size) onTheme(restyle);
     plots.add(this);
   }
 
@@ -80,6 +81,10 @@ export class Plot {
   }
 }
 
+function restyle() {
+  for (const plot of plots) plot.restyle();
+}
+
 /** The options of an axis with a title that names the unit. */
 export function axis(title, more = {}) {
   return {
@@ -106,10 +111,8 @@ export function sparkline(canvas, colour) {
     ],
     options: {
       parsing: false, layout: { padding: { top: 2, bottom: 2 } },
-      scales: { x: { type: 'linear', ...bare }, y: { type: 'linear', beginAtZero: true, grace: '8%', ...bare } },
+      scales: { x: { type: 'linear', bounds: 'data', ...bare }, y: { type: 'linear', beginAtZero: true, grace: '8%', ...bare } },
       plugins: { legend: bare, tooltip: { enabled: false } },
     },
   }));
 }
-
-onTheme(() => { for (const plot of plots) plot.restyle(); });

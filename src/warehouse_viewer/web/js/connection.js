@@ -18,16 +18,18 @@ export class Connection {
     this.bytes = this.updates = 0; // of updates, since the start
     this.wishes = null;
     this.gap = 0; // between two updates, at least [s]
+    this.isHeld = false;
     this.open();
   }
 
   open() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    this.socket = new WebSocket(`${scheme}://${location.host}/live`);
-    this.socket.binaryType = 'arraybuffer';
-    on(this.socket, 'open', () => this.greet());
-    on(this.socket, 'message', ({ data }) => this.soon(() => this.take(data)));
-    on(this.socket, 'close', ({ code }) => this.again(code));
+    const socket = this.socket = new WebSocket(`${scheme}://${location.host}/live`);
+    const isOurs = () => socket === this.socket && !this.isHeld; // none that was left
+    socket.binaryType = 'arraybuffer';
+    on(socket, 'open', () => isOurs() && this.greet());
+    on(socket, 'message', ({ data }) => this.soon(() => isOurs() && this.take(data)));
+    on(socket, 'close', ({ code }) => isOurs() && this.again(code));
   }
 
   greet() {
@@ -37,10 +39,22 @@ export class Connection {
     if (this.gap) this.send({ gap: this.gap });
   }
 
+  /** Hears nothing until release(): the page shows something else. */
+  hold() {
+    this.isHeld = true;
+    this.socket.close();
+  }
+
+  /** Begins again, with the whole scene. */
+  release() {
+    this.isHeld = false;
+    this.open();
+  }
+
   again(code) {
     this.handlers.state(false, code === FULL ? 'too many pages are open' : 'no connection');
     reloadIfLockedOut();
-    setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
+    setTimeout(() => this.isHeld || this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
   }
 
   take(data) {

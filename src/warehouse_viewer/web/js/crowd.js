@@ -47,6 +47,10 @@ export class Crowd {
     this.partOf(i).stale = true;
   }
 
+  get isCheap() {
+    return this.vertices <= CHEAP;
+  }
+
   partOf() {
     return this.parts[0];
   }
@@ -67,7 +71,7 @@ export class Crowd {
   /** How what is seen so large is drawn [px/m]; 0: it is out of sight. */
   levelAt(scale) {
     if (scale === 0) return 0;
-    if (scale >= this.detail || this.vertices <= CHEAP) return NEAR;
+    if (scale >= this.detail || this.isCheap) return NEAR;
     return scale >= SMALL ? FAR : TINY;
   }
 }
@@ -83,6 +87,11 @@ export class StandingCrowd extends Crowd {
 
   partOf(i) {
     return this.byPlace.get(this.places[i]);
+  }
+
+  /** What the far are drawn as shows as much. */
+  get isCheap() {
+    return false;
   }
 
   /** `moves`: it is under way. */

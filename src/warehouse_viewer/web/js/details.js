@@ -4,6 +4,7 @@
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
 import { LiftStatus, RobotMode, Turn } from './message_enums.js';
+import { vda5050Of } from './vda5050.js';
 import { ACTIVITY, ACTIVITY_CLASS, FAILURE, STATE } from './words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };

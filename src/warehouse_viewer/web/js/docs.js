@@ -26,7 +26,7 @@ function socket(api, path, { description, parameters, messages = [] }) {
       make('span', { className: 'method ws', textContent: 'WS' }),
       make('code', { textContent: path }),
       make('span', { className: 'dim', textContent: description.split('\n')[0] })),
-    make('pre', { textContent: description }), make('ul', {}, ...lines), make('ul', {}, ...sent));
+    make('pre', { textContent: description, tabIndex: 0 }), make('ul', {}, ...lines), make('ul', {}, ...sent));
 }
 
 function section(api, path, method, operation) {
@@ -44,9 +44,9 @@ function form(api, path, method, { parameters = [], requestBody, responses }) {
   if (body) {
     const text = JSON.stringify(example(api, body), null, 2);
     out.append(make('p', { className: 'dim', textContent: `body: ${told(api, body)}` }),
-      make('textarea', { name: 'body', value: text, spellcheck: false }));
+      make('textarea', { name: 'body', ariaLabel: 'Body', value: text, spellcheck: false }));
   }
-  const answer = make('pre', { hidden: true });
+  const answer = make('pre', { hidden: true, tabIndex: 0 });
   out.append(make('p', { className: 'dim', textContent: `answers: ${Object.keys(responses).join(', ')}` }),
     make('button', { textContent: 'Try it' }), answer);
   on(out, 'submit', async (event) => {

@@ -26,9 +26,17 @@ export function press(button, down) {
 
 export const isPressed = (button) => button.getAttribute('aria-pressed') === 'true';
 
-/** Enables a button, or says in its title what it lacks. */
+let withheld = ''; // why no button that commands is enabled
+
+/** Enables no button that commands from now on, for a reason; '': it is over. */
+export function withhold(reason) {
+  withheld = reason;
+}
+
+/** Enables a button that commands, or says in its title what it lacks. */
 export function enable(button, lack, titled = button) {
+  const why = withheld || lack;
   titled.dataset.title ??= titled.title;
-  button.disabled = Boolean(lack);
-  titled.title = lack ? `${titled.dataset.title} – not now: ${lack}` : titled.dataset.title;
+  button.disabled = Boolean(why);
+  titled.title = why ? `${titled.dataset.title} – not now: ${why}` : titled.dataset.title;
 }

@@ -26,13 +26,14 @@ const SMALL = [
   ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
   ['collisions', 'collisions', count],
 ];
-const NEAR = 0.1; // of the target: missed by little
+const EXACT = 0.02; // of the target: as good as met
+const NEAR = 0.1; // the same: missed by little
 
 /** 'good', 'near' or 'missed', and the word for it; '' where there is no target. */
 export function verdict({ value, target }, most = false) {
   if (!target) return ['', ''];
   const miss = most ? value - target : (target - value) / target;
-  if (miss <= 0) return ['good', 'on target'];
+  if (miss <= (most ? 0 : EXACT)) return ['good', 'on target'];
   return miss <= (most ? target : NEAR) ? ['near', 'just below target'] : ['missed', most ? 'above target' : 'below target'];
 }
 
@@ -49,7 +50,7 @@ class Card {
     canvas.ariaLabel = `${about.title}, over the last hour`;
     this.canvas = canvas;
     this.line = sparkline(canvas, () => COLOURS[this.state ?? '']);
-    this.element = make('article', { className: 'card figure' }, make('header', {}, make('h3', { textContent: about.title }), this.badge),
+    this.element = make('article', { className: 'card figure' }, make('header', {}, make('h2', { textContent: about.title }), this.badge),
       this.value, make('div', { className: 'spark' }, canvas), this.aim);
     this.element.dataset.figure = about.name;
   }

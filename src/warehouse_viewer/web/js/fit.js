@@ -39,14 +39,21 @@ export function cornersOf([x0, x1, y0, y1], height) {
   return [x0, x1].flatMap((x) => [y0, y1].flatMap((y) => [[x, y, 0], [x, y, height]]));
 }
 
-/** Looking along y, or along x where all is seen larger so: {position, target}, the target on the
- *  floor in the middle of the picture. */
+/** Looking along y, or along x where all is seen larger so: {position, target, heading}, the target on
+ *  the floor in the middle of the picture. */
 export function seeAll(bounds, height, tilt, half) {
   const views = [Math.PI / 2, 0].map((heading) => {
     const axes = axesOf(tilt, heading);
     const position = positionFor(cornersOf(bounds, height), axes, half);
     const way = position[2] / -axes.ahead[2];
-    return { position, target: position.map((at, i) => at + way * axes.ahead[i]), way };
+    return { position, target: position.map((at, i) => at + way * axes.ahead[i]), way, heading };
   });
   return views[1].way < 0.8 * views[0].way ? views[1] : views[0];
+}
+
+/** Pixels a metre at which a floor that is seen from above, `heading` up, just fits into `free` [px,
+ *  width and height]. */
+export function scaleFor([x0, x1, y0, y1], heading, free) {
+  const across = Math.abs(Math.cos(heading)) > 0.5 ? [y1 - y0, x1 - x0] : [x1 - x0, y1 - y0];
+  return Math.min(...free.map((px, i) => px / across[i]));
 }

@@ -68,7 +68,7 @@ export class Gantt {
     this.resort();
   }
 
-  /** Sorts anew, the chosen row stays chosen. Rows keep their places while a person is at them. */
+  /** Sorts once more; the chosen row stays chosen. */
   resort() {
     const row = this.rows[this.chosen]?.row;
     this.rows = sorted(this.spans, $('gantt-show').value, $('gantt-sort').value);

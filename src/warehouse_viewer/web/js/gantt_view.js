@@ -87,11 +87,12 @@ export const SORTS = [
 
 const collator = new Intl.Collator('en', { numeric: true });
 
+const byName = (a, b) => (b.row.kind === 'station') - (a.row.kind === 'station') || collator.compare(a.row.name, b.row.name);
+
 /** Rows of one kind ('' all), as {row, share}, sorted by one of SORTS; stations come first. */
 export function sorted(spans, kind, sort) {
   const state = SORTS.find(([name]) => name === sort)?.[2] ?? -1;
   const rows = spans.rows.filter((row) => row.times.length && (!kind || row.kind === kind))
     .map((row) => ({ row, share: state < 0 ? 0 : row.shares(spans)[state] }));
-  const byName = (a, b) => (b.row.kind === 'station') - (a.row.kind === 'station') || collator.compare(a.row.name, b.row.name);
   return rows.sort((a, b) => b.share - a.share || byName(a, b));
 }

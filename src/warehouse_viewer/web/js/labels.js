@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers over the robots that are seen large, the names of those that matter now, and stations'.
+// Numbers over the robots that are seen large, and the names of those that matter now.
 
 import { make } from './dom.js';
-import { LABEL_HEIGHT, labelled, namedStations } from './labelled.js';
+import { LABEL_HEIGHT, labelled } from './labelled.js';
 import { ACTIVITY_CLASS } from './words.js';
 
 export class Labels {
@@ -12,29 +12,28 @@ export class Labels {
   }
 
   /** Draws all labels, for a View; `wanted`: a set of indices of robots to name; `more` labels
-   *  {text, kind, at [x, y, z]}. */
+   *  {text, kind, at [x, y, z], note}. */
   draw(view, wanted, more) {
     const { names, numbers } = labelled(this.world, view, wanted);
-    const { robots, stations } = this.world.scene;
+    const { robots } = this.world.scene;
     const { shown, activity } = this.world;
     const labels = [
       ...names.map((i) => [`kiva${robots[i]}`, ACTIVITY_CLASS[activity[i]], i]),
       ...numbers.map((i) => [String(robots[i]), '', i]),
     ].map(([text, kind, i]) => ({ text, kind, at: [shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT] }));
-    for (const { name, x, y } of namedStations(stations, view)) {
-      labels.push({ text: name, kind: 'station', at: [x, y, 0] });
-    }
     labels.push(...more);
+    this.box.classList.toggle('above', view.isParallel);
     const spans = this.box.children;
     while (spans.length < labels.length) this.box.append(make('span'));
     labels.forEach((label, k) => this.place(spans[k], label));
     for (let k = 0; k < spans.length; ++k) spans[k].hidden = k >= labels.length;
   }
 
-  place(span, { text, kind, at }) {
+  place(span, { text, kind, at, note = '' }) {
     const [x, y] = this.stage.pixelOf(...at);
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
-    span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
+    if ((span.dataset.note ?? '') !== note) span.dataset.note = note;
+    span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, var(--over))`;
   }
 }

@@ -8,10 +8,10 @@ import { ACTIVITY, ACTIVITY_CLASS, STATE } from './words.js';
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
 
 export class RobotList {
-  /** `select(name)` is called for what was clicked, `unknown(text)` for what is the name of nothing
+  /** `select(name)` is called for what was clicked, `find(name)` for what was searched, `unknown(text)` for what is the name of nothing
    *  ('': nothing is searched that way). */
-  constructor(world, select, unknown) {
-    Object.assign(this, { world, select, unknown, filter: '', text: '', chosen: null, rows: [] });
+  constructor(world, select, find, unknown) {
+    Object.assign(this, { world, select, find, unknown, filter: '', text: '', chosen: null, rows: [] });
     this.box = $('robots');
     this.inside = make('div');
     this.box.append(this.inside);
@@ -42,7 +42,7 @@ export class RobotList {
     const { units, items, scenery } = this.world.scene;
     const names = found([...units, ...items, ...scenery], this.text);
     $('found').replaceChildren(...names.map((name) => (
-      make('button', { textContent: name, click: () => this.select(name) }))));
+      make('button', { textContent: name, click: () => this.find(name) }))));
     $('found').hidden = names.length === 0;
     this.refresh();
     this.unknown(names.length || this.rows.length ? '' : text);
@@ -61,7 +61,7 @@ export class RobotList {
     $('found').replaceChildren(make('p', { className: 'dim', textContent: all
       ? `${sku}: ${all} pieces on ${units.size} units` : `no pieces of ${sku}` }),
     ...[...units].map(([number, pieces]) => make('button', {
-      textContent: `unit ${number}: ${pieces}`, click: () => this.select(`storage_unit${number}`) })));
+      textContent: `unit ${number}: ${pieces}`, click: () => this.find(`storage_unit${number}`) })));
     $('found').hidden = false;
     this.refresh();
   }
@@ -69,7 +69,7 @@ export class RobotList {
   takeFirst() {
     const exact = this.world.indexOf.has(this.text) ? this.text : null;
     const first = this.rows.length ? this.nameOf(this.rows[0]) : $('found').firstChild?.textContent;
-    if (exact ?? first) this.select(exact ?? first);
+    if (exact ?? first) this.find(exact ?? first);
   }
 
   nameOf(i) {

@@ -25,6 +25,12 @@ export class EventLog {
     while (box.children.length > SHOWN) box.lastChild.remove();
   }
 
+  /** Shows these events and no other. */
+  replace(events) {
+    Object.assign(this, { events: events.slice(-KEPT), lastId: events.at(-1)?.id ?? 0 });
+    this.drawAll();
+  }
+
   drawAll() {
     const shown = this.events.filter(wanted).slice(-SHOWN);
     $('events').replaceChildren(...shown.map((event) => this.line(event)).reverse());

@@ -9,6 +9,8 @@ const SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')";
 
 const counted = (n, word) => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
 
+const isFile = (event) => event.dataTransfer?.types.includes('Files');
+
 /** What a table has: '2 orders, 3 lines, 4 pieces'. */
 export function sizeOf({ orders, lines, pieces }) {
   return [[orders, 'order'], [lines, 'line'], [pieces, 'piece']].map(([n, word]) => counted(n, word)).join(', ');
@@ -30,7 +32,6 @@ export class OrderUpload {
   }
 
   takeDrops(place) {
-    const isFile = (event) => event.dataTransfer?.types.includes('Files');
     let depth = 0; // of elements within that the pointer has entered
     const drag = (by) => {
       depth = Math.max(0, depth + by);

@@ -2,8 +2,11 @@
 // How often the picture is drawn. A graphics card draws whenever the display shows something; a
 // processor that draws leaves most of its time to the simulation.
 
-export const SHARE = 1 / 6; // of the time, in which pictures are drawn
-export const HURRIED = 1 / 2; // the same while the camera is moved
+export const SHARE = 1 / 6; // of the time, in which pictures are drawn, at least
+export const MOST = 2 / 3; // the same where the simulation keeps its speed all the same
+export const HURRIED = 1 / 2; // the same while the camera is moved, at least
+const KEPT = 0.97; // of the speed that is wanted: it is kept
+const MORE = 1.25, LESS = 0.5; // how the share changes from one look at the speed to the next
 const HURRY = 500; // after it was [ms]
 const SLOWEST = 500; // from one picture to the next [ms]
 const NEW = 0.3; // weight of the last picture's cost beside those before
@@ -13,6 +16,7 @@ export class Pace {
   /** `onPicture(gap)` gets the time from one picture to the next [ms], after each. */
   constructor(onPicture, clock = () => performance.now(), later = (done, ms) => setTimeout(done, ms)) {
     Object.assign(this, { onPicture, clock, later });
+    this.share = SHARE;
     this.cost = 0; // of a picture [ms]
     this.gap = 0; // from one picture to the next, at least [ms]
     this.hurriedUntil = 0; // [ms]
@@ -24,6 +28,13 @@ export class Pace {
     this.hurriedUntil = this.clock() + HURRY;
   }
 
+  /** The simulation has a speed, and a wanted one (0: as fast as it can): where it falls behind, the
+   *  processor is left to it. */
+  yieldTo(factor, wanted) {
+    const keeps = wanted > 0 && factor >= KEPT * wanted;
+    this.share = Math.max(SHARE, Math.min(MOST, this.share * (keeps ? MORE : LESS)));
+  }
+
   /** A picture was begun then [ms]; `isDone()` tells whether the processor has drawn it. */
   drew(begun, isDone) {
     this.rest = this.finish(begun, isDone);
@@ -33,7 +44,7 @@ export class Pace {
     while (!isDone()) await this.wait(LOOK);
     const cost = this.clock() - begun;
     this.cost += (this.cost ? NEW : 1) * (cost - this.cost);
-    const share = this.clock() < this.hurriedUntil ? HURRIED : SHARE;
+    const share = this.clock() < this.hurriedUntil ? Math.max(HURRIED, this.share) : this.share;
     this.gap = Math.min(SLOWEST, this.cost / share);
     this.onPicture(this.gap);
     await this.wait(begun + this.gap - this.clock());

@@ -12,6 +12,7 @@ export async function personOf(again = false) {
   dialog.returnValue = '';
   dialog.showModal();
   name.focus();
+  on(name, 'keydown', onKey); // once: a listener that is there is not added again
   await new Promise((resolve) => { on(dialog, 'close', resolve); });
   if (dialog.returnValue !== 'yes') return kept;
   const given = name.value.trim();
@@ -19,8 +20,9 @@ export async function personOf(again = false) {
   return given;
 }
 
-on($('who-name'), 'keydown', (event) => {
+/** Enter keeps the name: the form's first button is another. */
+function onKey(event) {
   if (event.key !== 'Enter') return;
   event.preventDefault();
   $('who').close('yes');
-});
+}

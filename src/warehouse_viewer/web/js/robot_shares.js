@@ -12,6 +12,8 @@ const LOOKS = { fetching: 'moving', bringing: 'moving', storing: 'moving', lifti
 const TEXTS = { waiting: 'at a station', ready: 'ready beneath a unit' };
 const MOST_WAITS = 6;
 
+const text = (name) => TEXTS[name] ?? spaced(name);
+
 export class RobotShares {
   /** `fleet` as the server tells it; null without a coordinator. */
   show(fleet) {
@@ -20,7 +22,6 @@ export class RobotShares {
     const { manual, out_of_service } = fleet.robots;
     const doing = { ...fleet.work, manual, out_of_service };
     const shown = Object.keys(LOOKS).filter((name) => doing[name]);
-    const text = (name) => TEXTS[name] ?? spaced(name);
     $('robots').replaceChildren(...shown.map((name) => {
       const bar = make('div', { className: LOOKS[name], title: `${doing[name]} ${text(name)}` });
       bar.style.flex = doing[name];
@@ -36,8 +37,8 @@ export class RobotShares {
   showWaits({ waiting, time }) {
     const more = waiting.length - MOST_WAITS;
     const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
-    $('waiting').replaceChildren(...longest.map(({ robot, since, text }) => (
-      make('li', {}, make('a', { href: `/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${text}`))),
+    $('waiting').replaceChildren(...longest.map(({ robot, since, text: why }) => (
+      make('li', {}, make('a', { href: `/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${why}`))),
     ...more > 0 ? [make('li', { className: 'dim', textContent: `and ${more} more` })] : []);
   }
 }

@@ -108,13 +108,13 @@ function outlineGeometry({ min, max }) {
   return out;
 }
 
-/** In each one's tint, through whatever stands before it. */
+/** In a light shade of each one's tint, through whatever stands before it. */
 function outlineMaterial() {
   const out = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.9, depthTest: false, side: THREE.DoubleSide });
   out.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader.replace('#include <common>',
       '#include <common>\nattribute vec4 tint;\nvarying vec3 vTint;')
-      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvTint = tint.rgb;');
+      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvTint = mix(tint.rgb, vec3(1.0), 0.7);');
     shader.fragmentShader = shader.fragmentShader.replace('#include <common>',
       '#include <common>\nvarying vec3 vTint;')
       .replace('vec4 diffuseColor = vec4( diffuse, opacity );', 'vec4 diffuseColor = vec4(vTint, opacity);');

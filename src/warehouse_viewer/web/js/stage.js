@@ -30,8 +30,11 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ canvas, context: this.fenced ?? undefined, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.fenced ? 1 : 2));
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
-    this.camera.position.set(0, -10, 10);
+    this.slanted = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
+    this.slanted.position.set(0, -10, 10);
+    // Looks straight down with parallel rays; its zoom is pixels a metre.
+    this.upright = new THREE.OrthographicCamera(-1, 1, 1, -1, 1, 2000);
+    this.camera = this.slanted;
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.screenSpacePanning = false;
@@ -55,16 +58,32 @@ export class Stage {
 
   resize() {
     this.renderer.setSize(innerWidth, innerHeight, false);
-    this.camera.aspect = innerWidth / innerHeight;
+    this.slanted.aspect = innerWidth / innerHeight;
+    const [x, y] = [innerWidth / 2, innerHeight / 2];
+    Object.assign(this.upright, { left: -x, right: x, top: y, bottom: -y });
     this.setMargins(this.margins);
+  }
+
+  /** Looks from above without perspective, where dragging moves the floor, or aslant. */
+  lookFromAbove(above) {
+    const { controls } = this;
+    this.camera = controls.object = above ? this.upright : this.slanted;
+    controls.enableRotate = !above;
+    controls.screenSpacePanning = above;
+    controls.mouseButtons.LEFT = above ? THREE.MOUSE.PAN : THREE.MOUSE.ROTATE;
+    controls.touches.ONE = above ? THREE.TOUCH.PAN : THREE.TOUCH.ROTATE;
+    this.isAbove = above;
+    this.invalidate();
   }
 
   /** What panels cover at the edges of the window [px]: what is looked at belongs in the middle of
    *  the rest. */
   setMargins(margins) {
     const { left, right, top, bottom } = this.margins = margins;
-    this.camera.setViewOffset(innerWidth, innerHeight,
-      (right - left) / 2, (bottom - top) / 2, innerWidth, innerHeight);
+    for (const camera of [this.slanted, this.upright]) {
+      camera.setViewOffset(innerWidth, innerHeight,
+        (right - left) / 2, (bottom - top) / 2, innerWidth, innerHeight);
+    }
     this.invalidate();
   }
 
@@ -72,6 +91,22 @@ export class Stage {
   pixelOf(x, y, z) {
     const at = point.set(x, y, z).project(this.camera);
     return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
+  }
+
+  /** The middle of what panels leave free [px]. */
+  middle() {
+    const { left, right, top, bottom } = this.margins;
+    return [(left + innerWidth - right) / 2, (top + innerHeight - bottom) / 2];
+  }
+
+  /** Shows all so many times as large. */
+  zoom(factor) {
+    const { camera, controls } = this;
+    if (this.isAbove) camera.zoom *= factor;
+    else camera.position.sub(controls.target).divideScalar(factor).add(controls.target);
+    camera.updateProjectionMatrix();
+    controls.update();
+    this.invalidate();
   }
 
   /** Something looks other than it did: draw, soon and once. */
@@ -121,9 +156,9 @@ export class Stage {
     this.invalidate();
   }
 
-  /** What is painted on the floor, as the scene has it. */
-  setPaint(paint) {
-    this.paint.set(paint, document.documentElement.dataset.theme);
+  /** What is painted on the floor, as a scene {paint, arrows} has it. */
+  setPaint(scene) {
+    this.paint.set(scene, document.documentElement.dataset.theme);
     this.invalidate();
   }
 

@@ -6,6 +6,7 @@ import { $ } from './dom.js';
 
 const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
 const HOUR = 60; // [min]
+const SMOOTHED = 5; // intervals
 
 /** {from, length, rate} of each interval: seconds from the first one on, and pieces an hour. */
 export function ratesOf({ interval, begin, end }, counts) {
@@ -24,6 +25,14 @@ export function pointsOf(throughput, counts) {
   return rates.map(({ from, length, rate }) => ({ x: (from + length / 2 - end) / 60, y: Math.round(rate) }));
 }
 
+/** Each point the mean of the last five: bundles come by the dozen. */
+export function smoothed(points) {
+  return points.map(({ x }, i) => {
+    const some = points.slice(Math.max(0, i + 1 - SMOOTHED), i + 1);
+    return { x, y: some.reduce((sum, { y }) => sum + y, 0) / some.length };
+  });
+}
+
 export class ThroughputChart {
   constructor() {
     this.plot = new Plot($('chart-throughput'), look);
@@ -32,10 +41,10 @@ export class ThroughputChart {
   /** `throughput` as the server tells it, and the upper bound of what is picked [1/h]. */
   show(throughput, bound) {
     const picked = pointsOf(throughput, throughput.items_picked);
-    const stored = pointsOf(throughput, throughput.pieces_stored);
+    const stored = smoothed(pointsOf(throughput, throughput.pieces_stored));
     const line = bound ? [{ x: -HOUR, y: bound }, { x: 0, y: bound }] : [];
     $('chart-throughput').ariaLabel = `Pieces per hour, over the last hour; in the last minute ${picked.at(-1)?.y ?? 0} `
-      + `picked and ${stored.at(-1)?.y ?? 0} put in; the upper bound is ${Math.round(bound)}`;
+      + `picked and ${Math.round(stored.at(-1)?.y ?? 0)} put in; the upper bound is ${Math.round(bound)}`;
     return this.plot.show(picked, stored, line);
   }
 }
@@ -44,12 +53,12 @@ function look() {
   return {
     type: 'bar',
     datasets: [
-      { label: 'picked', backgroundColor: token('moving'), barThickness: 'flex', maxBarThickness: 10, borderRadius: 2, categoryPercentage: 1, barPercentage: 0.8, grouped: false },
+      { label: 'picked', backgroundColor: token('moving'), borderRadius: 2, categoryPercentage: 1, barPercentage: 0.8, maxBarThickness: 12 },
       { type: 'line', label: 'put in', borderColor: token('working'), backgroundColor: faint('working', 0.2), borderWidth: 1.5, pointRadius: 0, tension: 0.2 },
       { type: 'line', label: 'upper bound', borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25, pointRadius: 0 },
     ],
     options: {
-      parsing: false, interaction: { mode: 'nearest', axis: 'x', intersect: false },
+      interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
         x: axis('minutes ago', { ticks: { stepSize: 15, callback: (minutes) => (minutes ? -minutes : 'now') }, grid: { display: false }, scale: { min: -HOUR, max: 0, offset: false } }),
         y: axis('pieces per hour', { ticks: { callback: (rate) => rate.toLocaleString('en') }, scale: { beginAtZero: true, grace: '5%' } }),

@@ -8,7 +8,7 @@ import pytest
 
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.demand import Customers, Poisson, make_demand
-from warehouse_operations.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.order_file import DemandError, Wanted, parse_csv, read_csv
 
 GOOD = "reference,sku,quantity,at,due,priority\n"
 
@@ -152,3 +152,16 @@ def test_files_that_are_too_large(tmp_path):
 def test_what_is_no_demand_is_told(assortment, text):
     with pytest.raises(DemandError, match=f"orders are '{text}'"):
         make_demand(text, assortment, (1, 1), np.random.default_rng(1))
+
+
+def test_a_text_tells_the_line_and_the_column_of_each_fault():
+    text = "reference,sku,quantity\nA,sku-1,2\nB,sku-9,1\nC,sku-1,none\nD,sku-1,1,2\n"
+    _, faults = parse_csv(text, {"sku-1"})
+    assert [(one.line, one.column) for one in faults] == [(3, "sku"), (4, "quantity"), (5, "")]
+    assert "sku-9" in faults[0].text and not faults[0].text.startswith("orders")
+
+
+def test_a_text_without_its_columns_says_so():
+    orders, faults = parse_csv("name,number\nA,2\n")
+    assert orders == [] and (faults[0].line, faults[0].column) == (1, "")
+    assert faults[0].text.startswith("there is no column reference, sku, quantity")

@@ -41,8 +41,10 @@ class GridRobot(Driver):
         self.refusal = ""
         cells = [(round(x), round(y)) for x, y in points]
         if path_id == self.path_id and self.busy and first:
-            assert first == len(self.path) and released == first + len(cells)
-            self.path += cells
+            if first > len(self.path):
+                self.refusal = "the path has a gap"
+            else:
+                self.path[first:] = cells
         elif path_id == self.path_id and self.busy:
             return  # the same once more
         elif self.busy or first or cells[0] != self.cell:

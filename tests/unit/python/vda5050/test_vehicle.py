@@ -228,6 +228,15 @@ def test_an_instant_action_that_is_repeated_is_done_once():
     assert not bench.robot.stopped and bench.until(is_over).last_node == "c9_0"
 
 
+def test_masters_that_give_all_pauses_one_id():
+    bench = Bench()
+    bench.order("o", row(0, 9))
+    bench.instant("startPause", "pause")
+    bench.instant("stopPause", "resume")
+    bench.tick(6)
+    assert bench.instant("startPause", "pause").paused
+
+
 def test_pause_and_go_on():
     bench = Bench()
     bench.order("o", row(0, 9))
@@ -279,7 +288,7 @@ def test_none_lets_the_robot_drive_on():
 
 def test_unknown_instant_action_fails():
     state = Bench().instant("dance")
-    assert statuses(state) == {"i1": "FAILED"} and error_types(state) == ["validationError"]
+    assert statuses(state) == {"i1": "FAILED"} and error_types(state) == ["instantActionError"]
 
 
 @pytest.mark.parametrize("type", ["stateRequest", "factsheetRequest", "logReport"])

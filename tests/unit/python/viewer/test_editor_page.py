@@ -4,7 +4,9 @@
 `pytest -s` shows how long frames take, and how large the page is.
 """
 
+import axe
 import numpy as np
+import pictures
 import pytest
 from editor_page import (
     LOADED,
@@ -85,6 +87,18 @@ def test_a_first_layout_is_drawn_tried_and_saved(chromium, tmp_path):
     drawn = layout_file.read(file)
     assert file_check.faults(drawn) == []
     assert (drawn.robots, len(drawn.stations), np.sum(drawn.floor == "s")) == (6, 2, 36)
+
+
+def test_the_page_is_for_all_and_looks_as_it_did(page):
+    open_drawing(page, "medium")
+    assert checked(page) == []
+    assert axe.findings(page) == []
+    for button in ("new", "help"):
+        page.click_on(button)
+        page.until("document.querySelector('dialog[open]')")
+        assert axe.findings(page, "dialog[open]") == []
+        page.read("document.querySelector('dialog[open]').close()")
+    pictures.compare(page, "layout")
 
 
 def test_a_closed_tab_loses_nothing(page, address):

@@ -19,13 +19,14 @@ from test_viewer_model import fleet
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs import msg, srv
-from warehouse_viewer.api import changes, description
+from warehouse_viewer.api import changes, description, operations_json
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.metrics import Metrics
 from warehouse_viewer.api.schemas.pydantic_versions import as_json
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import AwayError
+from warehouse_viewer.watch.station_watch import StationWatch
 
 DASHBOARD = ROOT / "doc" / "grafana.json"
 
@@ -64,7 +65,7 @@ class Shift:
     """A shift's messages, and a Work that hears them."""
 
     def __init__(self):
-        self.ros, self.book, self.seq = Ros(), ChangeBook(), {}
+        self.ros, self.book, self.seq, self.watch = Ros(), ChangeBook(), {}, StationWatch()
         self.work = OperationsClient(self.ros, ShiftFeed(self.ros, self.book))
         self.work.call = lambda *_: srv.FindOrdersResponse(total=7)
 
@@ -83,7 +84,13 @@ class Shift:
 
     def backend(self, **feed):
         feed = SimpleNamespace(subscribe=lambda names: None, coordinator=None, **feed)
-        return SimpleNamespace(operations=self.work, changes=self.book, feed=feed)
+        parts = {"operations": self.work, "changes": self.book, "feed": feed}
+        return SimpleNamespace(**parts, stations=self.told_stations)
+
+    def told_stations(self, message):
+        self.watch.update(60.0, message.stations, None)
+        told = operations_json.stations(message)
+        return [row | self.watch.told(one) for row, one in zip(told, message.stations)]
 
 
 def test_a_follower_gets_what_stands_first_and_then_what_changes():

@@ -6,7 +6,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kQueue = 10;
+constexpr int kShadowQueue = 10;
 constexpr double kWarnAgain = 10;  // [s], wall
 
 /// Returns an element of one of a message's arrays, which may be empty.
@@ -51,7 +51,7 @@ void moveAll(kiva::World& world, const warehouse_msgs::FleetState& m) {
 ShadowTopic::ShadowTopic(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
       subscriber_(root.subscribe<warehouse_msgs::FleetState>(
-          "/warehouse/shadows", kQueue, &ShadowTopic::take, this,
+          "/warehouse/shadows", kShadowQueue, &ShadowTopic::take, this,
           ros::TransportHints().tcpNoDelay())) {}
 
 void ShadowTopic::take(const Message& message) {

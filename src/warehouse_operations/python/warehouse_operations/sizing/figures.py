@@ -1,139 +1,187 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pictures of a sizing's report, as SVG."""
+"""The charts of a sizing's report."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from warehouse_operations.plots import COLOURS, as_svg, new_figure
+from warehouse_operations.charts import LINES
+from warehouse_operations.document import canvas, tokens
+from warehouse_operations.document.canvas import Canvas
+from warehouse_operations.document.chart import Chart
 from warehouse_operations.sizing.answer import knee
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
 
 FAR = 2.5  # times the robots of the answer
+MARGINS = (54, 84, 32, 40)
+HEIGHT = 280  # [px]
+SLIDE = (1040, 340)  # [px]
 Chosen = tuple[int, int] | None  # robots and stations of the answer
 
 
-def throughput(study: Study, chosen: Chosen) -> str:
+def throughput(study: Study, chosen: Chosen) -> Chart:
     """Returns orders an hour over robots, a line for each number of stations with its knee."""
-    figure, axes = new_figure(4.6, 3.2)
-    _draw_throughput(axes, study, chosen)
-    return as_svg(figure, axes, True)
+    asked = study.wish.orders_per_hour
+    title = f"Orders completed an hour, where {asked:,.0f} are asked"
+    return Chart(
+        title,
+        "Means over robots, a line for each number of open picking stations",
+        lambda drawn: _draw_throughput(drawn, study, chosen),
+        HEIGHT,
+        MARGINS,
+    )
 
 
-def lateness(study: Study, chosen: Chosen) -> str:
-    """Returns the share of late and of missed orders over robots, for each number of stations."""
-    figure, axes = new_figure(4.6, 3.2)
-    _draw_lateness(axes, study, chosen)
-    return as_svg(figure, axes, False)
+def lateness(study: Study, chosen: Chosen) -> Chart:
+    """Returns the share of missed orders over robots, for each number of stations."""
+    return Chart(
+        f"Throughput alone does not do: {100 * study.wish.late:g} % may be missed",
+        "Orders not done in time [%], over robots",
+        lambda drawn: _draw_lateness(drawn, study, chosen),
+        HEIGHT,
+        MARGINS,
+        note="The axis is cut: where a line leaves it at the top, more are missed.",
+    )
+
+
+def use(study: Study, chosen: Chosen) -> Chart:
+    """Returns how much of their time robots and stations work, over robots."""
+
+    def draw(drawn: Canvas) -> None:
+        ends = []
+        for i, stations, verdicts in _by_stations(study):
+            _band(drawn, verdicts, "picking", 100.0, i)
+            ends.append((i, _stations(stations), verdicts, "picking", 100.0))
+            _band(drawn, verdicts, "robots_at_work", 100.0, i, marker="s")
+        drawn.scale(("robots", _most(study, chosen)), ("at work [%]", 104))
+        _mark(drawn, chosen)
+        _label(drawn, ends)
+
+    return Chart(
+        "How busy robots and stations are",
+        "Share of the time at work [%], over robots: squares are robots, circles picking stations",
+        draw,
+        HEIGHT,
+        MARGINS,
+    )
 
 
 def write_png(path: Path, study: Study, chosen: Chosen) -> None:
-    """Writes both of these side by side, for slides."""
-    figure = Figure(figsize=(10.4, 3.4), layout="constrained", dpi=120)
-    left, right = figure.subplots(1, 2)
-    for axes in (left, right):
-        axes.spines[["top", "right"]].set_visible(False)
-    _draw_throughput(left, study, chosen)
-    _draw_lateness(right, study, chosen)
-    left.legend(frameon=False, fontsize=8)
-    figure.savefig(path)
+    """Writes the first two side by side, for slides."""
+
+    def draw(figure: Figure) -> None:
+        width, height = SLIDE
+        for x, one in ((0, _draw_throughput), (width / 2, _draw_lateness)):
+            one(canvas.on(figure, (x, 0, width / 2, height), MARGINS), study, chosen)
+
+    canvas.write_png(path, draw, *SLIDE)
 
 
-def _draw_throughput(axes: Any, study: Study, chosen: Chosen) -> None:
-    for colour, stations, verdicts in _by_stations(study):
-        _band(axes, verdicts, "orders_per_hour", 1.0, colour, _stations(stations))
-        at = knee(verdicts)
-        if at is not None:
-            hourly = next(v for v in verdicts if v.robots == at).estimate("orders_per_hour").mean
-            axes.plot(at, hourly, marker="v", ms=8, mfc="none", color=colour)
-    axes.axhline(study.wish.orders_per_hour, color="#999", ls="--", lw=1)
-    axes.text(0, study.wish.orders_per_hour, " asked", va="bottom", color="#777")
-    _checks(axes, study, "orders_per_hour", 1.0)
-    _mark(axes, chosen)
-    top = 1.15 * study.wish.orders_per_hour
-    axes.set(xlabel="robots", ylabel="orders completed an hour", ylim=(0, top))
-    axes.set(xlim=(0, _most(chosen)))
+def _draw_throughput(drawn: Canvas, study: Study, chosen: Chosen) -> None:
+    asked, ends = study.wish.orders_per_hour, []
+    for i, stations, verdicts in _by_stations(study):
+        _band(drawn, verdicts, "orders_per_hour", 1.0, i)
+        _knee(drawn, verdicts, i)
+        ends.append((i, _stations(stations), verdicts, "orders_per_hour", 1.0))
+    drawn.scale(("robots", _most(study, chosen)), ("orders completed an hour", 1.15 * asked))
+    _line(drawn, asked, f"asked: {asked:,.0f}")
+    _checks(drawn, study, "orders_per_hour", 1.0)
+    _mark(drawn, chosen)
+    _label(drawn, ends)
 
 
-def _draw_lateness(axes: Any, study: Study, chosen: Chosen) -> None:
-    for colour, _, verdicts in _by_stations(study):
-        _band(axes, verdicts, "late", 100.0, colour, "")
-        _band(axes, verdicts, "missed", 100.0, colour, "", ls=":")
-    _checks(axes, study, "missed", 100.0)
-    late = 100 * study.wish.late
-    axes.axhline(late, color="#999", ls="--", lw=1)
-    _mark(axes, chosen)
+def _draw_lateness(drawn: Canvas, study: Study, chosen: Chosen) -> None:
+    late, ends = 100 * study.wish.late, []
+    for i, stations, verdicts in _by_stations(study):
+        _band(drawn, verdicts, "missed", 100.0, i)
+        ends.append((i, _stations(stations), verdicts, "missed", 100.0))
     top = min(max(10 * late, 5.0), 100.0)
-    axes.set(xlabel="robots", ylabel="orders late (line), missed (dotted) [%]")
-    axes.set(ylim=(0, top), xlim=(0, _most(chosen)))
+    drawn.scale(("robots", _most(study, chosen)), ("orders not done in time [%]", top))
+    _line(drawn, late, f"may be: {late:g} %")
+    _checks(drawn, study, "missed", 100.0)
+    _mark(drawn, chosen)
+    _label(drawn, ends)
 
 
-def use(study: Study, chosen: Chosen) -> str:
-    """Returns how much of their time robots and stations work, over robots."""
-    figure, axes = new_figure(7.5, 2.8)
-    for colour, stations, verdicts in _by_stations(study):
-        _band(axes, verdicts, "robots_at_work", 100.0, colour, f"robots, {_stations(stations)}")
-        _band(axes, verdicts, "picking", 100.0, colour, "stations", ls=":")
-    _mark(axes, chosen)
-    axes.set(xlabel="robots", ylabel="at work [%]", ylim=(0, 102), xlim=(0, _most(chosen)))
-    return as_svg(figure, axes, True)
+def _knee(drawn: Canvas, verdicts: Sequence[Verdict], number: int) -> None:
+    at = knee(list(verdicts))
+    if at is not None:
+        hourly = next(v for v in verdicts if v.robots == at).estimate("orders_per_hour").mean
+        drawn.axes.plot(at, hourly, "v", ms=9, mfc="none", mew=1.6, color=tokens.series(number))
 
 
-def _most(chosen: Chosen) -> float | None:
+def _most(study: Study, chosen: Chosen) -> float:
     """Returns the robots up to which is drawn: where little changes any more is left out."""
-    return FAR * chosen[0] if chosen else None
+    most = max((robots for robots, _ in study.verdicts), default=1)
+    return min(FAR * chosen[0], 1.02 * most) if chosen else 1.02 * most
 
 
-def _by_stations(study: Study) -> list[tuple[str, int, list[Verdict]]]:
-    """Returns colour, stations and the points of each number of stations, by robots."""
-    numbers = sorted({stations for _, stations in study.verdicts})
-    points = [
-        [v for key, v in sorted(study.verdicts.items()) if key[1] == number] for number in numbers
-    ]
-    return [(COLOURS[i % len(COLOURS)], *one) for i, one in enumerate(zip(numbers, points))]
+def _by_stations(study: Study) -> Iterator[tuple[int, int, list[Verdict]]]:
+    """Yields the place, from 0, and the points of each number of stations, by robots."""
+    for i, number in enumerate(sorted({stations for _, stations in study.verdicts})):
+        yield i, number, [v for key, v in sorted(study.verdicts.items()) if key[1] == number]
 
 
 def _band(
-    axes: Any,
+    drawn: Canvas,
     verdicts: Sequence[Verdict],
     name: str,
     factor: float,
-    colour: str,
-    label: str,
-    ls: str = "-",
+    number: int,
+    marker: str = "o",
 ) -> None:
-    robots = [one.robots for one in verdicts]
+    robots, mean, half = _points(verdicts, name, factor)
+    colour = tokens.series(number)
+    line = LINES[number % len(LINES)]
+    drawn.axes.plot(robots, mean, marker=marker, ms=3.5, lw=1.8, ls=line, color=colour)
+    drawn.axes.fill_between(robots, mean - half, mean + half, color=colour, alpha=0.16, lw=0)
+
+
+def _points(verdicts: Sequence[Verdict], name: str, factor: float) -> Any:
+    """Returns robots, and means with half their intervals of a figure."""
     found = [one.estimate(name) for one in verdicts]
     mean = factor * np.array([one.mean for one in found])
     half = factor * np.nan_to_num([one.half for one in found])
-    axes.plot(robots, mean, marker="o", ms=3, lw=1.2, ls=ls, color=colour, label=label or None)
-    axes.fill_between(robots, mean - half, mean + half, color=colour, alpha=0.15, lw=0)
+    return np.array([one.robots for one in verdicts]), mean, half
 
 
-def _checks(axes: Any, study: Study, name: str, factor: float) -> None:
+def _label(drawn: Canvas, ends: Sequence[Any]) -> None:
+    """Writes at the end of each line for how many stations it is, where it leaves the chart."""
+    (_, right), (_, top) = drawn.axes.get_xlim(), drawn.axes.get_ylim()
+    wanted = []
+    for _, _, verdicts, name, factor in ends:
+        robots, mean, _ = _points(verdicts, name, factor)
+        wanted.append(min(float(np.interp(right, robots, mean)), top))
+    least = 15 * top / max(drawn.height - MARGINS[2] - MARGINS[3], 1)
+    for (i, words, *_), y in zip(ends, canvas.spread(wanted, least)):
+        drawn.say(right, y, words, tokens.series(i), xytext=(6, -4), fontweight="bold")
+
+
+def _line(drawn: Canvas, y: float, words: str) -> None:
+    drawn.axes.axhline(y, color=tokens.colour("edge"), ls=(0, (2, 2)), lw=1)
+    drawn.say(0, y, words, xytext=(3, 4))
+
+
+def _checks(drawn: Canvas, study: Study, name: str, factor: float) -> None:
     """Draws the points of simulated robots."""
     for i, verdict in enumerate(study.checks.values()):
-        found = verdict.estimate(name)
-        label = "with physics" if not i else None
-        axes.errorbar(
-            verdict.robots,
-            factor * found.mean,
-            yerr=factor * np.nan_to_num(found.half),
-            fmt="s",
-            color="#222",
-            ms=5,
-            capsize=3,
-            label=label,
+        robots, mean, half = _points([verdict], name, factor)
+        drawn.axes.errorbar(
+            robots, mean, yerr=half, fmt="D", color=tokens.colour("text"), ms=6, capsize=4
         )
+        if not i:
+            drawn.say(robots[0], mean[0], "with physics", "text", xytext=(9, -12))
 
 
-def _mark(axes: Any, chosen: Chosen) -> None:
+def _mark(drawn: Canvas, chosen: Chosen) -> None:
     if chosen:
-        axes.axvline(chosen[0], color="#222", lw=0.8, ls=":")
+        drawn.axes.axvline(chosen[0], color=tokens.colour("text"), lw=1, ls=(0, (1, 2)))
+        words = f"{chosen[0]} robots"
+        drawn.say(chosen[0], 0, words, "text", xytext=(5, 6), fontweight="bold")
 
 
 def _stations(number: int) -> str:

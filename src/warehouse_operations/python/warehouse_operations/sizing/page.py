@@ -1,35 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the report of a sizing: report.html, figure.png, points.csv and points.txt.
+"""Writes the report of a sizing: report.html, figure.png, points.csv, .xlsx and .txt.
 
 The first page is to be handed on: the answer, its figure, what limits it, what was assumed.
 """
 
 from collections.abc import Iterator
-from html import escape
 from pathlib import Path
 
+from warehouse_operations.document import page as document
+from warehouse_operations.document import sheets
 from warehouse_operations.policies import Policies
-from warehouse_operations.report import STYLE, section
 from warehouse_operations.runs import REPORT
 from warehouse_operations.sizing import figures, table
 from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.wish import Wish, count
+from warehouse_operations.version import version
 
-PRINT = (
-    ".wide { overflow-x: auto } .first { break-after: page } .answer { font-size: 1.15em }"
-    " li { margin: .2em 0 }"
-)
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"
     " knee: the fewest robots with 99 % of the most orders an hour that so many stations complete."
-    " The dotted upright line is the answer."
+    " The upright line is the answer."
 )
 MISSED = (
     "Missed: of the orders that came after the warm-up, the part that was not completed in time:"
-    " late ones, and those by which the open orders pile up. A point is <i>met</i> if the upper"
-    " 95 % confidence limit of that part is at most what may be late, <i>missed</i> if the lower"
+    " late ones, and those by which the open orders pile up. A point is met if the upper"
+    " 95 % confidence limit of that part is at most what may be late, missed if the lower"
     " one is above it, else undecided, and then not taken. Up to four times as many shifts as asked"
     " for are simulated where it is undecided; each of three looks has a third of the risk"
     " (Bonferroni). The warm-up ends where MSER-5 has the open orders steady. All points have"
@@ -51,6 +48,7 @@ def write(
     }
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
+    sheets.write_xlsx(folder / "points.xlsx", _sheets(study, prices))
     figures.write_png(folder / "figure.png", study, _chosen(answer))
     return folder / REPORT
 
@@ -62,39 +60,55 @@ def _chosen(answer: Answer | None) -> tuple[int, int] | None:
 def page(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
     """Returns the HTML of the report."""
     title = f"How many robots? {study.wish.file.title}"
-    chosen = _chosen(answer)
-    pictures = figures.throughput(study, chosen), figures.lateness(study, chosen)
+    return document.document(
+        title,
+        "Sizing report",
+        f"{document.today()}, version {version()}",
+        _first(study, answer, why, prices),
+        _rest(study, answer, prices),
+    )
+
+
+def _first(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
+    """Returns the sheet that is handed on."""
+    wish = study.wish
+    orders = f"{wish.orders_per_hour:,.0f} orders an hour"
+    asked = f"How many robots does {wish.file.title} need for {orders}?"
+    told = answer.headline() if answer else f"It can't be done: {why}."
+    is_bad = not answer or not answer.confirmed
+    curve = figures.throughput(study, _chosen(answer)).html()
     parts = [
-        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{STYLE}{PRINT}</style></head><body><div class='first'><h1>{escape(title)}</h1>",
-        _answer(study, answer, why, prices),
-        f'<div class="row">{"".join(f"<div>{one}</div>" for one in pictures)}</div>',
-        f'<p class="note">{KNEES}</p>',
-        section("What limits it", _list(answer.reasons())) if answer else "",
-        section("What was assumed", _list(assumptions(study.wish, prices))),
-        "</div>",
-        section("Fewest robots for each number of stations", _frontier(study, prices)),
-        section("How busy robots and stations are", figures.use(study, chosen)),
-        section("All points", _table(study, prices), MISSED),
-        section("What it took", f"<p>{escape(effort(study))}</p>"),
+        document.opening(asked, told, is_bad),
+        document.big(_big(study, answer, prices)) if answer else "",
+        document.section("How orders grow with robots", curve),
+        document.section(f"What limits it: {answer.limit}", document.sentences(answer.reasons()))
+        if answer
+        else "",
+        document.section("What was assumed", document.sentences(assumptions(wish, prices))),
     ]
-    return "\n".join(filter(None, parts)) + "</body></html>\n"
+    return "\n".join(filter(None, parts))
 
 
-def _answer(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
-    if not answer:
-        return f'<p class="answer bad">It can\'t be done: {escape(why)}.</p>'
-    cells = [
-        (f"{answer.robots:,}", "robots"),
-        (f"{answer.stations:,}", f"open picking stations ({answer.names})"),
-        (f"{study.wish.orders_per_hour:,.0f}", "orders an hour"),
-        (answer.limit, "limit it"),
+def _rest(study: Study, answer: Answer | None, prices: Prices | None) -> str:
+    chosen = _chosen(answer)
+    curves = figures.lateness(study, chosen).html() + f'<p class="note">{KNEES}</p>'
+    links = sheets.links(_sheets(study, prices), "points")
+    parts = [
+        document.section("How many orders are missed", curves),
+        document.section("Fewest robots for each number of stations", _frontier(study, prices)),
+        document.section("How busy they are", figures.use(study, chosen).html()),
+        document.section("All points", _table(study, prices) + links, MISSED),
+        document.section("What it took", f"<p>{effort(study)}</p>"),
     ]
+    return "\n".join(parts)
+
+
+def _big(study: Study, answer: Answer, prices: Prices | None) -> Iterator[tuple[str, str, str]]:
+    yield f"{answer.robots:,}", "", "robots"
+    yield f"{answer.stations:,}", "", f"open picking stations ({answer.names})"
+    yield f"{study.wish.orders_per_hour:,.0f}", "", "orders an hour"
     if cost := table.cost_of(study, prices, answer.measured):
-        cells.append((cost, "cost of a piece"))
-    big = "".join(f"<div><b>{escape(a)}</b>{escape(b)}</div>" for a, b in cells)
-    bad = "" if answer.confirmed else " bad"
-    return f'<div class="big">{big}</div><p class="answer{bad}">{escape(answer.headline())}</p>'
+        yield cost, "", "cost of a piece"
 
 
 def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
@@ -149,28 +163,37 @@ def _name(policy: object) -> str:
     return str(policy["name"]) if isinstance(policy, dict) else str(policy)
 
 
-def _list(sentences: Iterator[str]) -> str:
-    return f"<ul>{''.join(f'<li>{escape(one)}</li>' for one in sentences)}</ul>"
-
-
 def _frontier(study: Study, prices: Prices | None) -> str:
-    cost = "<th>cost a piece</th>" if prices else ""
-    lines = [f"<tr><th>stations</th><th>fewest robots</th>{cost}</tr>"]
+    rows = []
     for stations, robots in study.frontier.items():
         verdict = study.verdicts.get((robots or 0, stations))
-        shown = f"{robots:,}" if robots else "no number does"
-        cells = [f"{stations:,}", shown]
+        cells = [f"{stations:,}", f"{robots:,}" if robots else "no number does"]
         cells += [table.cost_of(study, prices, verdict) if verdict else ""] if prices else []
-        lines.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
-    return f"<table>{''.join(lines)}</table>"
+        rows.append(cells)
+    head = ["stations", "fewest robots", *(["cost a piece"] if prices else [])]
+    return document.table(head, rows, "Fewest robots for each number of stations")
 
 
 def _table(study: Study, prices: Prices | None) -> str:
-    heads = [*table.HEAD, *(one[1] for one in table.FIGURES), *(["cost a piece"] if prices else [])]
-    lines = [f"<tr>{''.join(f'<th>{head}</th>' for head in heads)}</tr>"]
+    """Returns all points in two tables, each narrow enough for a sheet of paper."""
+    half = len(table.FIGURES) // 2
+    parts = table.FIGURES[:half], table.FIGURES[half:]
+    return "".join(_part(study, prices, i, part) for i, part in enumerate(parts))
+
+
+def _part(study: Study, prices: Prices | None, number: int, columns: tuple) -> str:
+    """Returns a table of some figures of all points."""
+    is_last = bool(number)
+    kept = table.HEAD[:2] if is_last else table.HEAD
+    cost = ["cost a piece"] if prices and is_last else []
+    rows = []
     for verdict, kind in table.rows(study):
-        cells = table.head_of(verdict, kind)
-        cells += [table.cell_of(verdict, *one) for one in table.FIGURES]
-        cells += [table.cost_of(study, prices, verdict)] if prices else []
-        lines.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
-    return f'<div class="wide"><table class="note">{"".join(lines)}</table></div>'
+        cells = table.head_of(verdict, kind)[: len(kept)]
+        cells += [table.cell_of(verdict, *one) for one in columns]
+        rows.append(cells + ([table.cost_of(study, prices, verdict)] if cost else []))
+    head = [*kept, *(one[1] for one in columns), *cost]
+    return document.table(head, rows, f"All points, part {number + 1}")
+
+
+def _sheets(study: Study, prices: Prices | None) -> dict[str, sheets.Rows]:
+    return {"points": table.cells(study, prices)}

@@ -39,18 +39,35 @@ def rows(study: Study) -> list[tuple[Verdict, str]]:
 
 
 def to_csv(study: Study, prices: Prices | None) -> str:
-    """Returns all figures of all points: the mean of each and half its 95 % interval."""
+    """Returns all figures of all points as CSV."""
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
+    csv.writer(out, lineterminator="\n").writerows(cells(study, prices))
+    return out.getvalue()
+
+
+def cells(study: Study, prices: Prices | None) -> list[list[Any]]:
+    """Returns headings, and all figures of all points: means and half their 95 % intervals."""
     named = [text for _, heading, *_ in FIGURES for text in (heading, f"{heading} ±")]
-    writer.writerow([*HEAD, *named, "cost a piece"])
+    out: list[list[Any]] = [[*HEAD, *named, "cost a piece"]]
     for verdict, kind in rows(study):
-        cells: list[Any] = head_of(verdict, kind)
+        row: list[Any] = [_plain(one) for one in head_of(verdict, kind)]
         for name, _, factor, digits in FIGURES:
             found = verdict.estimate(name)
-            cells += [f"{factor * one:.{digits + 2}f}" for one in (found.mean, found.half)]
-        writer.writerow([*cells, cost_of(study, prices, verdict)])
-    return out.getvalue()
+            row += [round(factor * one, digits + 2) for one in (found.mean, found.half)]
+        out.append([*row, _plain(cost_of(study, prices, verdict))])
+    return out
+
+
+def _plain(text: str) -> Any:
+    """Returns a number where a text is one: spreadsheets calculate with it."""
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def to_text(study: Study, prices: Prices | None) -> str:

@@ -80,7 +80,7 @@ def _action_json(action: SupportedAction) -> dict[str, Any]:
             {"key": key, "valueDataType": kind, "isOptional": optional, "description": text}
             for key, kind, optional, text in action.parameters
         ],
-        "blockingTypes": [blocking.value for blocking in action.blocking],
+        # No blockingTypes: there is no value that fits the published schema of 2.1.0.
     }
 
 

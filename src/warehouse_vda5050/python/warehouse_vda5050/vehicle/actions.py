@@ -110,9 +110,9 @@ class ActionQueue:
         return not self.running and not self._due
 
     @property
-    def has_failed(self) -> bool:
-        """Whether an action could not be carried out."""
-        return any(s.status is ActionStatus.FAILED for s in self._states.values())
+    def failed(self) -> list[ActionState]:
+        """The actions that could not be carried out."""
+        return [s for s in self._states.values() if s.status is ActionStatus.FAILED]
 
     def states(self, paused: bool) -> tuple[ActionState, ...]:
         """Returns how far all are; running ones of a paused robot are PAUSED."""

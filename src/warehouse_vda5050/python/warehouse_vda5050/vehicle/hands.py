@@ -6,7 +6,7 @@ from warehouse_vda5050.model import Action
 from warehouse_vda5050.vehicle.actions import ActionQueue
 
 PATIENCE = 3.0  # until a lift that is not heard is asked for again [s]
-ATTEMPTS = 3
+ATTEMPTS = 20
 
 
 class Hands:

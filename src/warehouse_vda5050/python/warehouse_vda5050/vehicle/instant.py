@@ -8,11 +8,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from warehouse_vda5050.model import Action, ActionState, ActionStatus, Error, ErrorType
+from warehouse_vda5050.topics import Kind
 
 if TYPE_CHECKING:
     from warehouse_vda5050.vehicle.vehicle import Vehicle
 
 KEPT = 50  # states of instant actions that are over
+COPY = 5.0  # so long after an action the same actionId is a copy, and not another request [s]
 
 
 class ActionError(Exception):
@@ -22,18 +24,22 @@ class ActionError(Exception):
 class InstantDesk:
     """Begins instant actions of one vehicle, and tells how far each has come.
 
-    Masters repeat what they don't find in the state: an actionId that is known is not done again.
+    Masters repeat what they don't find in the state, so an actionId that is known is not done again;
+    others name all their pauses "pause", so some time later it is.
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
         self._states: dict[str, ActionState] = {}
+        self._begun: dict[str, float] = {}
 
     def begin(self, action: Action, now: float) -> None:
         """Begins an action, unless it is known."""
-        if action.id in self._states:
+        known = self._states.get(action.id)
+        if known and not (known.status.is_over and now - self._begun[action.id] > COPY):
             return
         self._trim()
+        self._begun[action.id] = now
         try:
             begin = ACTIONS.get(action.type)
             if begin is None:
@@ -63,14 +69,15 @@ class InstantDesk:
     def _trim(self) -> None:
         over = [id for id, state in self._states.items() if state.status.is_over]
         for id in over[: max(0, len(self._states) - KEPT + 1)]:
-            del self._states[id]
+            del self._states[id], self._begun[id]
 
 
 def _error(action: Action, text: str) -> Error:
-    kind = ErrorType.VALIDATION
+    kind = ErrorType.INSTANT_ACTION
     if action.type == "cancelOrder":
         kind = ErrorType.NO_ORDER_TO_CANCEL
-    return Error(kind.value, description=text, references=(("actionId", action.id[:100]),))
+    refer = (("topic", Kind.INSTANT_ACTIONS.value), ("actionId", action.id[:100]))
+    return Error(kind.value, description=text, references=refer)
 
 
 def _cancel(vehicle: Vehicle, action: Action, now: float) -> bool:

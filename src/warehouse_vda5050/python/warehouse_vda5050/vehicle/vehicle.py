@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.model import (
+    ActionState,
     Error,
     ErrorLevel,
     ErrorType,
@@ -22,6 +23,7 @@ from warehouse_vda5050.model import (
     Order,
     State,
 )
+from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.orders import cells_of, check_abilities, check_form
 from warehouse_vda5050.vehicle.abilities import completed
@@ -83,7 +85,7 @@ class Vehicle:
         try:
             return self._accept(order)
         except MessageError as invalid:
-            self.note(invalid.error)
+            self.note(_referring(invalid.error, order))
             return False
 
     def on_instant_actions(self, message: InstantActions, now: float) -> None:
@@ -134,7 +136,7 @@ class Vehicle:
 
     def _drive(self, report: Report, now: float) -> None:
         order = self.order
-        stays = self.actions.holds_driving or self.actions.has_failed
+        stays = self.actions.holds_driving or self.actions.failed
         if order and not order.is_driven and not stays and not self._cancelling:
             self.wheels.drive(order, report, now)
 
@@ -247,6 +249,11 @@ class Vehicle:
         raise MessageError(text, type.value, refer)
 
     @property
+    def is_taken(self) -> bool:
+        """Whether an order has the robot, or had it just now."""
+        return self._taken
+
+    @property
     def is_free(self) -> bool:
         """Whether no order is under way: nodes and actions are over, or there never was one."""
         return self.order is None or (
@@ -267,6 +274,14 @@ class Vehicle:
         self.hands.give_up()
         self.wheels.cancel(now)
         return True
+
+    def abandon(self) -> None:
+        """Ends driving at the next grid point: the program that drives the robot ends."""
+        self.wheels.cancel(0.0)
+
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over a floor of the same cells, on which other things stand."""
+        self.grid = self.wheels.grid = grid
 
     def set_paused(self, paused: bool) -> None:
         """Stops the robot, or lets it go on."""
@@ -315,15 +330,33 @@ class Vehicle:
         errors = [*self.errors, *(self.report.errors if self.report else ())]
         order = self.order
         if order and not self.is_free:
-            fault = self.wheels.fault
-            if self.actions.has_failed and not self._cancelling and not order.is_driven:
-                fault = fault or "an action failed, and the robot stays where it is"
-            if fault:
-                errors.append(_order_fault(order, fault))
+            if self.wheels.fault:
+                errors.append(_order_fault(order, self.wheels.fault))
+            if not self._cancelling and not order.is_driven:
+                errors += [_action_fault(order, state) for state in self.actions.failed]
         return tuple(replace(error, description=error.description[:500]) for error in errors)
 
 
+HINT = "cancelOrder, then a new order"
+
+
 def _order_fault(order: OrderProgress, text: str) -> Error:
-    hint = "cancelOrder, then a new order"
-    refer = (("orderId", order.id[:100]),)
-    return Error(ErrorType.ORDER.value, ErrorLevel.WARNING, text, hint, refer)
+    return Error(ErrorType.ORDER.value, ErrorLevel.WARNING, text, HINT, _references(order))
+
+
+def _action_fault(order: OrderProgress, state: ActionState) -> Error:
+    text = f"{state.type} failed, and the robot stays where it is: {state.result}"
+    refer = (*_references(order), ("actionId", state.id[:100]))
+    return Error(ErrorType.ORDER_ACTION.value, ErrorLevel.WARNING, text, HINT, refer)
+
+
+def _references(order: Order | OrderProgress) -> tuple[tuple[str, str], ...]:
+    """Returns what masters find an order's errors by."""
+    topic = ("topic", Kind.ORDER.value)
+    return topic, ("orderId", order.id[:100]), ("orderUpdateId", str(order.update))
+
+
+def _referring(error: Error, order: Order) -> Error:
+    """Returns the error of an order with all that masters find it by."""
+    further = [pair for pair in error.references if pair[0] not in ("orderId", "orderUpdateId")]
+    return replace(error, references=(*_references(order), *further))

@@ -31,7 +31,7 @@ class Wheels:
     """The way of one vehicle along its order. `first_path` is the number of its first path."""
 
     def __init__(self, driver: Driver, grid: Grid, first_path: int) -> None:
-        self._driver, self._grid = driver, grid
+        self._driver, self.grid = driver, grid
         self._next_path = first_path
         self._leg: Leg | None = None
         self._retry_at = 0.0
@@ -92,14 +92,14 @@ class Wheels:
         return order.base_end
 
     def _begin_leg(self, order: OrderProgress, report: Report, goal: int, now: float) -> None:
-        here = self._grid.cell_at(report.x, report.y)
+        here = self.grid.cell_at(report.x, report.y)
         try:
-            way = self._grid.between(order.cells[0], order.cells[1])
+            way = self.grid.between(order.cells[0], order.cells[1])
         except GridError as error:  # checked when the order was accepted
             raise AssertionError(str(error)) from error
         if here not in way[:-1]:
             self.fault = (
-                f"the robot stands at {self._grid.node_id(here)}, not on its way from"
+                f"the robot stands at {self.grid.node_id(here)}, not on its way from"
                 f" {order.nodes[0].id} to {order.nodes[1].id}"
             )
             return
@@ -118,7 +118,7 @@ class Wheels:
         self._driver.follow(leg.path_id, first, points, len(leg.points))
 
     def _points(self, cells: list[Cell]) -> list[Point]:
-        return [self._grid.position(cell) for cell in cells]
+        return [self.grid.position(cell) for cell in cells]
 
     def cancel(self, now: float) -> None:
         """Ends the leg under way at the next grid point; asks again until it is over."""

@@ -36,10 +36,13 @@ from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
+from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
 from warehouse_viewer.server.station_pages import StationPages
 from warehouse_viewer.watch.monitor import Monitor
+from warehouse_viewer.whatif import places
+from warehouse_viewer.whatif.routes import routes as whatif_routes
+from warehouse_viewer.whatif.workshop import Workshop
 
 
 class Viewer:
@@ -125,11 +128,13 @@ class Viewer:
         self._watching = asyncio.create_task(self.monitor.run())
 
     def _add_files(self, app):
-        operations = OPERATIONS._replace(count="/api/v1/alarms")
-        pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
+        operations = OPERATIONS._replace(counted="/api/v1/alarms")
+        pages = Site(FLOOR, operations, LAYOUT, WHATIF, API, folder=self._web)
         history = self.history.routes() if self.history else []
         screens = StationPages(self._totes, self._web).routes()
-        others = Editor(builds=True).routes(), history, screens, pages.routes()
+        editor = Editor(builds=True, compares=True).routes()
+        whatif = whatif_routes(Workshop(places.of_viewer()))
+        others = editor, whatif, history, screens, pages.routes()
         app.router.routes.extend(route for routes in others for route in routes)
 
     async def _totes(self, name: str) -> int | None:

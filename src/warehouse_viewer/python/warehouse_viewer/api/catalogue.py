@@ -11,12 +11,20 @@ from warehouse_client import tracking
 from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
 from warehouse_client.tracking import Tracked
 from warehouse_layout.models import kind_and_number
-from warehouse_msgs.msg import CoordinatorState, Event, FleetState, UnitStates, WarehouseObjects
+from warehouse_msgs.msg import (
+    CoordinatorState,
+    Event,
+    FleetState,
+    UnitStates,
+    Vda5050,
+    WarehouseObjects,
+)
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     RobotsByMode,
     RobotsByWork,
     TransportCounts,
+    Vda5050Robot,
     Waiting,
 )
 from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
@@ -68,6 +76,26 @@ def coordinator(state: CoordinatorState) -> Coordinator:
         watchdog=state.watchdog,
         alarms=list(state.alarms),
     )
+
+
+def at_broker(told: Vda5050) -> list[Vda5050Robot]:
+    """Returns the robots of a Vda5050 message as the API describes them."""
+    by = ("OUTSIDE_MASTER", "COORDINATOR")[told.direction]
+    states = ("ONLINE", "OFFLINE", "CONNECTIONBROKEN")
+    return [
+        Vda5050Robot(
+            id=number,
+            driven_by=by,
+            manufacturer=told.manufacturer[i],
+            serial=told.serial[i],
+            broker=told.broker,
+            connection=states[bytes(told.connection)[i]],
+            driven=told.driven[i],
+            order=told.order[i],
+            errors=told.errors[i].splitlines(),
+        )
+        for i, number in enumerate(told.kiva_id)
+    ]
 
 
 def plain_coordinator(state: CoordinatorState) -> dict[str, Any]:

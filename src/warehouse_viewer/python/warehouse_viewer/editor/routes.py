@@ -29,10 +29,12 @@ Answer = dict[str, Any]
 
 class Editor:
     """What the page asks. file: the one that it edits, if any; builds: whether the HTTP API of a
-    running warehouse is behind the same address."""
+    running warehouse is behind the same address; compares: whether the page /whatif is."""
 
-    def __init__(self, file: Path | None = None, builds: bool = False) -> None:
-        self._file, self._builds = file, builds
+    def __init__(
+        self, file: Path | None = None, builds: bool = False, compares: bool = False
+    ) -> None:
+        self._file, self._builds, self._compares = file, builds, compares
         self._saves = bool(file and file.name.endswith(layout_file.SUFFIX))
         self._trials = 0
 
@@ -52,6 +54,7 @@ class Editor:
             "presets": {n: _counts(p) for n, p in PRESETS.items() if p.robots},
             "limits": LIMITS | {"stations": MAX_BELTS},
             "builds": self._builds,
+            "compares": self._compares,
             "file": str(self._file.resolve()) if self._file else "",
             "saves": self._saves,
         }

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import floor_markings, painted, poses
-from warehouse_viewer.page import protocol
+from warehouse_layout import floor_markings, poses
+from warehouse_viewer.page import paint, protocol
 from warehouse_viewer.page.activities import activity
+from warehouse_viewer.page.paint import short
 from warehouse_viewer.page.table import Table
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
@@ -164,12 +165,12 @@ class Model:
             "units": list(objects.storage_units),
             "items": list(objects.items),
             "item_unit": list(map(int, objects.item_unit)),
-            "item_pose": _short(objects.item_pose),
+            "item_pose": short(objects.item_pose),
             "fallen_item": list(map(int, objects.fallen_item)),
             "fallen_from": list(map(int, objects.fallen_from)),
             "floor": list(map(float, scenery.floor)),
             "grid": scenery.grid_spacing,
-            **_paint(scenery),
+            **paint.of_scenery(scenery),
             "looks": self._looks(),
             "robot_look": scenery.kiva_look,
             "unit_look": scenery.storage_unit_look,
@@ -182,26 +183,14 @@ class Model:
         """Of all but paint, which the page draws as it likes."""
         scenery = self._scenery
         solid = {scenery.model_look[i] for i in self._solid}
-        paint = {*scenery.model_look} - solid
-        return [[] if i in paint else _look(look) for i, look in enumerate(scenery.looks)]
+        unseen = {*scenery.model_look} - solid
+        return [[] if i in unseen else _look(look) for i, look in enumerate(scenery.looks)]
 
 
 def _limits(fleet):
     """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
     limits = np.asarray(fleet.load_limit, np.float32)
     return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
-
-
-def _paint(scenery):
-    """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
-    marks = painted.marks(scenery)
-    rectangles: dict[str, list[float]] = {}
-    for m in marks:
-        rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
-    return {
-        "paint": rectangles,
-        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in painted.served(marks)],
-    }
 
 
 def _look_alike(a, b):
@@ -230,20 +219,15 @@ def _centred(inner):
     return out
 
 
-def _short(numbers):
-    """Rounded to 0.1 mm: half the bytes."""
-    return np.round(np.asarray(numbers, float), 4).tolist()
-
-
 def _look(look):
     """A Look as a list of links, each with its shapes."""
     links = [
         {"name": name, "pose": pose, "shapes": []}
-        for name, pose in zip(look.links, poses.rows(_short(look.link_pose)).tolist())
+        for name, pose in zip(look.links, poses.rows(short(look.link_pose)).tolist())
     ]
-    shape_pose = poses.rows(_short(look.shape_pose)).tolist()
-    size = np.reshape(_short(look.shape_size), (-1, 3)).tolist()
-    colour = np.reshape(_short(look.shape_colour), (-1, 4)).tolist()
+    shape_pose = poses.rows(short(look.shape_pose)).tolist()
+    size = np.reshape(short(look.shape_size), (-1, 3)).tolist()
+    colour = np.reshape(short(look.shape_colour), (-1, 4)).tolist()
     for i, link in enumerate(look.shape_link):
         links[link]["shapes"].append(
             {

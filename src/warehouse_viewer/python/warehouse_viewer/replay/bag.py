@@ -55,9 +55,7 @@ class _Conversion:
         self._parts: dict[str, Any] = {}
         self._figures: dict[str, Any] = {}
         self._wall: float | None = None
-        self.recorder = Recorder(
-            writer, self._model, self._journal, self._told, lambda: self._wall
-        )
+        self.recorder = Recorder(writer, self._model, self._journal, self._told, lambda: self._wall)
         self.count = 0  # of states
 
     def take(self, topic: str, message: Any, wall: float) -> None:

@@ -77,9 +77,7 @@ class OpenChunk:
     def packed(self, number: int, level: int = LEVEL) -> Chunk:
         """Returns the Chunk so far."""
         data = zlib.compress(b"".join(self._parts), level)
-        return Chunk(
-            number, self.scene, self.begin, self.end, self.wall, tuple(self._marks), data
-        )
+        return Chunk(number, self.scene, self.begin, self.end, self.wall, tuple(self._marks), data)
 
 
 def messages(data: bytes) -> list[tuple[int, float, bytes]]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A recording in a file, to which is written as time goes on, and which is read a chunk at a time."""
+"""A recording in a file, written as time goes on and read a chunk at a time."""
 
 import math
 import secrets
@@ -26,7 +26,7 @@ class FileWriter:
     """
 
     def __init__(self, path: Path, about: dict[str, Any]) -> None:
-        self._path, self._numbers, self.bytes = path, 0, 0
+        self._path, self._numbers, self.size = path, 0, 0
         try:
             self._file = path.open("wb")
         except OSError as error:
@@ -65,7 +65,7 @@ class FileWriter:
         try:
             blocks.write_block(self._file, what, about, data)
             self._file.flush()
-            self.bytes = self._file.tell()
+            self.size = self._file.tell()
         except OSError as error:
             raise RecordingError(f"{self._path}: {error.strerror}") from error
 

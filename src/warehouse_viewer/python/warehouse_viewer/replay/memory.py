@@ -62,7 +62,7 @@ class MemoryStore:
 
     def _has_too_much(self, end: float) -> bool:
         oldest = next(iter(self._chunks.values()))
-        return end - oldest.end > self._seconds or self.bytes > self._most_bytes
+        return end - oldest.end > self._seconds or self.size > self._most_bytes
 
     def _drop_scenes(self, newest: int) -> None:
         used = {one.scene for one in self._chunks.values()} | {newest}
@@ -70,8 +70,8 @@ class MemoryStore:
 
     # --- reading
     @property
-    def bytes(self) -> int:
-        """How much memory chunks and scenes take."""
+    def size(self) -> int:
+        """How much memory chunks and scenes take [bytes]."""
         chunks = sum(len(one.data) for one in self._chunks.values())
         return chunks + sum(map(len, self._scenes.values()))
 

@@ -81,8 +81,7 @@ class Recorder:
         """Whether take() would record the model as it is."""
         model = self._model
         return model.revision > 0 and (
-            model.revision != self._revision
-            or not 0 <= model.stamp - self._stamp < INTERVAL - 1e-3
+            model.revision != self._revision or not 0 <= model.stamp - self._stamp < INTERVAL - 1e-3
         )
 
     def take(self) -> None:

@@ -50,7 +50,7 @@ class ShiftRecorder:
         if not self._recorder:
             return 0
         self._recorder.close()
-        return self._writer.bytes
+        return self._writer.size
 
     def _begin(self, ops: Operations) -> Recorder:
         if ops.ideal:

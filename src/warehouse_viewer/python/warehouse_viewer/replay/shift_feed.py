@@ -113,7 +113,7 @@ def _poses(rows: np.ndarray, yaw: Any = 0.0) -> np.ndarray:
 
 
 def _within(items: np.ndarray, units: np.ndarray, on: np.ndarray) -> np.ndarray:
-    """Returns the poses of items in their units' frames, (n, 7); in world where they lie on none."""
+    """Returns the poses of items in their units' frames, (n, 7); of others in world."""
     out, carried = _poses(items), on >= 0
     under = units[on[carried]]
     frame = _poses(under, under["yaw"])

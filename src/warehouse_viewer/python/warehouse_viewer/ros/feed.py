@@ -23,6 +23,7 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
 )
 from warehouse_viewer.ros.simulation import Standing
+from warehouse_viewer.ros.vda5050_feed import Vda5050Feed
 
 TOPICS = {
     "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
@@ -56,6 +57,7 @@ class Feed:
         self._subscribers: dict[str, Any] = {}
         self._extras: dict[str, Any] = {}
         self._used, self._coordinated = 0.0, 0.0
+        self.vda5050 = Vda5050Feed(ros)
         ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
         topic = "/warehouse/transports"
         ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)

@@ -14,7 +14,8 @@ from warehouse_viewer.server import token_page
 
 MOST_BODY = 64 * 1024  # [bytes]
 MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts and tables of orders are sent
-LAYOUT_PATHS = ("/layout/", "/api/v1/warehouse", "/api/v1/orders/table")
+LAYOUT_FOLDERS = ("/layout/", "/whatif/")
+LAYOUT_PATHS = ("/api/v1/warehouse", "/api/v1/orders/table")
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
@@ -35,7 +36,8 @@ def is_local(host: str) -> bool:
 def most_body(scope: Any) -> int:
     """Returns how long a request's body may be [bytes]."""
     path = scope.get("path", "")
-    return MOST_LAYOUT if path.startswith(LAYOUT_PATHS[0]) or path in LAYOUT_PATHS else MOST_BODY
+    takes_layouts = path.startswith(LAYOUT_FOLDERS) or path in LAYOUT_PATHS
+    return MOST_LAYOUT if takes_layouts else MOST_BODY
 
 
 class RateLimit:
@@ -216,7 +218,13 @@ async def _limited(app, scope, receive, send):
 
     async def headed(message):
         if message["type"] == "http.response.start":
-            message = message | {"headers": [*message.get("headers", []), *HEADERS]}
+            message = message | {"headers": _completed(message.get("headers", []))}
         await send(message)
 
     await app(scope, bounded, headed)
+
+
+def _completed(headers):
+    """Headers with ours, where an answer does not have its own."""
+    own = {name.lower() for name, _ in headers}
+    return [*headers, *(one for one in HEADERS if one[0] not in own)]

@@ -17,18 +17,19 @@ from warehouse_viewer.shared_files import CHART, THREE, WEB
 class Page(NamedTuple):
     """A page: where it is, what the way to it is called, and its file in the folder web.
 
-    `count`: where its `total` of what waits there for a person is told as JSON; empty: not at all.
+    `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
     """
 
     path: str
     title: str
     file: str
-    count: str = ""
+    counted: str = ""
 
 
 FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")
+WHATIF = Page("/whatif", "What-if", "whatif.html")
 API = Page("/docs", "API", "docs.html")
 
 
@@ -59,7 +60,8 @@ class Site:
 
     async def _list(self, _: Request) -> Response:
         pages = [
-            {"path": page.path, "title": page.title} | ({"count": page.count} if page.count else {})
+            {"path": page.path, "title": page.title}
+            | ({"count": page.counted} if page.counted else {})
             for page in self._pages
         ]
         return JSONResponse(pages, headers={"cache-control": "no-cache"})

@@ -84,7 +84,8 @@ class Monitor:
         self._note("alarms", self.alarms.told())
 
     def _troubles(self, fleet: Any, stations: Collection[Any]) -> list[Trouble]:
-        found, state = [], self._feed.coordinator
+        found: list[Trouble] = []
+        state = self._feed.coordinator
         if fleet is not None:
             found += troubles.of_fleet(fleet)
         if state:

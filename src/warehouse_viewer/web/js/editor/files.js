@@ -3,6 +3,7 @@
 
 import { $, make, on } from '../dom.js';
 import { ask as question, confirmed } from '../question.js';
+import { ask as send } from '../whatif/server.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -66,7 +67,7 @@ export class Files {
   }
 
   download(text) {
-    const name = `${this.editor.drawing.name.replace(/[^\w.-]+/g, '_') || 'warehouse'}.layout.yaml`;
+    const name = fileNameOf(this.editor.drawing);
     const href = URL.createObjectURL(new Blob([text], { type: 'text/yaml' }));
     make('a', { href, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(href), 10000);
@@ -111,6 +112,19 @@ export async function build(editor, post) {
     editor.say(error.message, 'refused');
   }
 }
+
+/** Hands the drawing to the page /whatif as a layout to be compared, and goes there. */
+export async function compare(editor) {
+  try {
+    const name = fileNameOf(editor.drawing);
+    const { name: kept } = await send('POST', '/layouts', { name, text: textOf(editor.drawing).text });
+    location.assign(`/whatif?layout=${encodeURIComponent(kept)}`);
+  } catch (error) {
+    editor.say(error.message, 'refused');
+  }
+}
+
+const fileNameOf = ({ name }) => `${name.replace(/[^\w.-]+/g, '_').replace(/^[^a-z0-9]+/i, '') || 'warehouse'}.layout.yaml`;
 
 async function base64(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());

@@ -17,6 +17,7 @@ from warehouse_viewer.api.schemas.fleet import (
     TransportNumber,
     Transports,
     TransportState,
+    Vda5050Robot,
 )
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 
@@ -28,6 +29,12 @@ TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
 async def get_coordinator(backend: ApiBackend = BACKEND) -> Any:
     """The fleet at a glance."""
     return catalogue.coordinator(await backend.coordinator())
+
+
+@router.get("/vda5050", response_model=list[Vda5050Robot], responses=problems())
+async def get_vda5050(backend: ApiBackend = BACKEND) -> Any:
+    """Robots at a broker by VDA 5050: whose they are, connection, order and errors."""
+    return [one for told in backend.feed.vda5050.messages for one in catalogue.at_broker(told)]
 
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))

@@ -89,7 +89,8 @@ async def export_xlsx(
 
 async def _all(backend, search, state, late):
     """All orders of a search as JSON has them; 409 if they are more than a sheet should have."""
-    which, found = ANY if state is None else STATES.index(state), []
+    which = ANY if state is None else STATES.index(state)
+    found: list[Any] = []
     while True:
         fields = 0, search, which, late, AT_ONCE, len(found)
         some = await backend.call(backend.operations.find_orders, *fields)

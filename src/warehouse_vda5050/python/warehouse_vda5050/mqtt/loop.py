@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many connections in one thread: poll() reads and writes whatever is ready.
+
+A robot's will belongs to a connection of its own, so there are as many as robots; a thread each
+would cost more than the messages.
+"""
+
+import random
+import selectors
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, NamedTuple
+
+from warehouse_vda5050.mqtt.client import begin_connecting, cut, listen, make_client
+from warehouse_vda5050.mqtt.settings import BrokerSettings
+
+BACK_OFF = (0.2, 5.0)  # the first and the longest wait before a further attempt [s]
+PATIENCE = 10.0  # for a broker's answer to a connection [s]
+
+
+class Outgoing(NamedTuple):
+    """A message to be sent."""
+
+    topic: str
+    payload: bytes
+    qos: int = 0
+    retain: bool = False
+
+
+class Link:
+    """One connection to a broker, made again whenever it is lost.
+
+    on_message(topic, payload, retained) and on_connect() are called by MqttLoop.poll(). make_will()
+    returns what the broker is to publish if the connection breaks, or None; it is asked before
+    each attempt. Not for other threads than that of poll().
+    """
+
+    def __init__(
+        self,
+        name: str,
+        broker: BrokerSettings,
+        subscriptions: Iterable[tuple[str, int]],
+        on_message: Callable[[str, bytes, bool], None],
+        on_connect: Callable[[], None] = lambda: None,
+        make_will: Callable[[], Outgoing | None] = lambda: None,
+    ) -> None:
+        self.name, self.broker = name, broker
+        self.connected = False
+        self.fault = "not connected yet"  # why it is not connected, '' if it is
+        self.wanted = True  # whether to connect
+        self.closed = False
+        self._subscriptions = list(subscriptions)
+        self._on_message, self._on_connect, self._make_will = on_message, on_connect, make_will
+        self._client: Any = None
+        self._attempt: Future | None = None
+        self._next_attempt = 0.0
+        self._wait = BACK_OFF[0]
+        self._asked_at = 0.0
+
+    def publish(self, message: Outgoing) -> bool:
+        """Sends a message. Returns False if there is no connection."""
+        if not self.connected:
+            return False
+        self._client.publish(message.topic, message.payload, message.qos, message.retain)
+        return True
+
+    def cut(self) -> None:
+        """Ends the connection as a lost radio does, until restore()."""
+        self.wanted = False
+        if self._client is not None and self._attempt is None:
+            cut(self._client)
+            self._lose("cut")
+
+    def restore(self) -> None:
+        """Lets the link connect after cut()."""
+        self.wanted = True
+
+    def close(self, farewell: Outgoing | None = None) -> None:
+        """Sends a last message and disconnects in good order; MqttLoop.close() waits for it."""
+        self.wanted, self.closed = False, True
+        if not self.connected:
+            return
+        if farewell:
+            self.publish(farewell)
+        self._client.disconnect()
+
+    # Called by MqttLoop.
+
+    @property
+    def socket(self) -> Any:
+        """The socket, None without one."""
+        if self._client is None or self._attempt is not None:
+            return None
+        return self._client.socket()
+
+    @property
+    def wants_to_write(self) -> bool:
+        """Whether bytes wait to be sent."""
+        return bool(self._client.want_write())
+
+    def read(self) -> None:
+        """Takes in what came."""
+        self._client.loop_read()
+
+    def write(self) -> None:
+        """Sends what waits."""
+        self._client.loop_write()
+
+    def keep_up(self, now: float, pool: ThreadPoolExecutor) -> None:
+        """Connects if it is time to, keeps the connection alive otherwise."""
+        if self._attempt is not None:
+            self._end_attempt(now)
+        elif self._client is not None:
+            self._client.loop_misc()
+            if not self.connected and self._client and now - self._asked_at > PATIENCE:
+                cut(self._client)
+                self._lose("the broker does not answer")
+        elif self.wanted and now >= self._next_attempt:
+            self._attempt = pool.submit(self._connect)
+
+    def _connect(self) -> Any:
+        """Returns a client that has said hello; in a thread of the pool. Raises OSError."""
+        client = make_client(self.name, self.broker)
+        will = self._make_will()
+        if will:
+            client.will_set(will.topic, will.payload, will.qos, will.retain)
+        listen(client, self._answered, lambda: self._lose("the connection broke"), self._on_message)
+        begin_connecting(client, self.broker)
+        return client
+
+    def _end_attempt(self, now: float) -> None:
+        assert self._attempt
+        if not self._attempt.done():
+            return
+        attempt, self._attempt = self._attempt, None
+        self._asked_at = now
+        try:
+            self._client = attempt.result()
+        except OSError as error:
+            self._lose(str(error))
+        if not self.wanted and self._client is not None:
+            cut(self._client)
+            self._lose("cut")
+
+    def _answered(self, fault: str) -> None:
+        if fault:
+            self._lose(fault)
+            return
+        self.connected, self.fault, self._wait = True, "", BACK_OFF[0]
+        if self._subscriptions:
+            self._client.subscribe(self._subscriptions)
+        self._on_connect()
+
+    def _lose(self, fault: str) -> None:
+        client, self._client = self._client, None
+        if client is not None:
+            client.on_disconnect = client.on_message = client.on_connect = None
+        self.connected, self.fault = False, fault
+        self._next_attempt = time.monotonic() + self._wait * random.uniform(0.5, 1.0)
+        self._wait = min(2 * self._wait, BACK_OFF[1])
+
+
+class MqttLoop:
+    """Reads and writes the sockets of all links."""
+
+    def __init__(self) -> None:
+        self.links: list[Link] = []
+        self._pool = ThreadPoolExecutor(8, thread_name_prefix="mqtt-connect")
+
+    def add(self, link: Link) -> Link:
+        """Begins to look after a link; returns it."""
+        self.links.append(link)
+        return link
+
+    def remove(self, link: Link) -> None:
+        """Looks after a link no more."""
+        self.links.remove(link)
+
+    def poll(self, timeout: float = 0.0) -> None:
+        """Waits at most `timeout` [s] for something to read or write, then does what is due."""
+        end = time.monotonic() + timeout
+        while True:
+            now = time.monotonic()
+            self._keep_up(now)
+            self._serve(max(0.0, min(end - now, 0.05)))
+            if now >= end:
+                return
+
+    def _keep_up(self, now: float) -> None:
+        for link in [*self.links]:
+            link.keep_up(now, self._pool)
+            if link.closed and link.socket is None:
+                self.links.remove(link)
+
+    def _serve(self, timeout: float) -> None:
+        with selectors.DefaultSelector() as selector:
+            for link in self.links:
+                socket = link.socket
+                if socket is not None and socket.fileno() >= 0:
+                    writes = selectors.EVENT_WRITE if link.wants_to_write else 0
+                    selector.register(socket, selectors.EVENT_READ | writes, link)
+            if not selector.get_map():
+                time.sleep(timeout)
+                return
+            for key, events in selector.select(timeout):
+                _serve_one(key.data, events)
+
+    def close(self, timeout: float = 2.0) -> None:
+        """Waits until links that were closed have said goodbye; ends the others."""
+        end = time.monotonic() + timeout
+        while time.monotonic() < end and any(link.socket for link in self.links):
+            self.poll(0.01)
+        self._pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _serve_one(link: Link, events: int) -> None:
+    if events & selectors.EVENT_READ and link.socket is not None:
+        link.read()
+    if events & selectors.EVENT_WRITE and link.socket is not None:
+        link.write()

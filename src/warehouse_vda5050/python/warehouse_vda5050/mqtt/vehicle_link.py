@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A vehicle at a broker: its own connection with its will, its messages in and out."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from warehouse_vda5050.codec import Codec
+from warehouse_vda5050.headers import Headers
+from warehouse_vda5050.model import Connection, ConnectionState, ErrorType, Message
+from warehouse_vda5050.mqtt.loop import Link, Outgoing
+from warehouse_vda5050.mqtt.settings import BrokerSettings
+from warehouse_vda5050.topics import TO_VEHICLE, Identity, Kind, Topics
+from warehouse_vda5050.validation import MessageError
+from warehouse_vda5050.vehicle import Vehicle
+
+
+class VehicleLink:
+    """Carries messages between one Vehicle and its broker.
+
+    `link` is to be added to an MqttLoop; tick() is called between its poll()s. `tell` writes lines
+    for a person.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        identity: Identity,
+        codec: Codec,
+        topics: Topics,
+        broker: BrokerSettings,
+        tell: Callable[[str], None] = lambda _line: None,
+    ) -> None:
+        self.vehicle, self.identity = vehicle, identity
+        self._codec, self._topics, self._tell = codec, topics, tell
+        self._headers = Headers(identity, codec.version)
+        self._online = self._connection(ConnectionState.ONLINE)
+        self._now = 0.0
+        name = f"{identity.manufacturer}.{identity.serial}.vehicle"
+        wanted = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
+        self.link = Link(
+            name, broker, wanted, self._on_message, self._on_connect, self._make_will
+        )
+
+    def tick(self, now: float) -> None:
+        """Lets the vehicle go on, and sends what it has to tell. now: any clock [s]."""
+        self._now = now
+        self.vehicle.update(now)
+        report = self.vehicle.report
+        if report is not None and not report.heard:
+            if self.link.wanted:
+                self.link.cut()
+        elif not self.link.closed:
+            self.link.restore()
+        if self.link.connected:
+            self._send_news(now)
+        for reason, lines in self.vehicle.take_logs():
+            self._tell(f"{self.identity.serial}: log for {reason!r}: " + "; ".join(lines))
+
+    def _send_news(self, now: float) -> None:
+        state = self.vehicle.take_state(now)
+        if state:
+            self._send(Kind.STATE, state)
+        factsheet = self.vehicle.take_factsheet()
+        if factsheet:
+            self._send(Kind.FACTSHEET, factsheet)
+
+    def close(self) -> None:
+        """Says OFFLINE and disconnects."""
+        self.link.close(self._connection(ConnectionState.OFFLINE))
+
+    def _send(self, kind: Kind, message: Any) -> None:
+        self.link.publish(self._outgoing(kind, message))
+
+    def _outgoing(self, kind: Kind, message: Message) -> Outgoing:
+        message = replace(message, header=self._headers.next(kind))
+        payload = self._codec.encode(message)
+        return Outgoing(self._topics.of(self.identity, kind), payload, kind.qos, kind.retained)
+
+    def _connection(self, state: ConnectionState) -> Outgoing:
+        return self._outgoing(Kind.CONNECTION, Connection(state))
+
+    def _make_will(self) -> Outgoing:
+        # Masters drop what is older than what they had: ONLINE must not be newer than the will.
+        self._online = self._connection(ConnectionState.ONLINE)
+        return self._connection(ConnectionState.CONNECTIONBROKEN)
+
+    def _on_connect(self) -> None:
+        self.link.publish(self._online)
+        self.vehicle.request_state()
+        self.vehicle.request_factsheet()
+
+    def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
+        try:
+            _, kind = self._topics.parse(topic)
+            if retained:
+                # Left by an earlier run: what it asks for may be over since long.
+                raise MessageError(f"a retained message on {kind.value} is not acted upon")
+            message, unknown = self._codec.decode(kind, payload)
+            self._check_address(message)
+        except MessageError as error:
+            refer = (("topic", topic.rpartition("/")[2]), *error.error.references)
+            self.vehicle.note(replace(error.error, references=refer))
+            return
+        self.vehicle.note_unknown(unknown)
+        if kind is Kind.ORDER:
+            self.vehicle.on_order(message, self._now)
+        else:
+            self.vehicle.on_instant_actions(message, self._now)
+
+    def _check_address(self, message: Any) -> None:
+        told = (message.header.manufacturer, message.header.serial)
+        ours = (self.identity.manufacturer, self.identity.serial)
+        if any(theirs and theirs != our for theirs, our in zip(told, ours)):
+            text = f"the message is for {'/'.join(told)}, and came to {'/'.join(ours)}"
+            raise MessageError(text, ErrorType.VALIDATION.value)

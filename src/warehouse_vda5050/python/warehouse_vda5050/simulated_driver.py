@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A simulated robot as a Driver: commands become messages, messages become reports."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from warehouse_fleet.message_enums import FailureKind, Mode, State, Status
+from warehouse_vda5050.driver import Driver, Point, Report
+from warehouse_vda5050.model import (
+    Battery,
+    Error,
+    ErrorLevel,
+    ErrorType,
+    Factsheet,
+    OperatingMode,
+)
+
+MODES = {
+    Mode.AUTOMATIC: OperatingMode.AUTOMATIC,
+    Mode.MANUAL: OperatingMode.MANUAL,
+    Mode.OUT_OF_SERVICE: OperatingMode.SERVICE,
+}
+MOVING = (State.MOVING_X, State.MOVING_Y, State.ROTATING)
+FAILURES = {
+    FailureKind.REPAIRED: (ErrorType.BATTERY, ErrorLevel.FATAL, "the battery is empty"),
+    FailureKind.MOTOR: (ErrorType.MOTOR, ErrorLevel.FATAL, "the drive has no torque"),
+    FailureKind.LIFT_STUCK: (ErrorType.LIFT, ErrorLevel.FATAL, "the lift is stuck"),
+    FailureKind.LASER_BLIND: (ErrorType.LASER, ErrorLevel.FATAL, "the laser is blind"),
+    FailureKind.WHEEL_SLIPS: (ErrorType.WHEELS, ErrorLevel.WARNING, "the wheels slip"),
+}
+LOST = Error(
+    ErrorType.LOST.value,
+    ErrorLevel.FATAL,
+    "the robot does not know where it is",
+    "a person has to move it to the middle of a cell",
+)
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """What the world tells of one robot: its entries of FleetState, and what else concerns it."""
+
+    x: float
+    y: float
+    yaw: float
+    vx: float
+    vy: float
+    yaw_rate: float
+    status: int
+    state: int
+    shelf_id: int
+    path_id: int
+    reached: int
+    failures: int
+    charge: float  # 0 … 1
+    mode: int
+    held_by_person: bool = False
+    at_charger: bool = False
+    lost: bool = False
+
+
+class World(Protocol):
+    """Commands as the world takes them. set_mode() returns why not, or ''."""
+
+    def follow(
+        self, kiva_id: int, path_id: int, first: int, points: Sequence[Point], released: int
+    ) -> None:
+        """Publishes on /warehouse/follow."""
+        ...
+
+    def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
+        """Publishes on /lift."""
+        ...
+
+    def cancel(self, kiva_id: int) -> None:
+        """Publishes on /cancel."""
+        ...
+
+    def stop(self, kiva_id: int, stopped: bool) -> None:
+        """Publishes on /stop."""
+        ...
+
+    def set_mode(self, kiva_id: int, mode: int) -> str:
+        """Calls /warehouse/set_robot_mode, if there is a coordinator."""
+        ...
+
+    def unit_at(self, x: float, y: float) -> int:
+        """Returns the number of the storage unit that stands there [m], 0 without one."""
+        ...
+
+
+class SimulatedDriver(Driver):
+    """One robot of the running warehouse. `sighting` and `refusal` are set from outside."""
+
+    def __init__(self, kiva_id: int, world: World, sheet: Factsheet | None = None) -> None:
+        self.kiva_id = kiva_id
+        self.sighting: Sighting | None = None
+        self.refusal = ""
+        self._world, self._sheet = world, sheet or Factsheet()
+        self._taken_from: int | None = None  # the mode that it goes back to
+        self._stopped = False
+
+    def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
+        """Sends a path, or more of it."""
+        self.refusal = ""
+        self._world.follow(self.kiva_id, path_id, first, points, released)
+
+    def lift(self, unit: str, up: bool) -> None:
+        """Sends a lift; a unit that is no number refuses itself."""
+        self.refusal = ""
+        try:
+            shelf_id = int(unit.removeprefix("storage_unit") or 0)
+        except ValueError:
+            self.refusal = f"loadId is {unit!r}; the number of a storage unit was expected"
+            return
+        if up and not shelf_id and self.sighting:
+            shelf_id = self._world.unit_at(self.sighting.x, self.sighting.y)
+        if up and not shelf_id:
+            self.refusal = "no storage unit stands here"
+            return
+        self._world.lift(self.kiva_id, shelf_id, up)
+
+    def cancel(self) -> None:
+        """Sends a cancellation."""
+        self._world.cancel(self.kiva_id)
+
+    def stop(self, stopped: bool) -> None:
+        """Sends a stop, or its end."""
+        self._stopped = stopped
+        self._world.stop(self.kiva_id, stopped)
+
+    def report(self) -> Report | None:
+        """Returns what the world told last."""
+        seen = self.sighting
+        return None if seen is None else self._report(seen)
+
+    def _report(self, seen: Sighting) -> Report:
+        blocked = seen.status == Status.BLOCKED or seen.state == State.BLOCKED
+        standing = abs(seen.vx) + abs(seen.vy) + abs(seen.yaw_rate) < 1e-3
+        return Report(
+            seen.x,
+            seen.y,
+            seen.yaw,
+            seen.vx,
+            seen.vy,
+            seen.yaw_rate,
+            busy=seen.status != Status.IDLE,
+            moving=not standing or (seen.state in MOVING and not blocked and not self._stopped),
+            path_id=seen.path_id,
+            reached=seen.reached,
+            load=str(seen.shelf_id) if seen.shelf_id else "",
+            refusal=self.refusal,
+            blocked=blocked or seen.held_by_person,
+            localized=not seen.lost,
+            heard=not seen.failures & 1 << FailureKind.RADIO_LOST,
+            battery=Battery(100.0 * seen.charge, seen.at_charger and standing),
+            mode=self._mode(seen.mode),
+            errors=_errors(seen),
+        )
+
+    def _mode(self, mode: int) -> OperatingMode:
+        # MANUAL by an order from here is AUTOMATIC to whom the order came from.
+        if self._taken_from is not None and mode == Mode.MANUAL:
+            return MODES[Mode.AUTOMATIC]
+        return MODES.get(Mode(mode), OperatingMode.MANUAL)
+
+    def factsheet(self) -> Factsheet:
+        """Returns what all Kivas are."""
+        return self._sheet
+
+    def take(self) -> str:
+        """Makes the robot MANUAL for the coordinator, if there is one."""
+        assert self.sighting
+        before = self.sighting.mode
+        reason = self._world.set_mode(self.kiva_id, Mode.MANUAL)
+        if not reason:
+            self._taken_from = before
+        return reason
+
+    def give_back(self) -> None:
+        """Makes the robot what it was, unless it was put out of service meanwhile."""
+        before, self._taken_from = self._taken_from, None
+        seen = self.sighting
+        if before is not None and seen and seen.mode == Mode.MANUAL:
+            self._world.set_mode(self.kiva_id, before)
+
+    def init_position(self, x: float, y: float, yaw: float) -> str:
+        """Returns '' if the robot is there, else where it is."""
+        seen = self.sighting
+        if seen and not seen.lost and max(abs(seen.x - x), abs(seen.y - y)) < 0.1:
+            return ""
+        where = f"at {seen.x:.2f}, {seen.y:.2f}" if seen and not seen.lost else "lost"
+        return f"the robot finds its position by itself: it is {where}"
+
+
+def _errors(seen: Sighting) -> tuple[Error, ...]:
+    errors = [
+        Error(type.value, level, text)
+        for kind, (type, level, text) in FAILURES.items()
+        if seen.failures & 1 << kind
+    ]
+    return (*errors, LOST) if seen.lost else tuple(errors)
+
+

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All robots of the running warehouse as vehicles; they come and go with the robots."""
+
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from warehouse_vda5050.codec import Codec
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.model import Factsheet
+from warehouse_vda5050.mqtt.loop import MqttLoop
+from warehouse_vda5050.mqtt.settings import BrokerSettings
+from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
+from warehouse_vda5050.simulated_driver import Sighting, SimulatedDriver, World
+from warehouse_vda5050.topics import Identity, Topics
+from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
+
+
+@dataclass(frozen=True)
+class SiteSettings:
+    """What all vehicles share; `moving` as in VehicleSettings."""
+
+    manufacturer: str
+    codec: Codec
+    topics: Topics
+    broker: BrokerSettings
+    moving: float = 1.0
+
+
+class Vehicles:
+    """The vehicles of one warehouse by their robots' numbers. `tell` writes lines for a person."""
+
+    def __init__(
+        self, world: World, settings: SiteSettings, tell: Callable[[str], None] = print
+    ) -> None:
+        self.loop = MqttLoop()
+        self.links: dict[int, VehicleLink] = {}
+        self._drivers: dict[int, SimulatedDriver] = {}
+        self._world, self._settings, self._tell = world, settings, tell
+        self._grid: Grid | None = None
+        # No path has the number of one of an earlier run.
+        self._first_path = random.randrange(1, 1 << 31)
+
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over the floor; on another floor the vehicles begin again."""
+        before, self._grid = self._grid, grid
+        if before and _shape(before) != _shape(grid):
+            for kiva_id in [*self.links]:
+                self._remove(kiva_id)
+        for link in self.links.values():
+            link.vehicle.set_grid(grid)
+
+    def update(self, sightings: dict[int, Sighting], refusals: list[tuple[int, str]]) -> None:
+        """Takes in what the world tells, and lets all vehicles go on."""
+        for kiva_id in self.links.keys() - sightings.keys():
+            self._remove(kiva_id)
+        for kiva_id, text in refusals:
+            if kiva_id in self._drivers:
+                self._drivers[kiva_id].refusal = text
+        now = time.monotonic()
+        for kiva_id, sighting in sightings.items():
+            if kiva_id not in self.links and self._grid:
+                self._add(kiva_id, self._grid)
+            if kiva_id in self.links:
+                self._drivers[kiva_id].sighting = sighting
+                self.links[kiva_id].tick(now)
+
+    def _add(self, kiva_id: int, grid: Grid) -> None:
+        settings = self._settings
+        driver = SimulatedDriver(kiva_id, self._world, Factsheet(description="simulated robot"))
+        vehicle = Vehicle(
+            driver, grid, VehicleSettings(moving=settings.moving, first_path=self._first_path)
+        )
+        identity = Identity(settings.manufacturer, str(kiva_id))
+        link = VehicleLink(
+            vehicle, identity, settings.codec, settings.topics, settings.broker, self._tell
+        )
+        self._drivers[kiva_id], self.links[kiva_id] = driver, link
+        self.loop.add(link.link)
+
+    def _remove(self, kiva_id: int) -> None:
+        self.links.pop(kiva_id).close()
+        self._drivers.pop(kiva_id).sighting = None
+
+    def close(self) -> None:
+        """Gives robots back, says OFFLINE for all and disconnects."""
+        for kiva_id, link in self.links.items():
+            link.vehicle.abandon()
+            self._drivers[kiva_id].give_back()
+            link.close()
+        self.loop.close()
+
+
+def _shape(grid: Grid) -> tuple[float, float, float, int, int]:
+    return grid.x, grid.y, grid.spacing, grid.columns, grid.rows

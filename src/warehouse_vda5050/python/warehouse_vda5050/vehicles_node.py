@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that makes robots vehicles: parameters in, one loop around all connections."""
+
+import contextlib
+import time
+
+import rospy
+
+from warehouse_vda5050.arguments import BrokerArguments, own_broker, read_arguments
+from warehouse_vda5050.telling import VehiclesTopic
+from warehouse_vda5050.vehicles import SiteSettings, Vehicles
+from warehouse_vda5050.world_link import WorldLink
+
+PERIOD = 0.05  # between two updates [s, wall]
+
+
+class VehiclesNode:
+    """Raises ValueError for parameters that are wrong, RuntimeError without a broker to start."""
+
+    def __init__(self) -> None:
+        arguments: BrokerArguments = read_arguments(rospy.get_param)
+        interval = float(rospy.get_param("~interval", 1.0))
+        self._stack = contextlib.ExitStack()
+        broker, self._address = own_broker(arguments, self._stack)
+        settings = SiteSettings(
+            str(rospy.get_param("~manufacturer", "kiva")),
+            arguments.codec,
+            arguments.topics,
+            broker,
+            interval,
+        )
+        rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
+        self._world = WorldLink()
+        self._vehicles = Vehicles(self._world, settings, rospy.loginfo)
+        self._topic = VehiclesTopic(self._address)
+
+    def run(self) -> None:
+        """Goes on until the node is shut down."""
+        with self._stack:
+            self._stack.callback(self._vehicles.close)
+            told = 0.0
+            while not rospy.is_shutdown():
+                self._vehicles.loop.poll(PERIOD)
+                self._update()
+                if time.monotonic() - told > 0.5:
+                    told = time.monotonic()
+                    self._topic.tell(self._vehicles)
+
+    def _update(self) -> None:
+        world = self._world
+        if world.read_floor() and world.grid:
+            self._vehicles.set_grid(world.grid)
+        self._vehicles.update(world.sightings(), world.take_refusals())

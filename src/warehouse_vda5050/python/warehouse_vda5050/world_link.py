@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The running warehouse as its topics and services offer it to drivers of its robots."""
+
+import threading
+from collections import deque
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import rospy
+from nav_msgs.srv import GetMap
+
+from warehouse_client.commands import COMMANDS
+from warehouse_client.unit_messages import unit_ids, unit_poses
+from warehouse_layout.floor_plan import FloorError, FloorPlan, is_taken, occupancy_of
+from warehouse_msgs.msg import (
+    Event,
+    FleetFollow,
+    FleetState,
+    Lift,
+    People,
+    Scenery,
+    UnitStates,
+    WarehouseObjects,
+)
+from warehouse_msgs.srv import SetRobotMode
+from warehouse_vda5050.driver import Point
+from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.simulated_driver import Sighting
+
+WAIT = 10.0  # for the scenery of the floor [s]
+TOWED = 0.02  # an idle lost robot that moves so far was moved by others [m]
+
+
+class WorldLink:
+    """Commands to the world, and what it told last. `floor` changes whenever it may have."""
+
+    def __init__(self) -> None:
+        self._fleet: Any = None
+        self._people: frozenset[int] = frozenset()
+        self._units: Any = None
+        self._objects: Any = None
+        self._refusals: deque[tuple[int, str]] = deque(maxlen=1000)
+        self._lost: dict[int, tuple[float, float] | None] = {}
+        self._lock = threading.Lock()
+        self.chargers: frozenset[tuple[int, int]] = frozenset()
+        self.grid: Grid | None = None
+        self._floor_of: tuple[int, frozenset[int]] | None = None
+        topics = ("/warehouse/follow", "/lift", "/cancel", "/stop")
+        self._topics = {
+            topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
+        }
+        self._mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        follow = rospy.Subscriber
+        follow("/warehouse/events", Event, self._on_event, queue_size=10000)
+        follow("/warehouse/people", People, self._on_people, queue_size=1)
+        follow("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
+        follow("/warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
+        follow("/warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
+
+    def _keep(self, message: Any, name: str) -> None:
+        setattr(self, name, message)
+
+    def _on_people(self, message: People) -> None:
+        self._people = frozenset(message.stopped)
+
+    def _on_event(self, event: Event) -> None:
+        number = event.model.removeprefix("kiva")
+        if number == event.model or not number.isdecimal():
+            return
+        with self._lock:
+            if event.kind == Event.REFUSED:
+                self._refusals.append((int(number), event.text))
+            elif event.kind == Event.LOST:
+                self._lost[int(number)] = None
+            elif event.kind in (Event.ACCEPTED, Event.SPAWNED, Event.DELETED):
+                self._lost.pop(int(number), None)
+
+    # What the world tells.
+
+    def take_refusals(self) -> list[tuple[int, str]]:
+        """Returns (robot, reason) of each refusal since the last call."""
+        with self._lock:
+            refusals = [*self._refusals]
+            self._refusals.clear()
+        return refusals
+
+    def sightings(self) -> dict[int, Sighting]:
+        """Returns what was told last of each robot; {} before anything was."""
+        fleet = self._fleet
+        if fleet is None:
+            return {}
+        columns = zip(
+            fleet.kiva_id,
+            zip(fleet.x, fleet.y, fleet.yaw, fleet.vx, fleet.vy, fleet.yaw_rate),
+            zip(fleet.status, fleet.state, fleet.shelf_id, fleet.path_id, fleet.reached),
+            zip(fleet.failures, fleet.charge, fleet.mode),
+        )
+        return {one: self._sighting(one, *parts) for one, *parts in columns}
+
+    def _sighting(self, one: int, motion: Any, work: Any, health: Any) -> Sighting:
+        x, y = motion[0], motion[1]
+        at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
+        lost = one in self._lost and not self._was_moved(one, x, y, work[0] == 0)
+        return Sighting(*motion, *work, *health, one in self._people, at_charger, lost)
+
+    def _was_moved(self, one: int, x: float, y: float, idle: bool) -> bool:
+        """Returns whether a lost robot was moved by others, and knows its place since then."""
+        with self._lock:
+            where = self._lost.get(one)
+            if where is None or not idle:
+                self._lost[one] = (x, y)
+                return False
+            moved = max(abs(where[0] - x), abs(where[1] - y)) > TOWED
+            if moved:
+                del self._lost[one]
+            return moved
+
+    def unit_at(self, x: float, y: float) -> int:
+        """Returns the number of the storage unit that stands there [m], 0 without one."""
+        units, objects = self._units, self._objects
+        if units is None or objects is None or units.revision != objects.revision:
+            return 0
+        xs, ys, _ = unit_poses(units)
+        near = np.maximum(np.abs(np.asarray(xs) - x), np.abs(np.asarray(ys) - y)) < 0.3
+        found = np.flatnonzero(near & (np.asarray(units.carrier) == 0))
+        return int(unit_ids(objects)[found[0]]) if len(found) else 0
+
+    def read_floor(self) -> bool:
+        """Reads the map again if robots came or went, or the world was reset. Returns whether the
+        grid is another one."""
+        fleet = self._fleet
+        if fleet is None:
+            return False
+        floor_of = (fleet.timeline, frozenset(fleet.kiva_id))
+        if floor_of == self._floor_of and self.grid is not None:
+            return False
+        try:
+            told = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+        except rospy.ServiceException:
+            return False  # the world comes or goes; there is another time
+        before, self.grid = self.grid, grid_of(told)
+        self.chargers = _chargers(told)
+        self._floor_of = floor_of
+        return self.grid != before
+
+    # What it is told.
+
+    def follow(
+        self, kiva_id: int, path_id: int, first: int, points: Sequence[Point], released: int
+    ) -> None:
+        """Publishes on /warehouse/follow."""
+        x, y = zip(*points)
+        message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
+        self._topics["/warehouse/follow"].publish(message)
+
+    def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
+        """Publishes on /lift."""
+        self._topics["/lift"].publish(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+
+    def cancel(self, kiva_id: int) -> None:
+        """Publishes on /cancel."""
+        self._topics["/cancel"].publish(kiva_id)
+
+    def stop(self, kiva_id: int, stopped: bool) -> None:
+        """Publishes on /stop."""
+        self._topics["/stop"].publish(kiva_id, stopped)
+
+    def set_mode(self, kiva_id: int, mode: int) -> str:
+        """Calls /warehouse/set_robot_mode; returns why not, '' if so or there is no coordinator."""
+        try:
+            answer = self._mode(kiva_id, mode)
+        except rospy.ServiceException:
+            return ""
+        return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
+
+
+def grid_of(told: Any) -> Grid:
+    """Returns the Grid of a nav_msgs/OccupancyGrid."""
+    corner, spacing = told.info.origin.position, told.info.resolution
+    rows, columns = np.nonzero(is_taken(occupancy_of(told)))
+    blocked = frozenset(zip(columns.tolist(), rows.tolist()))
+    x, y = corner.x + spacing / 2, corner.y + spacing / 2
+    return Grid(x, y, spacing, told.info.width, told.info.height, blocked)
+
+
+def _chargers(told: Any) -> frozenset[tuple[int, int]]:
+    """Returns the cells where robots are charged."""
+    try:
+        scenery = rospy.wait_for_message("/warehouse/scenery", Scenery, WAIT)
+        plan = FloorPlan.of_messages(told, scenery)
+    except (rospy.ROSException, FloorError):
+        return frozenset()
+    return frozenset((int(cell) % plan.width, int(cell) // plan.width) for cell in plan.charging)

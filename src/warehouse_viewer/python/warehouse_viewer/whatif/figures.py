@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of scenarios: means with 95 % confidence intervals, and how they differ.
+
+What is told by the minute is told after the warm-up (MSER-5), the same minutes for all that are
+compared. A difference is told where two intervals do not overlap, or where it is above chance seed
+by seed, for the same seed draws by the same numbers; all that are told together are corrected
+together (Holm).
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from warehouse_operations.comparison import (
+    CONFIDENCE,
+    Difference,
+    Estimate,
+    Group,
+    difference_of,
+    holm,
+)
+from warehouse_operations.runs import Run
+from warehouse_operations.verdicts import figures_of, warm_up
+
+MORE, LESS, NEITHER = 1, -1, 0  # is better
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure as the page shows it: in `unit`, with `digits`; better: MORE, LESS or NEITHER."""
+
+    key: str
+    title: str
+    unit: str
+    digits: int
+    better: int
+    note: str = "the whole shift"
+
+
+AFTER = "after the warm-up"
+FIGURES = (
+    Figure("pieces", "Pieces picked", "an hour", 0, MORE, AFTER),
+    Figure("share", "Of what the stations can at most", "%", 1, MORE, AFTER),
+    Figure("orders", "Orders completed", "an hour", 0, MORE),
+    Figure("late", "Late orders", "%", 1, LESS),
+    Figure("turnover", "Order's way from arrival to completion", "min, median", 1, LESS, AFTER),
+    Figure("waiting", "Robots wait for stations", "% of their time", 1, LESS),
+    Figure("idle", "Robots without work", "% of their time", 1, NEITHER),
+    Figure("metres", "Robots drive for a piece", "m", 1, LESS, AFTER),
+)
+BETTER, WORSE, SAME, DIFFERENT = "better", "worse", "no difference shown", "different"
+
+
+def values_of(run: Run, cut: int) -> dict[str, float]:
+    """Returns the FIGURES of a run without its first `cut` intervals, by key."""
+    kpis, after = run.kpis, figures_of(run, cut)
+    spent = run.data["robots"]
+    whole = sum(spent.values()) or 1.0
+    return {
+        "pieces": after["pieces_per_hour"],
+        "share": 100 * after["pieces_per_hour"] / max(kpis["item_upper_bound_per_hour"], 1e-9),
+        "orders": kpis["order_throughput_per_hour"],
+        "late": 100 * kpis["late_orders_fraction"],
+        "turnover": after["turnover_s"] / 60,
+        "waiting": 100 * spent.get("queue", 0.0) / whole,
+        "idle": 100 * spent.get("idle", 0.0) / whole,
+        "metres": after["metres_per_piece"],
+    }
+
+
+def summary(runs: Sequence[Run]) -> dict[str, Any]:
+    """Returns {key: estimate} of FIGURES, with the warm-up in minutes."""
+    group = Group("", tuple(runs))
+    by_seed = _by_seed(group, warm_up([group]))
+    return {
+        "warm_up": _minutes([group]),
+        "figures": {one.key: _estimate(by_seed, one.key) for one in FIGURES},
+    }
+
+
+def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
+    """Returns the FIGURES of scenarios side by side, and how they differ from the first."""
+    groups = [Group(name, tuple(runs)) for name, runs in scenarios.items()]
+    cut = warm_up(groups)
+    figures = [_by_seed(group, cut) for group in groups]
+    found = {
+        (one.key, i): _difference(figures[0], other, one.key)
+        for one in FIGURES
+        for i, other in enumerate(figures[1:], start=1)
+    }
+    told = {at: one for at, one in found.items() if one}
+    corrected = dict(zip(told, holm([one.p_value for one in told.values()])))
+    rows = []
+    for one in FIGURES:
+        cells: list[dict[str, Any]] = [_estimate(by_seed, one.key) for by_seed in figures]
+        for i in range(1, len(cells)):
+            if difference := told.get((one.key, i)):
+                apart = are_apart(cells[0], cells[i])
+                cells[i].update(_told(difference, corrected[one.key, i], one, apart))
+        rows.append(_shown(one) | {"cells": cells})
+    return {"names": list(scenarios), "warm_up": _minutes(groups), "rows": rows}
+
+
+def _shown(one: Figure) -> dict[str, Any]:
+    return {
+        "key": one.key,
+        "title": one.title,
+        "unit": one.unit,
+        "digits": one.digits,
+        "note": one.note,
+    }
+
+
+def _minutes(groups: Sequence[Group]) -> float:
+    return float(warm_up(groups) * groups[0].runs[0].data["intervals"]["seconds"] / 60)
+
+
+def _by_seed(group: Group, cut: int) -> dict[int, dict[str, float]]:
+    return {run.seed: values_of(run, cut) for run in group.runs}
+
+
+def _estimate(by_seed: Mapping[int, Mapping[str, float]], key: str) -> dict[str, Any]:
+    found = Estimate.of([one[key] for one in by_seed.values()])
+    return {"mean": found.mean, "half": _finite(found.half), "count": found.count}
+
+
+def _difference(
+    first: Mapping[int, Mapping[str, float]], other: Mapping[int, Mapping[str, float]], key: str
+) -> Difference | None:
+    a, b = ({seed: one[key] for seed, one in all_.items()} for all_ in (first, other))
+    return difference_of(a, b)
+
+
+def are_apart(first: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Returns whether the intervals of two estimates do not overlap."""
+    if first["half"] is None or other["half"] is None:
+        return False
+    return bool(abs(first["mean"] - other["mean"]) > first["half"] + other["half"])
+
+
+def _told(difference: Difference, p_value: float, figure: Figure, apart: bool) -> dict[str, Any]:
+    estimate = difference.estimate
+    return {
+        "difference": {"mean": estimate.mean, "half": _finite(estimate.half)},
+        "relative": _finite(difference.relative),
+        "p": p_value,
+        "paired": difference.paired,
+        "verdict": _verdict(estimate.mean, apart or p_value < 1 - CONFIDENCE, figure.better),
+    }
+
+
+def _verdict(mean: float, is_shown: bool, better: int) -> str:
+    if not is_shown:
+        return SAME
+    if better == NEITHER:
+        return DIFFERENT
+    return BETTER if mean * better > 0 else WORSE
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

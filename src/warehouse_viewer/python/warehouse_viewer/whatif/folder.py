@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The folder of scenarios, and of the layouts and orders that they share."""
+
+import contextlib
+import itertools
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from warehouse_layout import layout_choice, layout_file
+from warehouse_layout.layout_file import SUFFIX, LayoutFileError
+from warehouse_operations.assortment import Assortment
+from warehouse_operations.demand import make_demand
+from warehouse_operations.order_file import DemandError, read_csv
+from warehouse_operations.simulation import ERRORS, Description
+from warehouse_viewer.whatif.scenario import (
+    FILE,
+    LAYOUTS,
+    ORDERS,
+    Scenario,
+    ScenarioError,
+    checked_name,
+    is_file_name,
+)
+from warehouse_viewer.whatif.stored import States
+
+MOST_SCENARIOS, MOST_FILES = 200, 500
+
+
+class Folder:
+    """Scenarios by their names, each of which is that of a folder. Paths never lead out of it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    # --- scenarios
+    def names(self) -> list[str]:
+        """Returns the names of all scenarios."""
+        found = (file.parent.name for file in self.path.glob(f"*/{FILE}"))
+        return sorted((one for one in found if not one.startswith(".")), key=str.casefold)
+
+    def of(self, name: str) -> Path:
+        """Returns the folder of a scenario. Raises ScenarioError if there is none."""
+        folder = self.path / checked_name(name)
+        if folder.is_symlink() or not (folder / FILE).is_file():
+            raise ScenarioError(f"there is no scenario '{name}'")
+        return folder
+
+    def read(self, name: str) -> Scenario:
+        """Returns a scenario. Raises ScenarioError."""
+        return Scenario.read(self.of(name))
+
+    def create(self, name: str, scenario: Scenario) -> str:
+        """Makes a folder for a scenario; returns its name. Raises ScenarioError."""
+        name = checked_name(name)
+        if len(self.names()) >= MOST_SCENARIOS:
+            raise ScenarioError(f"there are {MOST_SCENARIOS} scenarios; delete some first")
+        if (self.path / name).exists():
+            raise ScenarioError(f"'{name}' is there already; another name was expected")
+        with self._draft(scenario) as draft:
+            draft.rename(self.path / name)
+        return name
+
+    def change(self, name: str, scenario: Scenario) -> None:
+        """Changes a scenario; runs stay where they are. Raises ScenarioError."""
+        folder = self.of(name)
+        with self._draft(scenario) as draft:
+            os.replace(draft / FILE, folder / FILE)
+        States(folder).clear()
+
+    def duplicate(self, name: str) -> str:
+        """Copies a scenario without its runs; returns the copy's name."""
+        stem = name.rstrip("0123456789").rstrip() or name
+        tries = (f"{stem[:55].rstrip()} {n}" for n in itertools.count(2))
+        copy = next(one for one in tries if not (self.path / one).exists())
+        return self.create(copy, self.read(name))
+
+    def rename(self, name: str, to: str) -> str:
+        """Gives a scenario and its folder another name, which is returned."""
+        folder, to = self.of(name), checked_name(to)
+        if to != name:
+            if (self.path / to).exists():
+                raise ScenarioError(f"'{to}' is there already; another name was expected")
+            folder.rename(self.path / to)
+        return to
+
+    def delete(self, name: str) -> None:
+        """Deletes a scenario with its runs."""
+        shutil.rmtree(self.of(name))
+
+    @contextlib.contextmanager
+    def _draft(self, scenario: Scenario) -> Iterator[Path]:
+        """Writes a scenario beside the others, and checks it as a sweep would."""
+        with tempfile.TemporaryDirectory(
+            prefix=".draft-", dir=self.path, ignore_cleanup_errors=True
+        ) as made:
+            draft = Path(made, "scenario")
+            draft.mkdir()
+            scenario.write(draft)
+            # A level deeper than a scenario: checked where it will be.
+            check(scenario, self.path)
+            yield draft
+
+    # --- files
+    def layouts(self) -> list[str]:
+        """Returns the names of layouts that are not presets."""
+        return sorted(one.name for one in (self.path / LAYOUTS).glob(f"*{SUFFIX}"))
+
+    def orders(self) -> list[str]:
+        """Returns the names of files of orders."""
+        return sorted(one.name for one in (self.path / ORDERS).glob("*.csv"))
+
+    def add_layout(self, name: str, text: str) -> str:
+        """Keeps the text of a layout file; returns its name here. Raises LayoutFileError."""
+        _check_layout(layout_file.parse(text, name))
+        return self._add(LAYOUTS, name, SUFFIX, text)
+
+    def add_orders(self, name: str, text: str) -> str:
+        """Keeps the text of a file of orders; returns its name here. Raises DemandError."""
+        with tempfile.TemporaryDirectory() as made:
+            file = Path(made, "orders.csv")
+            file.write_text(text, "utf-8")
+            try:
+                read_csv(file)
+            except DemandError as error:
+                raise DemandError(str(error).replace(str(file), name)) from error
+        return self._add(ORDERS, name, ".csv", text)
+
+    def _add(self, below: str, name: str, suffix: str, text: str) -> str:
+        """Writes a file. One of that name that says something else stays, under its own name."""
+        if not is_file_name(name, suffix):
+            raise ScenarioError(f"the file is called {name!r}; NAME{suffix} was expected")
+        folder = self.path / below
+        folder.mkdir(exist_ok=True)
+        if len(list(folder.iterdir())) >= MOST_FILES:
+            raise ScenarioError(f"there are {MOST_FILES} files in {below}; delete some first")
+        stem = name.removesuffix(suffix)
+        for found in itertools.chain([name], (f"{stem}-{n}{suffix}" for n in itertools.count(2))):
+            path = folder / found
+            if not path.exists():
+                path.write_text(text, "utf-8")
+            if path.read_text("utf-8") == text:
+                return found
+        raise AssertionError("unreachable")
+
+
+def check(scenario: Scenario, path: Path) -> Description:
+    """Returns the shift of a scenario in the folder `path`. Raises ScenarioError where a fleet
+    could not work there, or orders can't be read."""
+    told = scenario.to_sweep()
+    beside = path / LAYOUTS  # for what begins with ../
+    try:
+        layout = told["layout"]
+        if layout.endswith(SUFFIX):
+            layout = os.path.normpath(beside / layout)
+        orders = told["orders"]
+        if orders.endswith(".csv"):
+            orders = os.path.normpath(beside / orders)
+        description = Description(
+            layout=layout,
+            robots=scenario.robots,
+            stations=scenario.stations,
+            orders=orders,
+            seconds=60 * scenario.minutes,
+            policies=dict(scenario.policies),
+            physics=scenario.physics,
+            realism=scenario.realism,
+        )
+        _check_floor(description)
+        _check_orders(orders)
+        description.config  # noqa: B018 - policies of the layout that don't exist are told
+    except (*ERRORS, OSError) as error:
+        raise ScenarioError(str(error).replace(f"{path}/", "")) from error
+    return description
+
+
+def _check_orders(orders: str) -> None:
+    """Only the shift can tell whether the SKUs of a file are in stock: any are taken."""
+    rng = np.random.default_rng(1)
+    assortment = None if orders.endswith(".csv") else Assortment.draw(2, rng)
+    make_demand(orders, assortment, (1, 1), rng)
+
+
+def _check_floor(description: Description) -> None:
+    file = layout_choice.chosen(description.layout)
+    layout_choice.check(file, description.robots or None)
+    count = sum(one.kind != "replenish" for one in file.stations)
+    if not count:
+        raise ScenarioError(f"{file.title}: there is no picking station")
+    if description.stations > count:
+        raise ScenarioError(
+            f"stations is {description.stations}; {file.title} has {count} for picking"
+        )
+
+
+def _check_layout(file: layout_file.LayoutFile) -> None:
+    """Raises LayoutFileError for a layout that names files, which were not sent with it."""
+    if file.stock:
+        raise LayoutFileError(f"{file.path}: items: a stock file can't be taken here")
+    if not all(char.isalnum() or char in "_-" for char in file.building):
+        raise LayoutFileError(f"{file.path}: building: the name of a world was expected")

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the page /whatif asks of its server."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from warehouse_layout.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.request import LIMITS, MAX_BELTS, PRESETS
+from warehouse_operations.order_file import DemandError
+from warehouse_operations.policies import DEFAULTS, ROLES
+from warehouse_operations.runs import RunError
+from warehouse_operations.simulation import ERRORS
+from warehouse_viewer.server.site import WHATIF
+from warehouse_viewer.whatif.queue import QueueError
+from warehouse_viewer.whatif.scenario import (
+    MOST_MINUTES,
+    MOST_SEEDS,
+    REALISM,
+    Scenario,
+    ScenarioError,
+)
+from warehouse_viewer.whatif.workshop import COMPARED, Workshop
+
+PAGE = WHATIF.path
+FRESH = {"cache-control": "no-store"}
+# A report is a document of its own, with its style in it: it may show itself, and reach nothing.
+REPORT_CONTENT = (
+    "sandbox allow-scripts allow-downloads allow-modals; default-src 'none'; img-src data:;"
+    " font-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline';"
+    " frame-ancestors 'none'"
+)
+REFUSED = (ScenarioError, QueueError, LayoutFileError, DemandError, RunError, *ERRORS)
+
+Answer = dict[str, Any]
+Endpoint = Callable[[Request], Awaitable[Response]]
+
+
+def routes(workshop: Workshop) -> list[Route]:
+    """Returns what the page asks of a Workshop, to be added to an application."""
+    one = f"{PAGE}/scenarios/{{name}}"
+    posts, work = ["POST"], workshop
+    seed = f"{one}/seeds/{{seed:int}}"
+    return [
+        Route(f"{PAGE}/about", _answering(work, lambda _: _about(work))),
+        Route(f"{PAGE}/scenarios", _answering(work, lambda _: work.scenarios())),
+        Route(f"{PAGE}/scenarios", _asking(work, work.create, "name", "settings"), methods=posts),
+        Route(f"{PAGE}/estimate", _asking(work, work.estimate, "settings"), methods=posts),
+        Route(f"{PAGE}/layouts", _asking(work, work.add_layout, "name", "text"), methods=posts),
+        Route(f"{PAGE}/orders", _asking(work, work.add_orders, "name", "text"), methods=posts),
+        Route(one, _asking(work, work.change, "settings"), methods=["PUT"]),
+        Route(one, _asking(work, work.delete), methods=["DELETE"]),
+        Route(f"{one}/duplicate", _asking(work, work.duplicate), methods=posts),
+        Route(f"{one}/rename", _asking(work, work.rename, "to"), methods=posts),
+        Route(f"{one}/run", _asking(work, work.run), methods=posts),
+        Route(f"{one}/run", _asking(work, work.cancel), methods=["DELETE"]),
+        Route(f"{seed}/report.html", _report(work, lambda r: _its_report(work, r))),
+        Route(f"{PAGE}/compare", _answering(work, lambda r: work.compare(_names(r)))),
+        Route(f"{PAGE}/report.html", _report(work, lambda r: work.report(_names(r)))),
+    ]
+
+
+def _about(workshop: Workshop) -> Answer:
+    return workshop.about() | {
+        "presets": {
+            name: {"robots": one.robots, "stations": one.belts, "units": one.shelves}
+            for name, one in PRESETS.items()
+            if one.robots
+        },
+        "policies": {role: list(names) for role, names in ROLES.items()},
+        "default_policies": DEFAULTS,
+        "realism": REALISM,
+        "defaults": Scenario().to_json(),
+        "most": {
+            "robots": LIMITS["robots"],
+            "stations": MAX_BELTS,
+            "minutes": MOST_MINUTES,
+            "seeds": MOST_SEEDS,
+            "compared": COMPARED[1],
+        },
+        "suffix": SUFFIX,
+    }
+
+
+def _names(request: Request) -> list[str]:
+    return request.query_params.getlist("name")
+
+
+def _answering(workshop: Workshop, work: Callable[[Request], Answer]) -> Endpoint:
+    """Returns an endpoint that answers with what `work` returns, called in a thread."""
+
+    async def endpoint(request: Request) -> Response:
+        return await _answered(workshop, lambda: JSONResponse(work(request), headers=FRESH))
+
+    return endpoint
+
+
+def _asking(workshop: Workshop, work: Callable[..., Answer], *fields: str) -> Endpoint:
+    """Returns an endpoint that calls `work` with the names in the path, and with the fields of the
+    request's body."""
+
+    async def endpoint(request: Request) -> Response:
+        try:
+            given = await request.json() if fields else {}
+        except ValueError as error:
+            return JSONResponse({"detail": f"the request is wrong: {error}"}, 422)
+        if not isinstance(given, dict) or given.keys() != {*fields}:
+            return JSONResponse({"detail": f"the fields {', '.join(fields)} were expected"}, 422)
+        if not all(isinstance(given[one], str) for one in ("name", "text", "to") if one in given):
+            return JSONResponse({"detail": "texts were expected"}, 422)
+        arguments = request.path_params | given
+        return await _answered(workshop, lambda: JSONResponse(work(**arguments), headers=FRESH))
+
+    return endpoint
+
+
+def _report(workshop: Workshop, work: Callable[[Request], str]) -> Endpoint:
+    headers = FRESH | {"content-security-policy": REPORT_CONTENT}
+
+    async def endpoint(request: Request) -> Response:
+        return await _answered(workshop, lambda: HTMLResponse(work(request), headers=headers))
+
+    return endpoint
+
+
+def _its_report(workshop: Workshop, request: Request) -> str:
+    return workshop.report_of(request.path_params["name"], request.path_params["seed"])
+
+
+async def _answered(workshop: Workshop, work: Callable[[], Response]) -> Response:
+    def opened() -> Response:
+        workshop.open()
+        return work()
+
+    try:
+        return await asyncio.to_thread(opened)
+    except REFUSED as error:
+        return JSONResponse({"detail": str(error)}, 409)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs and scenarios as the page shows them."""
+
+import functools
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from warehouse_layout import layout_choice
+from warehouse_operations.runs import Run
+from warehouse_viewer.whatif import stored
+from warehouse_viewer.whatif.queue import Active
+from warehouse_viewer.whatif.stored import Planned
+
+CUT = "cut"  # the state of a run whose server ended
+BEGUN = 0.1  # of a run: from then on its own pace tells how long it takes
+
+Told = dict[str, Any]
+
+
+@functools.lru_cache(1000)
+def planned(file: Path, _: tuple[int, int]) -> tuple[Planned, ...]:
+    """Returns the runs of a scenario's file of that version. Raises SweepError."""
+    return stored.planned(file)
+
+
+@functools.lru_cache(1000)
+def layout_counts(layout: str, _: int) -> tuple[int, int]:
+    """Returns the robots and picking stations of a layout of that version."""
+    file = layout_choice.chosen(layout)
+    robots = file.robots if isinstance(file.robots, int) else len(file.robots)
+    return robots, sum(one.kind != "replenish" for one in file.stations)
+
+
+def changed(path: Path) -> int:
+    """Returns when a file was changed [ns]; 0 where there is none."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
+def site(name: str, robots: int, stations: int) -> Told:
+    """Returns the warehouse of a scenario."""
+    return {"name": name, "robots": robots, "stations": stations}
+
+
+def run(one: Planned, run: Run | None, active: Active | None, waits: bool, state: Told) -> Told:
+    """Returns a run as the page shows it."""
+    out: Told = {"seed": one.seed, "state": "none"}
+    if active:
+        told = active.progress
+        share = min(told.get("time", 0.0) / one.seconds, 1.0)
+        took = time.monotonic() - active.began
+        return out | {"state": "runs", "share": share, "took": took}
+    if waits:
+        return out | {"state": "waits"}
+    if run:
+        return out | {"state": "done", "faults": state.get("faults") or []}
+    known = state.get("state")
+    if known in ("waits", "runs"):
+        known = CUT  # neither in the queue nor over: it ended without a word
+    return out | {"state": known or "none", "text": state.get("text", "")}
+
+
+def state(each: Sequence[Told]) -> str:
+    """Returns the state of a scenario of which these are the runs."""
+    states = {one["state"] for one in each}
+    for state in ("runs", "waits", "failed", CUT, "cancelled"):
+        if state in states:
+            return "runs" if state == "waits" else state
+    return "done" if states == {"done"} else "part" if "done" in states else "none"
+
+
+def left(one: Told, cost: float, start: float) -> float:
+    """Returns how long a run still takes [s, wall]: once it is well begun, what it took tells.
+
+    start: what a process takes besides the shift, half of it for the report in the end.
+    """
+    if one["state"] != "runs":
+        return cost
+    share = one["share"]
+    if share < BEGUN:
+        return max(cost - float(one["took"]), start / 2)
+    return max(one["took"] - start / 2, 0.0) * (1 - share) / share + start / 2

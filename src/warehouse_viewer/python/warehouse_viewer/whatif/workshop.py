@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios and their runs: what the page shows, and what it asks for."""
+
+import contextlib
+import shutil
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from warehouse_operations import report, runs
+from warehouse_operations.locks import FileLock, InUseError
+from warehouse_operations.runs import KPIS, REPORT, Run
+from warehouse_operations.simulation import ERRORS
+from warehouse_operations.sweep import SweepError
+from warehouse_viewer.whatif import figures, shown, stored
+from warehouse_viewer.whatif.estimate import Done, Pace
+from warehouse_viewer.whatif.folder import Folder, check
+from warehouse_viewer.whatif.queue import Active, Job, Outcome, Queue
+from warehouse_viewer.whatif.scenario import FILE, LAYOUTS, Scenario, ScenarioError
+from warehouse_viewer.whatif.stored import States
+
+COMPARED = (2, 6)  # scenarios, least and most
+WRONG = (*ERRORS, SweepError, OSError)
+
+Told = dict[str, Any]
+
+
+class Workshop:
+    """Works in a folder, alone, from open() on. Any thread may call."""
+
+    def __init__(self, path: Path, processes: int = 0, command: list[str] | None = None) -> None:
+        self.folder = Folder(path.absolute())
+        self._queue = Queue(self._ended, processes, command)
+        self._lock = threading.RLock()
+        self._held: FileLock | None = None
+        self._pace = Pace()
+
+    def open(self) -> None:
+        """Takes the folder, and makes it if need be. Raises ScenarioError, also where another
+        program has it."""
+        with self._lock:
+            if self._held:
+                return
+            try:
+                self.folder.path.mkdir(parents=True, exist_ok=True)
+                self._held = FileLock(self.folder.path)
+            except (InUseError, OSError) as error:
+                raise ScenarioError(f"no scenarios can be kept: {error}") from error
+            self._note_cut()
+
+    def close(self) -> None:
+        """Ends all runs, which can be run again later, and leaves the folder."""
+        self._queue.close()
+        with self._lock:
+            if self._held:
+                self._held.release()
+                self._held = None
+
+    def _note_cut(self) -> None:
+        """Notes the runs that were under way or waited when the server ended."""
+        for name in self.folder.names():
+            states = States(self.folder.path / name)
+            cut = [int(k) for k, v in states.read().items() if v.get("state") in ("waits", "runs")]
+            if cut:
+                states.put(cut, shown.CUT)
+
+    # --- what is shown
+    def about(self) -> Told:
+        """Returns what there is to choose from."""
+        return {
+            "folder": str(self.folder.path.resolve()),
+            "layouts": self.folder.layouts(),
+            "orders": self.folder.orders(),
+            "processes": self._queue.processes,
+        }
+
+    def scenarios(self) -> Told:
+        """Returns all scenarios with their runs, and how long the queue takes [s, wall]."""
+        active = {one.job: one for one in self._queue.active()}
+        waiting = set(self._queue.waiting())
+        done: list[Done] = []
+        each = [self._shown(name, active, waiting, done) for name in self.folder.names()]
+        self._pace = Pace(done)
+        left = sum(one["left"] for one in each if one["state"] == "runs")
+        parallel = min(self._queue.processes, max(1, len(active) + len(waiting)))
+        return {
+            "scenarios": each,
+            "running": len(active),
+            "waiting": len(waiting),
+            "left": left / parallel,
+        }
+
+    def _shown(
+        self, name: str, active: dict[Job, Active], waiting: set[Job], done: list[Done]
+    ) -> Told:
+        folder = self.folder.path / name
+        out: Told = {"name": name, "state": "wrong", "left": 0.0, "runs": [], "summary": None}
+        try:
+            scenario = self.folder.read(name)
+            wanted = shown.planned(folder / FILE, self._version(name, scenario))
+        except (ScenarioError, *WRONG) as error:
+            return out | {"error": self._own(str(error))}
+        site = shown.site(wanted[0].config["site"], *self._counts(scenario))
+        states = States(folder).read()
+        each = []
+        found: list[Run] = []
+        for one in wanted:
+            run = stored.complete(one)
+            job = Job(name, one.seed, folder / FILE)
+            state = states.get(str(one.seed), {})
+            if run:
+                found.append(run)
+                done.append(Done(run, state.get("took", 0.0)))
+            each.append(shown.run(one, run, active.get(job), job in waiting, state))
+        missing = [one for one in each if one["state"] != "done"]
+        cost = self._pace.seconds(site["robots"], wanted[0].seconds, scenario.physics)
+        return out | {
+            "settings": scenario.to_json(),
+            "site": site,
+            "runs": each,
+            "state": shown.state(each),
+            "left": sum(shown.left(one, cost, self._pace.start) for one in missing),
+            "summary": figures.summary(found) if found else None,
+        }
+
+    def estimate(self, settings: Any) -> Told:
+        """Returns how long a scenario would take on this machine [s, wall]."""
+        scenario = Scenario.of_json(settings)
+        description = check(scenario, self.folder.path)
+        robots, stations = self._counts(scenario)
+        each = self._pace.seconds(robots, description.seconds, scenario.physics)
+        rounds = -(-scenario.seeds // self._queue.processes)
+        return {"seconds": rounds * each, "robots": robots, "stations": stations}
+
+    def compare(self, names: Sequence[str]) -> Told:
+        """Returns scenarios side by side. Raises ScenarioError where there is nothing to show."""
+        least, most = COMPARED
+        if not least <= len(set(names)) <= most or len(set(names)) != len(names):
+            raise ScenarioError(f"{least} to {most} scenarios were expected")
+        return figures.comparison({name: self._runs(name) for name in names})
+
+    def report(self, names: Sequence[str]) -> str:
+        """Returns the report about all runs of scenarios, HTML."""
+        found = [runs.read(run.folder) for name in names for run in self._runs(name)]
+        return report.page(found)
+
+    def report_of(self, name: str, seed: int) -> str:
+        """Returns the report that a run has written, HTML."""
+        path = self.folder.of(name) / f"seed-{seed:d}" / REPORT
+        try:
+            return path.read_text("utf-8")
+        except OSError as error:
+            raise ScenarioError(f"{name}: there is no report of seed {seed}") from error
+
+    def _runs(self, name: str) -> list[Run]:
+        scenario = self.folder.read(name)
+        wanted = shown.planned(self.folder.of(name) / FILE, self._version(name, scenario))
+        found = [run for one in wanted if (run := stored.complete(one))]
+        if not found:
+            raise ScenarioError(f"'{name}' has no run that is over")
+        return found
+
+    # --- what is asked for
+    def create(self, name: Any, settings: Any) -> Told:
+        """Makes a scenario."""
+        with self._lock:
+            return {"name": self.folder.create(name, Scenario.of_json(settings))}
+
+    def change(self, name: str, settings: Any) -> Told:
+        """Changes a scenario. Runs that are of another one now are removed."""
+        self._check_quiet(name)
+        with self._lock:
+            scenario = Scenario.of_json(settings)
+            self.folder.change(name, scenario)
+            folder = self.folder.of(name)
+            kept = {
+                one.folder.name
+                for one in shown.planned(folder / FILE, self._version(name, scenario))
+                if stored.complete(one)
+            }
+            for old in folder.glob("seed-*"):
+                if old.name not in kept:
+                    shutil.rmtree(old, ignore_errors=True)
+        return {"name": name}
+
+    def duplicate(self, name: str) -> Told:
+        """Copies a scenario, without its runs."""
+        with self._lock:
+            return {"name": self.folder.duplicate(name)}
+
+    def rename(self, name: str, to: Any) -> Told:
+        """Gives a scenario another name."""
+        self._check_quiet(name)
+        with self._lock:
+            return {"name": self.folder.rename(name, to)}
+
+    def delete(self, name: str) -> Told:
+        """Deletes a scenario; its runs end."""
+        self.folder.of(name)
+        self._queue.cancel(name)
+        with self._lock:
+            self.folder.delete(name)
+        return {"name": name}
+
+    def run(self, name: str) -> Told:
+        """Runs what a scenario lacks. Raises QueueError."""
+        folder = self.folder.of(name)
+        scenario = self.folder.read(name)
+        check(scenario, self.folder.path)
+        wanted = shown.planned(folder / FILE, self._version(name, scenario))
+        with self._lock:
+            missing = [one.seed for one in wanted if not stored.complete(one)]
+            known = {job.seed for job in self._queue.waiting() if job.scenario == name}
+            known |= {one.job.seed for one in self._queue.active() if one.job.scenario == name}
+            fresh = [seed for seed in missing if seed not in known]
+            self._queue.add([Job(name, seed, folder / FILE) for seed in fresh])
+            States(folder).put(fresh, "waits")
+        return {"runs": len(fresh)}
+
+    def cancel(self, name: str) -> Told:
+        """Ends the runs of a scenario that wait or go on; those that are over stay."""
+        self.folder.of(name)
+        self._queue.cancel(name)
+        return {"name": name}
+
+    def add_layout(self, name: str, text: str) -> Told:
+        """Keeps a layout for scenarios."""
+        with self._lock:
+            return {"name": self.folder.add_layout(name, text)}
+
+    def add_orders(self, name: str, text: str) -> Told:
+        """Keeps a file of orders for scenarios."""
+        with self._lock:
+            return {"name": self.folder.add_orders(name, text)}
+
+    def _check_quiet(self, name: str) -> None:
+        self.folder.of(name)
+        jobs = [*self._queue.waiting(), *(one.job for one in self._queue.active())]
+        if any(job.scenario == name for job in jobs):
+            raise ScenarioError(f"'{name}' runs; cancel that first")
+
+    def _ended(self, job: Job, outcome: Outcome) -> None:
+        """Notes how a run ended; what it leaves unfinished is removed."""
+        folder = job.file.parent
+        with self._lock, contextlib.suppress(OSError):
+            states = States(folder)
+            if outcome.faults is not None:
+                states.put([job.seed], "done", faults=outcome.faults, took=outcome.took)
+                return
+            below = folder / f"seed-{job.seed}"
+            if not (below / KPIS).exists():
+                shutil.rmtree(below, ignore_errors=True)
+            text = self._own(outcome.text)
+            states.put([job.seed], "failed" if text else "cancelled", text=text)
+
+    def _own(self, text: str) -> str:
+        """Returns a text with the names of files as they are within the folder."""
+        return text.replace(f"{self.folder.path}/", "")
+
+    # --- what is known of layouts
+    def _version(self, name: str, scenario: Scenario) -> tuple[int, int]:
+        """Returns what tells one content of a scenario's files from another."""
+        layout = self.folder.path / LAYOUTS / scenario.layout
+        return shown.changed(self.folder.path / name / FILE), shown.changed(layout)
+
+    def _counts(self, scenario: Scenario) -> tuple[int, int]:
+        """Returns how many robots and open picking stations a scenario has."""
+        path = self.folder.path / LAYOUTS / scenario.layout
+        robots, stations = shown.layout_counts(
+            str(path) if path.is_file() else scenario.layout, shown.changed(path)
+        )
+        return scenario.robots or robots, scenario.stations or stations

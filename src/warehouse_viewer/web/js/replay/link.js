@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Addresses of a moment: /#t=630.5 in seconds of simulated time, /#at=10:42 by the clock on the wall
+// where it is known, else by that of the shift.
+
+import { readClock } from './clock.js';
+
+const DAY = 86400; // [s]
+
+/** {t}, {clock} in seconds, or null where an address names no moment. */
+export function momentOf(hash) {
+  const [, name, text] = /^#?(t|at)=(.+)$/.exec(hash) ?? [];
+  if (name === 't') {
+    const t = Number(text);
+    return text.trim() && Number.isFinite(t) ? { t } : null;
+  }
+  const clock = name && readClock(text);
+  return clock || clock === 0 ? { clock } : null;
+}
+
+/** The address of a moment [s, simulated] on the page at `href`. */
+export function linkTo(href, t) {
+  return `${href.replace(/#.*/, '')}#t=${Math.round(10 * t) / 10}`;
+}
+
+/** The simulated time [s] of a moment, by the chunks of a recording, [{begin, end, wall}]. */
+export function timeOf({ t, clock }, chunks) {
+  if (t !== undefined) return t;
+  const known = chunks.filter(({ wall }) => wall !== null);
+  if (!known.length) return clock;
+  // The last chunk that begins before that time of its day.
+  const late = known.map((chunk) => ({ chunk, after: wrapped(clock - ofDay(chunk.wall)) }));
+  const { chunk, after } = late.reduce((best, one) => (one.after < best.after ? one : best));
+  return Math.min(chunk.begin + after * paceOf(chunk, known), chunk.end);
+}
+
+/** Simulated seconds a second on the wall in a chunk. */
+function paceOf(chunk, known) {
+  const next = known[known.indexOf(chunk) + 1];
+  return next && next.wall > chunk.wall ? (next.begin - chunk.begin) / (next.wall - chunk.wall) : 1;
+}
+
+/** The time on the wall, seconds since 1970, at a simulated time [s]; null: it is not known. */
+export function wallAt(time, chunks) {
+  const known = chunks.filter(({ wall, begin }) => wall !== null && begin <= time + 1e-6);
+  const chunk = known.at(-1);
+  if (!chunk) return null;
+  const all = chunks.filter(({ wall }) => wall !== null);
+  return chunk.wall + (time - chunk.begin) / paceOf(chunk, all);
+}
+
+function ofDay(seconds) {
+  const at = new Date(1000 * seconds);
+  return 3600 * at.getHours() + 60 * at.getMinutes() + at.getSeconds();
+}
+
+const wrapped = (seconds) => ((seconds % DAY) + DAY) % DAY;

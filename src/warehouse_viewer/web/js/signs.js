@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signs at stations: their names, how many robots queue there, and whether one waits for a person.
+
+import * as THREE from '/three/build/three.module.js';
+import { Changes } from './changes.js';
+import { namedStations } from './labelled.js';
+
+const TALL = 2.4, THICK = 0.06; // of a post [m]
+const SOON = 10, LONG = 60; // of waiting for a person: it is told, and it is too long [s]
+const POST = { dark: 0x6b7889, light: 0x8d99a8 };
+
+export class Signs {
+  constructor(stage, world) {
+    Object.assign(this, { stage, world, queues: {}, stations: new Map(), changes: null, posts: null });
+  }
+
+  /** New posts, for the World's scene. */
+  build(theme) {
+    if (this.posts) {
+      this.stage.scene.remove(this.posts);
+      this.posts.geometry.dispose();
+    }
+    const { stations } = this.world.scene;
+    this.posts = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(THICK, THICK, TALL),
+      new THREE.MeshBasicMaterial(), Math.max(1, stations.length));
+    Object.assign(this.posts, { frustumCulled: false, count: stations.length });
+    const matrix = new THREE.Matrix4();
+    stations.forEach(({ x, y }, i) => this.posts.setMatrixAt(i, matrix.makeTranslation(x, y, TALL / 2)));
+    this.stage.scene.add(this.posts);
+    this.setTheme(theme);
+  }
+
+  setTheme(theme) {
+    this.posts?.material.color.set(POST[theme]);
+  }
+
+  /** What the server tells of the fleet; null: none runs, and nothing more is known of stations. */
+  take(fleet) {
+    this.queues = fleet?.queues ?? {};
+    if (Boolean(fleet) === Boolean(this.changes)) return;
+    this.changes?.close();
+    this.stations.clear();
+    this.changes = fleet && new Changes(['stations'], {
+      shift: ({ runs }) => runs || this.stations.clear(),
+      stations: ({ stations }) => { this.stations = new Map(stations.map((one) => [one.name, one])); },
+    });
+  }
+
+  /** [{text, kind, at, note}] for the Labels; the note is beside the text. */
+  labels(view) {
+    return namedStations(this.world.scene.stations, view).map(({ name, x, y }) => ({
+      text: name, at: [x, y, view.isParallel ? 0 : TALL], ...signOf(this.queues[name], this.stations.get(name)) }));
+  }
+}
+
+/** {kind, note} of a sign: robots in its queue, and what a person has to know. */
+export function signOf(queue, station) {
+  const count = queue ? String(queue) : '';
+  if (station && !station.open) return { kind: 'sign', note: [count, 'closed'].filter(Boolean).join(' · ') };
+  const waits = Math.floor(station?.waiting ?? 0);
+  if (waits < SOON) return { kind: 'sign', note: count };
+  const told = waits < LONG ? `${waits} s` : `${Math.floor(waits / 60)} min`;
+  return { kind: `sign ${waits < LONG ? 'waiting' : 'needs-help'}`, note: [count, told].filter(Boolean).join(' · ') };
+}

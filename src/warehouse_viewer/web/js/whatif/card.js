@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario in the list. Its elements stay while what they say changes, and so does the focus.
+
+import { make } from '../dom.js';
+import { pathOf } from './server.js';
+import { BADGES, describe, duration, interval, plural } from './words.js';
+
+const FIGURES = [['pieces', 'pieces an hour', 0, ''], ['share', 'of what stations can', 0, ' %'], ['late', 'orders late', 1, ' %'], ['waiting', 'robots wait', 0, ' %']];
+const REASONS = { failed: 'failed', cut: 'cut off when the server ended', cancelled: 'cancelled' };
+
+export class Card {
+  /** `act`: {run, cancel, change, duplicate, rename, remove, pick}, each called with the name. */
+  constructor(name, act) {
+    this.name = name;
+    const call = (what) => () => act[what](this.name);
+    const button = (text, what, className = 'edged') => make('button', { textContent: text, className, click: call(what), ariaLabel: `${text} ${name}` });
+    this.pick = make('input', { type: 'checkbox', id: `pick-${CSS.escape(name)}`, click: call('pick') });
+    this.badge = make('span', { className: 'badge' });
+    this.about = make('p', { className: 'dim about' });
+    this.figures = make('div', { className: 'figures' });
+    this.bar = make('progress', { max: 1, ariaLabel: `Progress of ${name}` });
+    this.left = make('span', { className: 'dim number' });
+    this.progress = make('div', { className: 'progress' }, this.bar, this.left);
+    this.trouble = make('p', { className: 'answer' });
+    this.trouble.dataset.kind = 'refused';
+    this.buttons = {
+      run: button('Run', 'run', 'strong'), cancel: button('Cancel', 'cancel'), change: button('Change', 'change'),
+      duplicate: button('Duplicate', 'duplicate'), rename: button('Rename', 'rename'), remove: button('Delete', 'remove'),
+    };
+    this.runs = make('ul', { className: 'runs' });
+    this.details = make('details', {}, make('summary', { textContent: 'Runs and reports' }), this.runs);
+    this.element = make('li', { className: 'card scenario' },
+      make('div', { className: 'card-head' }, make('label', { className: 'pick' }, this.pick, make('h3', { textContent: name })), this.badge),
+      this.about, this.figures, this.progress, this.trouble,
+      make('div', { className: 'card-buttons' }, ...Object.values(this.buttons)), this.details);
+    this.element.dataset.name = name;
+  }
+
+  update(told, isPicked) {
+    this.pick.checked = isPicked;
+    this.element.classList.toggle('picked', isPicked);
+    this.pick.title = 'Compare';
+    const text = JSON.stringify(told);
+    if (text === this.shown) return;
+    this.shown = text;
+    this.told = told;
+    const [kind, words] = BADGES[told.state];
+    Object.assign(this.badge, { className: `badge ${kind}`, textContent: words });
+    this.about.textContent = told.settings ? describe(told.settings, told.site) : '';
+    this.showFigures(told.summary);
+    this.showProgress(told);
+    this.showTrouble(told);
+    this.showRuns(told);
+    const runs = told.state === 'runs', isWhole = told.state === 'done';
+    this.buttons.run.hidden = runs || isWhole || told.state === 'wrong';
+    this.buttons.run.textContent = told.state === 'none' ? 'Run' : 'Run what is missing';
+    this.buttons.cancel.hidden = !runs;
+    this.buttons.change.hidden = this.buttons.duplicate.hidden = told.state === 'wrong';
+    this.buttons.change.disabled = this.buttons.rename.disabled = runs;
+  }
+
+  showFigures(summary) {
+    this.figures.hidden = !summary;
+    if (!summary) return;
+    this.figures.replaceChildren(...FIGURES.map(([key, words, digits, unit]) => (
+      make('div', {}, make('b', { className: 'number', textContent: interval(summary.figures[key], digits) + unit }), make('span', { className: 'dim', textContent: words })))));
+  }
+
+  showProgress({ state, runs, left }) {
+    const isShown = state === 'runs' || state === 'none' || state === 'part';
+    this.progress.hidden = !isShown;
+    this.bar.hidden = state !== 'runs';
+    const done = runs.filter((run) => run.state === 'done').length;
+    this.bar.value = runs.reduce((sum, run) => sum + (run.state === 'done' ? 1 : run.share ?? 0), 0) / Math.max(runs.length, 1);
+    this.left.textContent = state === 'runs' ? `${done} of ${plural(runs.length, 'run')}, about ${duration(left)} of computing left`
+      : `takes about ${duration(left)} of computing`;
+  }
+
+  showTrouble({ error, runs }) {
+    const failed = runs.find((run) => run.state === 'failed');
+    const faults = runs.flatMap((run) => (run.faults ?? []).map((fault) => `seed ${run.seed}: ${fault}`));
+    this.trouble.textContent = error ?? (failed ? `Seed ${failed.seed}: ${failed.text}` : faults.join('; '));
+    this.trouble.hidden = !this.trouble.textContent;
+  }
+
+  showRuns({ name, runs }) {
+    this.details.hidden = runs.every((run) => run.state === 'none');
+    this.runs.replaceChildren(...runs.map((run) => make('li', {}, `Seed ${run.seed}: `, ...reportOf(name, run))));
+  }
+}
+
+function reportOf(name, run) {
+  if (run.state === 'done') {
+    return [make('a', { href: `/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
+  }
+  if (run.state === 'runs') return [`${Math.floor(100 * run.share)} %`];
+  return [REASONS[run.state] ?? (run.state === 'waits' ? 'waits' : 'not run yet')];
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fields of the page offer, and the settings that they say.
+
+import { $, make } from '../dom.js';
+import { DAYS, layoutOf, plural, ROLES } from './words.js';
+
+export const option = (value, textContent = value) => make('option', { value, textContent });
+
+/** Fills a select with presets and files, keeping what is chosen. */
+export function fillLayouts(select, about, chosen = select.value) {
+  const presets = Object.entries(about.presets).map(([name, { robots, stations }]) => option(name, `${name}: ${plural(robots, 'robot')}, ${plural(stations, 'station')}`));
+  const files = about.layouts.map((name) => option(name, layoutOf(name)));
+  select.replaceChildren(group('Ready made', presets), ...(files.length ? [group('Your own', files)] : []));
+  choose(select, chosen);
+}
+
+function group(label, options) {
+  return make('optgroup', { label }, ...options);
+}
+
+/** Chooses a value; one that is not offered is, so that a person sees what is gone. */
+export function choose(select, value) {
+  if (value && ![...select.options].some((one) => one.value === value)) select.append(option(value));
+  if (value) select.value = value;
+}
+
+/** What a layout has itself, as the hint of an empty field. */
+export function hintCounts(about, layout, fields) {
+  const preset = about.presets[layout];
+  for (const [field, what] of fields) field.placeholder = preset ? `all ${preset[what]}`.replace('all', what === 'robots' ? 'its' : 'all') : 'as drawn';
+}
+
+export function fillDays(select) {
+  select.replaceChildren(...Object.entries(DAYS).map(([value, text]) => option(value, text)));
+}
+
+export function fillPolicies(box, about) {
+  box.replaceChildren(...Object.entries(about.policies).map(([role, names]) => {
+    const usual = about.default_policies[role];
+    const select = make('select', { id: `policy-${role}` }, option('', `${usual} (usual)`), ...names.filter((name) => name !== usual).map((name) => option(name)));
+    return make('label', {}, `${ROLES[role] ?? role} `, select);
+  }));
+}
+
+/** The policies that are chosen, by role. */
+export function policiesOf(about) {
+  const chosen = Object.keys(about.policies).map((role) => [role, $(`policy-${role}`).value]);
+  return Object.fromEntries(chosen.filter(([, name]) => name));
+}
+
+/** {kind, rate, lines, pieces, file} of orders as simulate takes them. */
+export function partsOf(orders) {
+  const usual = { kind: 'fill', rate: 300, lines: 1.55, pieces: 1.05, file: '' };
+  const [kind, rate, size] = orders.split(':');
+  if (orders.endsWith('.csv')) return { ...usual, kind: 'file', file: orders };
+  if (kind === 'mix') {
+    const [lines, pieces] = size.split('x').map(Number);
+    return { ...usual, kind: 'mix', rate: Number(rate), lines, pieces };
+  }
+  return { ...usual, kind: orders === 'fill' ? 'fill' : orders };
+}
+
+/** Orders as simulate takes them, of what partsOf() returns. */
+export function ordersText({ kind, rate, lines, pieces, file }) {
+  if (kind === 'file') return file;
+  return kind === 'mix' ? `mix:${rate}:${lines}x${pieces}` : kind;
+}
+
+/** A name that no scenario has yet. */
+export function freeName(stem, taken) {
+  if (!taken.includes(stem)) return stem;
+  let n = 2;
+  while (taken.includes(`${stem} ${n}`)) n += 1;
+  return `${stem} ${n}`;
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page /whatif: scenarios, their runs, and how they compare.
+
+import { reloadIfLockedOut } from '../api.js';
+import { $, make, on } from '../dom.js';
+import { ask as asked, confirmed } from '../question.js';
+import { Told } from '../told.js';
+import { Card } from './card.js';
+import { Comparison } from './comparison.js';
+import { Form } from './form.js';
+import { Intro, named } from './intro.js';
+import { Picks } from './picks.js';
+import { ask, pathOf, queryOf } from './server.js';
+import { duration, plural } from './words.js';
+
+const SOON = 1000, LATER = 5000; // [ms] until scenarios are asked for again, while some run and else
+const MOST_FILE = 5e6; // [bytes]
+
+class Page {
+  constructor(about) {
+    this.about = about;
+    this.cards = new Map();
+    this.scenarios = null;
+    this.told = new Told($('told'));
+    this.picks = new Picks(about.most.compared, () => this.showPicks());
+    this.comparison = new Comparison((name) => this.picks.makeFirst(name));
+    this.form = new Form(about, (...kept) => this.keep(...kept));
+    this.intro = new Intro(about, (pairs) => this.attempt(() => this.start(pairs)));
+    this.actions = this.makeActions();
+    $('folder').textContent = `Kept in ${about.folder}`;
+    $('draw-one').hidden = false;
+    on($('new'), 'click', () => this.form.open(about.defaults, { taken: this.names }));
+    on($('two'), 'click', () => this.showIntro(true));
+    for (const button of document.querySelectorAll('[data-upload]')) on(button, 'click', () => this.openFile(button.dataset.upload));
+    on($('upload'), 'change', () => this.attempt(() => this.upload($('upload').files[0])));
+    on(document, 'visibilitychange', () => document.hidden || this.look());
+    this.look();
+  }
+
+  get names() {
+    return this.scenarios?.map(({ name }) => name) ?? [];
+  }
+
+  makeActions() {
+    const send = (method, rest) => (name) => this.attempt(async () => {
+      await ask(method, pathOf(name, rest));
+      await this.look();
+    });
+    return {
+      run: send('POST', '/run'),
+      cancel: send('DELETE', '/run'),
+      duplicate: (name) => this.attempt(() => this.duplicate(name)),
+      change: (name) => this.change(name),
+      rename: (name) => this.rename(name),
+      remove: (name) => this.remove(name),
+      pick: (name) => {
+        if (!this.picks.toggle(name)) this.told.say(`${this.about.most.compared} scenarios are compared at most; take one away first.`);
+        this.showPicks();
+      },
+    };
+  }
+
+  // --- what the server tells
+  /** Asks for all scenarios, and again after a while. */
+  async look() {
+    clearTimeout(this.timer);
+    let pause = LATER;
+    try {
+      const answer = await ask('GET', '/scenarios');
+      if (answer.running + answer.waiting) pause = SOON;
+      this.show(answer);
+    } catch (error) {
+      this.showLink('away', error.message);
+      reloadIfLockedOut();
+    }
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => document.hidden || this.look(), pause);
+  }
+
+  show({ scenarios, running, waiting, left }) {
+    this.scenarios = scenarios;
+    const text = running + waiting ? `${plural(running, 'run')} under way, ${waiting} waiting, about ${duration(left)} left` : 'nothing runs';
+    this.showLink(running ? 'live' : 'idle', text);
+    this.picks.keep(this.names);
+    this.showCards();
+    this.showIntro(this.wantsIntro);
+    this.compare();
+  }
+
+  showLink(state, text) {
+    $('link').dataset.state = state;
+    if ($('link').textContent !== text) $('link').textContent = text;
+  }
+
+  showCards() {
+    for (const [name, card] of this.cards) {
+      if (this.names.includes(name)) continue;
+      card.element.remove();
+      this.cards.delete(name);
+    }
+    this.scenarios.forEach((told, i) => {
+      if (!this.cards.has(told.name)) this.cards.set(told.name, new Card(told.name, this.actions));
+      const card = this.cards.get(told.name);
+      card.update(told, this.picks.has(told.name));
+      if ($('list').children[i] !== card.element) $('list').insertBefore(card.element, $('list').children[i] ?? null);
+    });
+  }
+
+  showPicks() {
+    if (!this.scenarios) return;
+    this.showCards();
+    this.compare();
+  }
+
+  /** Two layouts are offered where there is nothing yet, or where a person asks for them. */
+  showIntro(isWanted) {
+    this.wantsIntro = isWanted;
+    const isFirst = !this.names.length;
+    $('intro').hidden = !isFirst && !isWanted;
+    $('work').hidden = $('side').hidden = isFirst;
+    $('two').hidden = Boolean(isWanted);
+    document.body.classList.toggle('first-visit', isFirst);
+  }
+
+  /** Shows those that are picked side by side, as far as they have run. */
+  async compare() {
+    const chosen = this.picks.names.map((name) => this.scenarios.find((one) => one.name === name)).filter(Boolean);
+    const bare = chosen.filter(({ summary }) => !summary);
+    if (chosen.length < 2) this.comparison.clear('Tick two to six scenarios to see them side by side.');
+    else if (bare.length) this.comparison.clear(`${bare.map(({ name }) => name).join(', ')}: no run is over yet.`);
+    else await this.fetchComparison(chosen);
+  }
+
+  async fetchComparison(chosen) {
+    const state = JSON.stringify(chosen.map(({ name, summary, state: all }) => [name, summary, all]));
+    if (state === this.compared && this.comparison.told) return;
+    this.compared = state;
+    try {
+      const told = await ask('GET', `/compare?${queryOf(chosen.map(({ name }) => name))}`);
+      if (state === this.compared) this.comparison.show(told, chosen, this.about.default_policies);
+    } catch (error) {
+      this.compared = null;
+      this.comparison.clear(error.message);
+    }
+  }
+
+  // --- what a person asks for
+  async attempt(act) {
+    try {
+      await act();
+    } catch (error) {
+      this.told.say(error.message);
+    }
+  }
+
+  /** Makes both scenarios, runs them and puts them side by side. */
+  async start(pairs) {
+    const both = named(pairs, this.names);
+    for (const [name, settings] of both) await ask('POST', '/scenarios', { name, settings });
+    for (const [name] of both) await ask('POST', pathOf(name, '/run'));
+    this.wantsIntro = false;
+    await this.look();
+    this.picks.set(both.map(([name]) => name));
+  }
+
+  async keep(name, settings, runs, old) {
+    if (old) await ask('PUT', pathOf(old), { settings });
+    const kept = old || (await ask('POST', '/scenarios', { name, settings })).name;
+    if (runs) await ask('POST', pathOf(kept, '/run'));
+    this.compared = null;
+    await this.look();
+    if (!old && this.picks.names.length < this.about.most.compared) this.picks.toggle(kept);
+  }
+
+  change(name) {
+    const { settings, summary } = this.scenarios.find((one) => one.name === name);
+    this.form.open(settings, { old: name, hasRuns: Boolean(summary) });
+  }
+
+  async duplicate(name) {
+    const { name: copy } = await ask('POST', pathOf(name, '/duplicate'));
+    await this.look();
+    this.change(copy);
+  }
+
+  async rename(name) {
+    $('new-name').value = name;
+    if (await asked($('renamer')) !== 'yes') return;
+    await this.attempt(async () => {
+      const { name: to } = await ask('POST', pathOf(name, '/rename'), { to: $('new-name').value });
+      this.scenarios.find((one) => one.name === name).name = to;
+      this.picks.rename(name, to);
+      await this.look();
+    });
+  }
+
+  async remove(name) {
+    const { runs } = this.scenarios.find((one) => one.name === name);
+    const done = runs.filter(({ state }) => state === 'done').length;
+    const text = done ? `Its ${plural(done, 'run')} with their reports are deleted with it.` : 'It has no runs yet.';
+    if (!await confirmed(`Delete ${name}?`, text, 'Delete', 'Keep it')) return;
+    await this.attempt(async () => {
+      await ask('DELETE', pathOf(name));
+      await this.look();
+    });
+  }
+
+  // --- files
+  openFile(kind) {
+    this.kind = kind;
+    $('upload').accept = kind === 'layouts' ? '.yaml' : '.csv';
+    $('upload').value = '';
+    $('upload').click();
+  }
+
+  /** Sends a file to the server, and chooses it where it was asked for. */
+  async upload(file) {
+    try {
+      if (file.size > MOST_FILE) throw new Error(`${file.name}: a file of up to 5 MB was expected`);
+      const { name } = await ask('POST', `/${this.kind}`, { name: file.name, text: await file.text() });
+      await this.takeFile(this.kind, name);
+    } catch (error) {
+      if (!this.form.dialog.open) throw error;
+      this.form.say(error.message, 'refused');
+    }
+  }
+
+  async takeFile(kind, name) {
+    Object.assign(this.about, await ask('GET', '/about'));
+    this.intro.offer();
+    if (!this.form.dialog.open) $('second-layout').value = name;
+    else if (kind === 'layouts') this.form.take({ ...this.form.settings(), layout: name });
+    else this.form.fillFiles(name);
+    this.intro.changed();
+    if (this.form.dialog.open) this.form.changed();
+  }
+}
+
+/** A layout that was drawn in the editor is what a new scenario begins with. */
+function takeDrawn(page) {
+  const name = new URLSearchParams(location.search).get('layout');
+  if (!name) return;
+  history.replaceState(null, '', location.pathname + location.hash);
+  if (page.about.layouts.includes(name)) page.form.open({ ...page.about.defaults, layout: name }, { taken: page.names });
+}
+
+async function main() {
+  try {
+    const page = new Page(await ask('GET', '/about'));
+    window.page = page;
+    takeDrawn(page);
+  } catch (error) {
+    reloadIfLockedOut();
+    $('link').textContent = error.message;
+    $('link').dataset.state = 'away';
+    $('told').append(make('p', { className: 'answer', textContent: error.message }));
+    setTimeout(main, LATER);
+  }
+}
+
+main();

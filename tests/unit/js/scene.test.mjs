@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the picture is made of: shelves, tiles of the floor, arrows, signs; and the way by keys.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { FAR, NEAR, StandingCrowd, View } from '../../../src/warehouse_viewer/web/js/crowd.js';
+import { scaleFor } from '../../../src/warehouse_viewer/web/js/fit.js';
+import { boundsOf, hull, merge } from '../../../src/warehouse_viewer/web/js/looks.js';
+import { chevrons } from '../../../src/warehouse_viewer/web/js/paint.js';
+import { nextFrom } from '../../../src/warehouse_viewer/web/js/scene_keys.js';
+import { boardsOf, shelfGeometry, shelfPicture, variantOf, VARIANTS } from '../../../src/warehouse_viewer/web/js/shelves.js';
+import { signOf } from '../../../src/warehouse_viewer/web/js/signs.js';
+import * as THREE from '/three/build/three.module.js';
+import { AT, UNIT } from './look.mjs';
+
+const board = (z) => ({ kind: 0, pose: AT(0, 0, z), size: [0.8, 0.8, 0.03], colour: [1, 1, 1, 1] });
+const SHELF = [{ name: 'shelf', pose: AT(), shapes: [
+  { kind: 0, pose: AT(0.38, 0.38, 0.9), size: [0.04, 0.04, 1.8], colour: [0, 0, 0, 1] }, board(1.35), board(0.45)] }];
+
+function viewFrom(height, x = 0) {
+  const camera = new THREE.PerspectiveCamera(90, 1, 0.1, 2000);
+  camera.position.set(x, 0, height);
+  camera.lookAt(x, 0, 0);
+  camera.updateProjectionMatrix();
+  const view = new View();
+  view.update(camera, 1000);
+  return view;
+}
+
+test('boards are found in a look, from below, as parts of its height', () => {
+  boardsOf(SHELF).forEach((at, i) => assert.ok(Math.abs(at - [0.25, 0.75][i]) < 1e-9));
+  assert.deepEqual(boardsOf(UNIT), []);
+});
+
+test('a shelf has a picture as full as it is', () => {
+  const { image: { data, width } } = shelfPicture(boardsOf(SHELF));
+  const goods = (variant) => {
+    let count = 0;
+    for (let y = 0; y < 128; ++y) for (let x = 0; x < 64; ++x) {
+      const at = 4 * (y * width + 64 * variant + x);
+      if (data[at + 3] === 0 && data[at] !== 74) count += 1;
+    }
+    return count;
+  };
+  assert.equal(width, 64 * VARIANTS);
+  assert.equal(goods(variantOf(0, 3)), 0);
+  assert.ok(goods(variantOf(1, 3)) > goods(variantOf(0.34, 3)) && goods(variantOf(0.34, 3)) > 0);
+  assert.equal(shelfGeometry(SHELF).index.count, 5 * 6);
+});
+
+test('what stands on a square of the floor is drawn again only when something there changes', () => {
+  const crowd = new StandingCrowd(new THREE.Group(), 200, boundsOf(UNIT), 100);
+  crowd.add(merge(UNIT), null, NEAR);
+  crowd.add(hull(UNIT), null, FAR);
+  const matrix = new THREE.Matrix4(), place = (i, x, moves) => crowd.put(i, matrix.makeTranslation(x, 0.5, 0), moves);
+  for (let i = 0; i < 200; ++i) place(i, i < 100 ? 1 : 33);
+  crowd.fill(viewFrom(40, 17), true);
+  const counts = () => crowd.parts.map(({ copies }) => copies[1]?.drawn ?? 0);
+  assert.deepEqual(counts(), [0, 100, 100]);
+  const seen = crowd.parts[2].copies[1].mesh.geometry.attributes.position.version;
+  place(5, 1, true); // it is lifted
+  crowd.fill(viewFrom(40, 17), false);
+  assert.deepEqual(counts(), [1, 99, 100]);
+  assert.equal(crowd.parts[2].copies[1].mesh.geometry.attributes.position.version, seen);
+  place(5, 33);
+  crowd.fill(viewFrom(40, 17), false);
+  assert.deepEqual(counts(), [0, 99, 101]);
+  crowd.fill(viewFrom(40, 5000), true);
+  assert.ok(crowd.parts.slice(1).every(({ copies }) => !copies[1].mesh.visible));
+  crowd.fill(viewFrom(40, 17), true);
+  assert.ok(crowd.parts.slice(1).every(({ copies }) => copies[1].mesh.visible));
+});
+
+test('a floor from above fits its room whichever side is up', () => {
+  assert.equal(scaleFor([-10, 10, -5, 5], Math.PI / 2, [200, 200]), 10);
+  assert.equal(scaleFor([-10, 10, -5, 5], 0, [100, 200]), 10);
+});
+
+test('an arrow points where it should', () => {
+  const { position } = chevrons([2, 3, Math.PI / 2]).attributes;
+  const points = Array.from({ length: position.count }, (_, i) => [position.getX(i), position.getY(i)]);
+  const [tip] = points.sort((a, b) => b[1] - a[1]);
+  assert.ok(Math.abs(tip[0] - 2) < 1e-6 && tip[1] > 3.1);
+});
+
+test('a sign tells who queues, and from when on a person is wanted', () => {
+  assert.deepEqual(signOf(4, { open: true, waiting: 0 }), { kind: 'sign', note: '4' });
+  assert.deepEqual(signOf(0, undefined), { kind: 'sign', note: '' });
+  assert.deepEqual(signOf(4, { open: true, waiting: 12.5 }), { kind: 'sign waiting', note: '4 · 12 s' });
+  assert.deepEqual(signOf(4, { open: true, waiting: 150 }), { kind: 'sign needs-help', note: '4 · 2 min' });
+  assert.deepEqual(signOf(0, { open: false, waiting: 0 }), { kind: 'sign', note: 'closed' });
+});
+
+test('arrow keys go to the next robot as they are seen', () => {
+  const points = [[0, 0], [10, 1], [30, 0], [12, 40], [-5, 0]];
+  assert.equal(nextFrom([0, 0], [1, 0], points, 0), 1);
+  assert.equal(nextFrom([10, 1], [1, 0], points, 1), 2);
+  assert.equal(nextFrom([0, 0], [-1, 0], points, 0), 4);
+  assert.equal(nextFrom([0, 0], [0, 1], points, 0), 3);
+  assert.equal(nextFrom([30, 0], [1, 0], points, 2), -1);
+  assert.equal(nextFrom([28, 0], [0, 1], points), 2);
+});

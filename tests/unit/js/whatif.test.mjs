@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios in words, what is chosen in their form, and what is drawn of their figures.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
+import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
+import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
+import { chartOf, topOf } from '../../../src/warehouse_viewer/web/js/whatif/whiskers.js';
+import { describe, differences, duration, interval, ordersOf } from '../../../src/warehouse_viewer/web/js/whatif/words.js';
+
+const MEDIUM = { layout: 'medium', robots: 0, stations: 0, orders: 'fill', minutes: 60, seeds: 5, physics: false, realism: '', policies: {} };
+const SITE = { name: 'medium', robots: 20, stations: 4 };
+const USUAL = { orders: 'pile-on', idle: 'wait' };
+
+test('a scenario is told in a line', () => {
+  assert.equal(describe(MEDIUM, SITE), 'medium · 20 robots · 4 stations · orders never run out · 60 min × 5 · ideal robots');
+  const own = { ...MEDIUM, layout: 'north.layout.yaml', orders: 'mix:300:2x1.5', physics: true, realism: 'bad_day', policies: { idle: 'park' } };
+  assert.equal(describe(own, { ...SITE, robots: 1 }),
+    'north · 1 robot · 4 stations · 300 orders an hour of 2 lines × 1.5 pieces · 60 min × 5 · simulated, bad day · idle: park');
+});
+
+test('only what is not the same differs', () => {
+  const first = { settings: MEDIUM, site: SITE };
+  const other = { settings: { ...MEDIUM, robots: 30, policies: { orders: 'random', idle: 'wait' } }, site: { ...SITE, robots: 30 } };
+  assert.deepEqual(differences([first, other], USUAL), [['Robots', ['20', '30']], ['Which order a station takes on', ['pile-on', 'random']]]);
+  assert.deepEqual(differences([first, first], USUAL), []);
+});
+
+test('orders of the form are those of simulate', () => {
+  for (const orders of ['fill', 'mix:300:1.55x1.05', 'monday.csv', 'poisson:20', 'fill:9']) {
+    assert.equal(ordersText(partsOf(orders)), orders);
+  }
+  assert.equal(ordersOf('mix:1200:1.55x1.05'), '1,200 orders an hour');
+  assert.equal(ordersOf('monday.csv'), 'orders of monday.csv');
+});
+
+test('names are free, and the picks are in the address', () => {
+  assert.equal(freeName('small', ['medium']), 'small');
+  assert.equal(freeName('small', ['small', 'small 2']), 'small 3');
+  assert.deepEqual(named([['small', 1], ['small', 2]], ['small']), [['small 2', 1], ['small 3', 2]]);
+  assert.deepEqual(namesOf(hashOf(['a b', 'c,d', '50 %'])), ['a b', 'c,d', '50 %']);
+  assert.deepEqual(namesOf('#compare=50%'), ['50%']);
+  assert.deepEqual(namesOf('#else'), []);
+});
+
+test('figures have their intervals, and seconds are told as people say them', () => {
+  assert.equal(interval({ mean: 1405.4, half: 11.6 }), '1,405 ± 12');
+  assert.equal(interval({ mean: -0.04, half: null }, 1), '−0.0');
+  assert.deepEqual([3, 47, 61, 3600, 8000].map(duration), ['5 s', '50 s', '2 min', '1 h 0 min', '2 h 14 min']);
+});
+
+test('a chart begins at zero and shows all of each interval', () => {
+  const cells = [{ mean: 10, half: 2 }, { mean: 30, half: 5 }, { mean: 1, half: 4 }, { mean: 8, half: null }];
+  const shown = chartOf(['a', 'b', 'c', 'd'], { title: 'Pieces picked', unit: 'an hour', digits: 0, cells });
+  assert.deepEqual(shown.ranges, [[8, 12], [25, 35], [0, 5], null]);
+  assert.equal(shown.axis, 'Pieces picked an hour');
+  assert.ok(topOf(shown) > 35);
+  assert.equal(chartOf(['a'], { title: 'Late orders', unit: '%', digits: 1, cells: [cells[0]] }).axis, 'Late orders [%]');
+});

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders that come as a table: all of them are accepted, or none."""
+
+import pytest
+from operations_site import site
+
+from warehouse_operations import Operations, order_table
+from warehouse_operations.queries import matching
+
+TWO = "reference,sku,quantity,due,priority\nA,sku-1,2,1800,3\nA,sku-2,1,1800,3\nB,sku-3,1,,\n"
+
+
+def shift():
+    return Operations(site=site(), physics=False, orders="none").shift
+
+
+def test_a_table_of_orders_is_accepted():
+    the_shift = shift()
+    answer = order_table.submit(the_shift, TWO)
+    assert (answer.faults, answer.references, answer.lines, answer.pieces) == ([], ["A", "B"], 3, 4)
+    first = the_shift.orders[answer.order_ids[0]]
+    assert (first.reference, first.due, first.priority, len(first.lines)) == ("A", 1800.0, 3, 2)
+
+
+def test_a_check_accepts_nothing():
+    the_shift = shift()
+    answer = order_table.submit(the_shift, TWO, check_only=True)
+    assert (answer.order_ids, answer.pieces, the_shift.orders) == ([], 4, {})
+
+
+@pytest.mark.parametrize(
+    ("table", "line", "column", "text"),
+    [
+        (TWO + "C,sku-none,1,,\n", 5, "sku", "sku 'sku-none' is unknown"),
+        (TWO + "C,sku-1,0,,\n", 5, "quantity", "quantity is '0'; a whole number from 1"),
+        ("reference,sku,quantity\n", 0, "", "there is no order in it"),
+        ("reference,sku,quantity,at\nA,sku-1,1,60\n", 0, "at", "orders that are sent come at once"),
+        ("name\nA\n", 1, "", "there is no column reference, sku, quantity"),
+    ],
+)
+def test_where_one_is_wrong_none_is_accepted(table, line, column, text):
+    the_shift = shift()
+    (fault,) = order_table.submit(the_shift, table).faults
+    assert (fault.line, fault.column) == (line, column)
+    assert fault.text.startswith(text)
+    assert not the_shift.orders
+
+
+def test_so_many_orders_as_would_stop_the_shift_are_refused(monkeypatch):
+    monkeypatch.setattr(order_table, "MOST_ORDERS", 1)
+    assert order_table.submit(shift(), TWO).faults[0].text == "2 orders; 1 or fewer were expected"
+    monkeypatch.setattr(order_table, "MOST_ORDERS", 2)
+    monkeypatch.setattr(order_table.acceptance, "MOST_WAITING", 2)
+    assert "wait already" in order_table.submit(shift(), TWO).faults[0].text
+
+
+def test_skus_are_found_by_a_part_of_their_name():
+    names = ["sku-10", "sku-2", "a-sku-2", "SKU-20", "bolt"]
+    assert matching(names, "sku-2") == ["sku-2", "SKU-20", "a-sku-2"]
+    assert matching(["sku-10", "sku-9"], "") == ["sku-9", "sku-10"]

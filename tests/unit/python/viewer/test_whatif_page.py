@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page /whatif in a real browser, as a person uses it who never opens a terminal; no ROS."""
+
+import contextlib
+import re
+import subprocess
+import sys
+
+import paths
+import pytest
+
+sys.path.append(str(paths.ROOT / "tests" / "rostest"))
+
+from browser import browser  # noqa: E402
+
+from warehouse_layout import generator, layout_file  # noqa: E402
+from warehouse_layout.request import PRESETS  # noqa: E402
+
+PATIENCE = 120.0  # with a machine that has much to do [s, wall]
+WHATIF = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "whatif"
+CARDS = "[...document.querySelectorAll('.scenario')].map((c) => c.dataset.name)"
+DONE = "page.scenarios?.length && page.scenarios.every((one) => one.state === 'done')"
+COLUMNS = "[...document.querySelectorAll('.column')].map((c) => c.textContent)"
+
+
+@contextlib.contextmanager
+def server(folder):
+    """The address of `whatif FOLDER`."""
+    command = ["/usr/bin/python3", WHATIF, folder, "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield re.search(r"http://\S+", process.stdout.readline())[0]
+        finally:
+            process.terminate()
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    with (
+        server(tmp_path_factory.mktemp("whatif") / "kept") as address,
+        browser(PATIENCE, (1440, 900)) as chromium,
+    ):
+        chromium.open(address)
+        chromium.until("document.getElementById('intro').checkVisibility()")
+        yield chromium
+
+
+def write(page, element, text):
+    field = page.driver.find_element("id", element)
+    field.clear()
+    field.send_keys(text)
+
+
+def button(page, name, text):
+    label = f"{text} {name}"
+    page.driver.find_element("css selector", f"button[aria-label='{label}']").click()
+
+
+def test_two_layouts_are_compared(page):
+    """The steps that doc/whatif.md counts; short shifts, so that the test is."""
+    page.driver.find_element("css selector", "#second-layout [value=small]").click()
+    write(page, "second-robots", "2")
+    write(page, "intro-minutes", "2")
+    write(page, "intro-seeds", "2")
+    page.driver.find_element("css selector", "#intro-form .strong").click()
+    page.until(f"{CARDS}.length === 2")
+    assert page.read(CARDS) == ["small", "small 2 robots"]
+    page.until(DONE)
+    page.until("Boolean(page.comparison.told && page.comparison.chart)")
+    assert page.read(COLUMNS) == ["small", "small 2 robots"]
+    rows = page.read("[...document.querySelectorAll('#table tbody th')].map((c) => c.textContent)")
+    assert "Robots " in rows and "Layout " not in rows and "Pieces picked an hour" in rows
+    assert page.read("page.comparison.chart.scales.y.min") == 0
+    assert page.complaints() == []
+
+
+def test_the_comparison_is_in_the_address(page):
+    page.driver.refresh()
+    page.until("page.comparison?.told")
+    page.driver.find_element("css selector", "thead .text-button").click()
+    page.until("page.comparison.told.names[0] === 'small 2 robots'")
+    assert page.read("location.hash") == "#compare=small%202%20robots,small"
+
+
+def test_a_scenario_is_duplicated_changed_renamed_and_deleted(page):
+    button(page, "small", "Duplicate")
+    page.until("document.getElementById('editor').open")
+    write(page, "own-stations", "9")
+    page.click_on("editor-save")
+    told = "document.getElementById('editor-told').textContent"
+    page.until(f"{told}.startsWith('stations is 9; small has 2 for picking')")
+    write(page, "own-stations", "1")
+    page.driver.find_element("css selector", "#own-orders [value=mix]").click()
+    page.click_on("editor-save")
+    page.until("!document.getElementById('editor').open")
+    button(page, "small 2", "Rename")
+    write(page, "new-name", "one station\n")
+    page.until(f"{CARDS}.includes('one station')")
+    about = page.read("document.querySelector('[data-name=\"one station\"] .about').textContent")
+    assert "1 station · 300 orders an hour" in about
+    button(page, "one station", "Delete")
+    page.click_on("question-yes")
+    page.until(f"{CARDS}.length === 2")
+
+
+def test_a_layout_of_ones_own_is_taken(page, tmp_path):
+    good, bad = tmp_path / "own.layout.yaml", tmp_path / "bad.layout.yaml"
+    layout_file.write(generator.of_request(PRESETS["small"], "own"), good)
+    bad.write_text("layout: 1\nfloor: |\n  .\n  ..\n")
+    page.click_on("new")
+    page.driver.find_element("id", "upload")
+    for file, then in (
+        (bad, "document.getElementById('editor-told').textContent.includes('bad.layout.yaml:4')"),
+        (good, "document.getElementById('own-layout').value === 'own.layout.yaml'"),
+    ):
+        page.read("(page.kind = 'layouts')")
+        page.driver.find_element("id", "upload").send_keys(str(file))
+        page.until(then)
+    page.click_on("editor-cancel")
+
+
+def test_a_drawing_of_the_editor_is_taken(page):
+    page.open(page.driver.current_url.partition("/whatif")[0] + "/layout")
+    page.until("Boolean(page.store) && page.editor.view.width > 0")
+    page.click_on("new")
+    page.driver.find_element("css selector", "#creator [value=yes]").click()
+    page.until("page.editor.drawing.robotCount > 0")
+    page.click_on("compare")
+    page.until("page.form?.dialog.open")
+    assert page.read("document.getElementById('own-layout').value") == "warehouse.layout.yaml"
+    assert page.complaints() == []

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Prints what a master has to know of the running warehouse, as JSON: cells, robots, units and a
+trip for each of several robots that is in nobody else's way."""
+
+import json
+
+import rospy
+from nav_msgs.srv import GetMap
+
+from warehouse_client.routes import Grid as RouteGrid
+from warehouse_client.routes import NoRouteError, route
+from warehouse_msgs.msg import WarehouseState
+from warehouse_vda5050.fetch_trip import Extent, wait_for_warehouse
+from warehouse_vda5050.world_link import grid_of
+
+
+def cells_of(state: WarehouseState, grid):
+    robots = {k.kiva_id: grid.cell_at(k.pose.x, k.pose.y) for k in state.kivas}
+    units = {
+        int(u.name.removeprefix("storage_unit")): grid.cell_at(u.pose.position.x, u.pose.position.y)
+        for u in state.storage_units
+    }
+    return robots, units
+
+
+def trips(state, grid, robots, units):
+    """Yields for robots, one after another: to a unit, on to a station, back to the unit's place.
+
+    A way keeps clear of all other robots where they stand."""
+    goals = [(s.name, grid.cell_at(s.x[s.service], s.y[s.service])) for s in state.stations]
+    for kiva, here in robots.items():
+        others = {cell for cell in robots.values() if cell != here}
+        clear = grid.blocked | others
+        for unit, place in sorted(units.items(), key=lambda item: _far(item[1], here)):
+            loaded = RouteGrid(Extent(grid), clear | (set(units.values()) - {place}))
+            for station, goal in goals:
+                try:
+                    there = route(RouteGrid(Extent(grid), clear), here, place)
+                    onward = route(loaded, place, goal)
+                    back = route(loaded, goal, place)
+                except NoRouteError:
+                    continue
+                yield dict(
+                    robot=kiva, unit=unit, station=station, there=there, onward=onward, back=back
+                )
+                break
+            else:
+                continue
+            break
+
+
+def straights(grid, robots):
+    """Returns for each robot a step to a free neighbour and back: twenty at once."""
+    taken = set(robots.values()) | grid.blocked
+    found = {}
+    for kiva, (x, y) in robots.items():
+        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            cell = (x + dx, y + dy)
+            if grid.contains(cell) and cell not in taken:
+                taken.add(cell)
+                found[kiva] = [(x, y), cell]
+                break
+    return found
+
+
+def main() -> None:
+    rospy.init_node("floor", anonymous=True)
+    state = wait_for_warehouse()
+    grid = grid_of(rospy.ServiceProxy("/warehouse/map", GetMap)().map)
+    robots, units = cells_of(state, grid)
+    chosen = []
+    for trip in trips(state, grid, robots, units):
+        chosen.append(trip)
+        if len(chosen) == 3:
+            break
+    floor = dict(x=grid.x, y=grid.y, spacing=grid.spacing, columns=grid.columns, rows=grid.rows)
+    print(json.dumps(dict(floor=floor, robots=robots, trips=chosen, steps=straights(grid, robots))))
+
+
+def _far(a, b):
+    return abs(a[0] - b[0]) + abs(a[1] - b[1])
+
+
+if __name__ == "__main__":
+    main()
