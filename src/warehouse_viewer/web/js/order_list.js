@@ -6,7 +6,7 @@ import { get } from './api.js';
 import { $, make, on, press } from './dom.js';
 import { isOver, OrderRow } from './order_row.js';
 
-const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in operations.css
+const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
 const AROUND = 30; // rows beside those in sight that are asked for too
 const TYPING = 200; // after a key [ms]
 
