@@ -50,9 +50,9 @@ void moveAll(kiva::World& world, const warehouse_msgs::FleetState& m) {
 
 ShadowTopic::ShadowTopic(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      subscriber_(root.subscribe<warehouse_msgs::FleetState>(
-          "/warehouse/shadows", kShadowQueue, &ShadowTopic::take, this,
-          ros::TransportHints().tcpNoDelay())) {}
+      subscriber_(root.subscribe<warehouse_msgs::FleetState>("/warehouse/shadows", kShadowQueue,
+                                                             &ShadowTopic::take, this,
+                                                             ros::TransportHints().tcpNoDelay())) {}
 
 void ShadowTopic::take(const Message& message) {
   simulation_.post([message](kiva::World& world) { moveAll(world, *message); });
