@@ -208,6 +208,6 @@ export class Gantt {
 
   openOnFloor() {
     const row = this.rows[this.chosen]?.row;
-    if (row) location.href = row.kind === 'station' ? `#${row.name}` : `/#${row.name}`;
+    if (row) location.href = row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`;
   }
 }
