@@ -158,11 +158,11 @@ class SlipsTest(WorkPageTest):
 
     def test_5_a_station_that_waits_for_a_person_says_so(self):
         card = "document.querySelector('[data-station=pick1]').textContent"
-        self.wait_for(f"{card}.includes('has waited for a person for 1 min')")
+        self.wait_for(f"{card}.includes('has waited for a person for')")
         alarms = "document.getElementById('alarms')"
-        self.page.until(f"{alarms}.textContent.includes('pick1 has waited for a person for 1 min')")
+        self.wait_for(f"{alarms}.textContent.includes('pick1 has waited for a person for 1 min')")
         self.press("pick1", 2)
-        self.page.until("document.getElementById('alarms').hidden")
+        self.page.until(f"!{alarms}.textContent.includes('pick1')")
         self.page.until(f"!{card}.includes('person')")
 
     def test_6_what_the_server_refuses_is_said(self):

@@ -3,7 +3,8 @@
 """A vehicle behind a broker as a robot of the fleet: the coordinator has it carry a storage unit,
 among simulated robots; when it falls silent it is an obstacle, and it comes back."""
 
-import os
+import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -52,7 +53,7 @@ class MetricRobot(GridRobot):
 
     def report(self):
         x, y = self.grid.position(self.cell)
-        self.extra = {"x": x, "y": y}
+        self.extra |= {"x": x, "y": y}
         return super().report()
 
     def lift(self, unit, up):
@@ -102,6 +103,8 @@ class Master(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        cls.node.send_signal(signal.SIGINT)
+        cls.node.wait(20)
         cls.behind.ended.set()
         cls.broker.close()
 
@@ -121,7 +124,8 @@ class Master(unittest.TestCase):
         file.write_text(f"{NUMBER}: {{manufacturer: acme, serial: '7'}}\n")
         rospy.set_param("/vda5050_master/robots", str(file))
         rospy.set_param("/vda5050_master/broker", f"localhost:{cls.broker.port}")
-        cls.node = os.spawnlp(os.P_NOWAIT, "rosrun", "rosrun", "warehouse_vda5050", "master")
+        command = ["setpriv", "--pdeathsig", "TERM", "rosrun", "warehouse_vda5050", "master"]
+        cls.node = subprocess.Popen(command)
 
     def row(self):
         """What the fleet tells of the vehicle last, as {field: value}; {} if it is not there."""

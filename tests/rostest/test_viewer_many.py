@@ -32,7 +32,7 @@ class ViewerMany(unittest.TestCase):
             self.assertLess(drawn["calls"], MOST_CALLS)
             page.read("page.stage.renderer.render = () => {}")  # in software it takes all there is
             traffic.Traffic(rospy, ROBOTS).start()
-            page.until("page.world.status.every(status => status === 1)")
+            page.until("page.world.activity.every(activity => activity === 1)")
             self.assertLess(self.bytes_each(page), MOST_BYTES)
             page.type("kiva1000" + Keys.ENTER, "search")
             page.until("document.getElementById('name').textContent === 'kiva1000'")

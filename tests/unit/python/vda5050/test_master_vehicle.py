@@ -44,7 +44,9 @@ class Bench:
         self.state = State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
         self.stamps = 0
         self.vehicle.take_connection(ConnectionState.ONLINE, self.now)
-        self.tell()
+        (asked,) = self.instants()
+        assert asked.type == "stateRequest"
+        self.tell(actions=(ActionState(asked.id, asked.type, ActionStatus.FINISHED),))
 
     def tell(self, **changes):
         """What the vehicle tells, with those changes; it goes on being so."""

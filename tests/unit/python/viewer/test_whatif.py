@@ -74,6 +74,7 @@ def test_runs_are_what_simulate_writes_and_sweep_reads(compared):
         "run.json",
         "run.db",
         "report.html",
+        "report.xlsx",
     }
     again = sweep.read(compared / "two robots" / "scenario.yaml")
     complete, left = again.done()

@@ -58,6 +58,7 @@ class RemoteVehicle:
         self.robot, self._grid, self._run = robot, grid, run
         self.view = VehicleView(robot.frame)
         self._instants = InstantRequests(f"{run}-{robot.number}")
+        self._instants.ask("stateRequest")  # else the first one may be 30 s away
         self._count = 0  # of orders
         self._journey: Journey | None = None
         self._lift: Lift | None = None  # that the journey is made for

@@ -4,7 +4,7 @@
 import { reloadIfLockedOut } from '../api.js';
 import { $, make, on } from '../dom.js';
 import { ask as asked, confirmed } from '../question.js';
-import { Told } from '../told.js';
+import { Told } from './told.js';
 import { Card } from './card.js';
 import { Comparison } from './comparison.js';
 import { Form } from './form.js';
