@@ -160,9 +160,10 @@ class SlipsTest(WorkPageTest):
         card = "document.querySelector('[data-station=pick1]').textContent"
         self.wait_for(f"{card}.includes('has waited for a person for')")
         alarms = "document.getElementById('alarms')"
-        self.wait_for(f"{alarms}.textContent.includes('pick1 has waited for a person for 1 min')")
+        needed = f"{alarms}.textContent.includes('is at pick1: a person has to confirm a pick')"
+        self.wait_for(needed)
         self.press("pick1", 2)
-        self.page.until(f"!{alarms}.textContent.includes('pick1')")
+        self.page.until(f"!{needed}")
         self.page.until(f"!{card}.includes('person')")
 
     def test_6_what_the_server_refuses_is_said(self):
