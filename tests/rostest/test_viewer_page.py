@@ -234,8 +234,10 @@ class ViewerPage(PageTest):
             "[...document.querySelectorAll('#labels span:not([hidden])')].map(s => s.textContent)"
         )
         self.page.read("page.showAll(false)")
-        robots, stations = ["1", "3", "4", "kiva2"], ["pick1", "pick2", "replenish1"]
-        self.page.until(f"String({labels}.sort()) === '{','.join([*robots, *stations])}'")
+        names = ["kiva2", "pick1", "pick2", "replenish1"]
+        self.page.until(f"{names}.every((name) => {labels}.includes(name))")
+        # The others, wherever tests before this one have sent them, as far as they are seen large.
+        self.assertLessEqual({*self.page.read(labels)} - {*names}, {"1", "3", "4"})
 
     # --- the simulation
     def until_link(self, state):
