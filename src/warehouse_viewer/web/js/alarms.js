@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person should look after, the worst first: since when, why, what to do, and who has seen it.
+// The alarms, the worst first: since when each holds, its cause, what to do, and the person that saw it.
 
 import { post } from './api.js';
 import { $, make, on } from './dom.js';

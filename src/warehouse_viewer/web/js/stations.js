@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stations as rows: what each does, who waits there for whom and for how long; open or closed, by
+// Stations as rows: what each does, what it waits for and for how long; open or closed, by
 // themselves or by hand.
 
 import { put } from './api.js';
@@ -123,7 +123,7 @@ export function waitingOf({ waiting }) {
   return waiting < UNATTENDED ? '' : `has waited for a person for ${Math.floor(waiting / 60)} min`;
 }
 
-/** [who waits for whom and for how long, the class of how bad that is] at `now` [s]. */
+/** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
 export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders }, now) {
   const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));
   if (waiting) return [`unit ${unit} has waited for a person for ${lasting(waiting)}`, waiting >= UNATTENDED ? 'is-bad' : ''];

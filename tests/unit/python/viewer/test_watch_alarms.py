@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is wrong becomes alarms: since when, why, what to do, who has seen it."""
+"""What is wrong becomes alarms: since when, the cause, what to do, the person that saw it."""
 
 import pytest
 from test_viewer_model import fleet

@@ -26,10 +26,6 @@ class RemoteFleet:
         """The vehicles, by number."""
         return list(self._vehicles.values())
 
-    def has(self, kiva_id: int) -> bool:
-        """Returns whether a robot is one of these."""
-        return kiva_id in self._vehicles
-
     def command(self, kiva_id: int, command: Command) -> None:
         """Gives a command to its vehicle; those to other robots are others' business."""
         if kiva_id == ALL and isinstance(command, (Stop, Cancel)):

@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from warehouse_vda5050.model import Action, ActionStatus, BlockingType, InstantActions, State
+from warehouse_vda5050.model import Action, BlockingType, InstantActions, State
 
 RESEND = 2.0  # [s] without an answer
 MOST_TIMES = 10
@@ -43,9 +43,7 @@ class InstantRequests:
         """Returns whether the vehicle has not answered an action yet, and it is still sent."""
         return name in self._pending
 
-    def take(self, state: State) -> dict[str, ActionStatus]:
-        """Takes in a state; returns the ids of the actions that it answers, and their status."""
-        told = {one.id: one.status for one in state.actions if one.id in self._pending}
-        for name in told:
-            del self._pending[name]
-        return told
+    def take(self, state: State) -> None:
+        """Takes in a state: what it answers is sent no more."""
+        for action in state.actions:
+            self._pending.pop(action.id, None)

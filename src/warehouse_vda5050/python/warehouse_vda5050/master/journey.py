@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A path as orders: point i is node 2i, the way from it to the next one is edge 2i + 1."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from warehouse_vda5050.driver import Point
@@ -95,11 +95,10 @@ class Journey:
         return Edge(f"{start}-{end}", 2 * i + 1, i + 1 < self.released, start, end)
 
 
-def begin(command: Follow, order_id: str, actions: Sequence[Action] = ()) -> Journey:
+def begin(command: Follow, order_id: str) -> Journey:
     """Returns the journey of a new path. Raises RefusedError."""
     if command.first != 0 or not command.points:
         raise RefusedError("a new path begins with point 0, where the robot stands")
     if not 1 <= command.released <= len(command.points):
         raise RefusedError(f"{command.released} of {len(command.points)} points can't be released")
-    points, released = list(command.points), command.released
-    return Journey(command.path_id, order_id, points, released, actions=tuple(actions))
+    return Journey(command.path_id, order_id, list(command.points), command.released)

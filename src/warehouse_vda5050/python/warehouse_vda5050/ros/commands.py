@@ -19,8 +19,8 @@ from warehouse_msgs.msg import (
 )
 from warehouse_vda5050.master import commands
 from warehouse_vda5050.master.commands import Command
+from warehouse_vda5050.master.fleet import ALL
 
-ALL = 0  # kiva_id of a Stop to every robot
 QUEUE = 1000
 
 

@@ -90,22 +90,31 @@ class WorldFeed:
         )
 
     def _scenery(self) -> SimpleNamespace:
-        world, looks = self._world, Looks(self._world)
-        others = [n for n in world.names if kind_and_number(n)[0] not in TRACKED and n != FLOOR]
-        first: dict[str, list[str]] = {
-            "kiva_look": [f"kiva{n}" for n in world.fleet.kiva_id],
-            "storage_unit_look": self._units,
-            "item_look": [],
-        }
-        return SimpleNamespace(
-            floor=world.floor,
-            grid_spacing=world.grid_spacing,
-            models=others,
-            model_look=[looks.index_of(name) for name in others],
-            pose=np.concatenate([*map(world.pose, others), np.zeros(0)]),
-            **{name: looks.index_of(of[0]) if of else -1 for name, of in first.items()},
-            looks=looks.all,
-        )
+        return scenery_of(self._world, Looks(self._world), self._units, [])
+
+
+def scenery_of(
+    world: Any, looks: "Looks", units: Sequence[str], items: Sequence[str]
+) -> SimpleNamespace:
+    """Returns what stands in a kiva_plugin_cpp.World, laid out as warehouse_msgs/Scenery.
+
+    `units` and `items` are the names of its storage units and items.
+    """
+    others = [n for n in world.names if kind_and_number(n)[0] not in TRACKED and n != FLOOR]
+    first: dict[str, Sequence[str]] = {
+        "kiva_look": [f"kiva{n}" for n in world.fleet.kiva_id[:1]],
+        "storage_unit_look": units,
+        "item_look": items,
+    }
+    return SimpleNamespace(
+        floor=world.floor,
+        grid_spacing=world.grid_spacing,
+        models=others,
+        model_look=[looks.index_of(name) for name in others],
+        pose=np.concatenate([*map(world.pose, others), np.zeros(0)]),
+        **{name: looks.index_of(of[0]) if of else -1 for name, of in first.items()},
+        looks=looks.all,
+    )
 
 
 class WorldSimulation:

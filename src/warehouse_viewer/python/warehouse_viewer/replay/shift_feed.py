@@ -8,9 +8,8 @@ import numpy as np
 
 from warehouse_fleet.waiting import Waiting
 from warehouse_layout import poses
-from warehouse_layout.models import FLOOR, kind_and_number
 from warehouse_viewer.page.activities import TOO_LONG
-from warehouse_viewer.page.world_source import COLUMNS, TRACKED, Looks, Stamp
+from warehouse_viewer.page.world_source import COLUMNS, Looks, Stamp, scenery_of
 
 
 class ShiftFeed:
@@ -85,23 +84,8 @@ class ShiftFeed:
         return SimpleNamespace(**vars(self.scenery) | {"pose": rows.ravel()})
 
     def _scenery(self) -> SimpleNamespace:
-        world, looks = self._world, self._looks
-        self._people = list(world.people)
-        others = [n for n in world.names if kind_and_number(n)[0] not in TRACKED and n != FLOOR]
-        first = {
-            "kiva_look": [f"kiva{n}" for n in world.fleet.kiva_id],
-            "storage_unit_look": self._units,
-            "item_look": self.objects.items,
-        }
-        return SimpleNamespace(
-            floor=world.floor,
-            grid_spacing=world.grid_spacing,
-            models=others,
-            model_look=[looks.index_of(name) for name in others],
-            pose=np.concatenate([*map(world.pose, others), np.zeros(0)]),
-            **{name: looks.index_of(of[0]) if of else -1 for name, of in first.items()},
-            looks=looks.all,
-        )
+        self._people = list(self._world.people)
+        return scenery_of(self._world, self._looks, self._units, self.objects.items)
 
 
 def _poses(rows: np.ndarray, yaw: Any = 0.0) -> np.ndarray:

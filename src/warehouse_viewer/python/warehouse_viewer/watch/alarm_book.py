@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The alarms that hold now: since when, and who has seen them."""
+"""The alarms that hold now: since when, and which person saw them."""
 
 import threading
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ class Trouble(NamedTuple):
 
 @dataclass
 class Alarm:
-    """A Trouble with its number and the person who has seen it; times are simulated [s]."""
+    """A Trouble with its number and the person that saw it; times are simulated [s]."""
 
     trouble: Trouble
     since: float

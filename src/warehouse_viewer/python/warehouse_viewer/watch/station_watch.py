@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stations do at a glance, and who waits there for whom and for how long."""
+"""What stations do at a glance, what each waits for, and for how long."""
 
 from collections import deque
 from collections.abc import Iterable, Mapping

@@ -22,7 +22,7 @@ BYTES: dict[int | str, dict[str, Any]] = {
 
 @router.get("/alarms", response_model=Alarms, responses=problems())
 async def get_alarms(backend: ApiBackend = BACKEND) -> Any:
-    """What a person should look after: since when, why, what to do, and who has seen it."""
+    """The alarms: since when each holds, its cause, what to do, and the person that saw it."""
     alarms = backend.monitor.alarms.told()
     kinds = {name: kind._asdict() for name, kind in KINDS.items()}
     return {"total": len(alarms), "alarms": alarms, "kinds": kinds}

@@ -26,7 +26,7 @@ class Alarm(BaseModel):
     text: str = Field(description="the cause, as a sentence")
     to_do: str = Field(description="what a person should do")
     since: float = Field(description="[s], simulated")
-    seen_by: str = Field(description="who has seen it; empty: no person yet")
+    seen_by: str = Field(description="the name of the person that saw it; empty: no person yet")
     seen_at: float = Field(description="[s], simulated; 0: not yet")
 
 
