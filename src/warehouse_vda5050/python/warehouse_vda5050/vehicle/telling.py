@@ -22,7 +22,7 @@ class Teller:
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
         self._told: State | None = None  # without what changes all the time
-        self._told_at = -math.inf
+        self._due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
         self._deceleration = max(0.1, vehicle.driver.factsheet().max_deceleration)
         self._top_speed = vehicle.driver.factsheet().max_speed
@@ -37,12 +37,14 @@ class Teller:
             return None
         state = self.state()
         lasting = _lasting(state)
-        settings = self._vehicle.settings
-        interval = settings.moving if state.driving else settings.interval
-        due = now - self._told_at >= min(interval, settings.interval)
+        due = now >= self._due
         if lasting == self._told and not due and not self._requested:
             return None
-        self._told, self._told_at, self._requested = lasting, now, False
+        settings = self._vehicle.settings
+        interval = min(settings.moving, settings.interval) if state.driving else settings.interval
+        # A state that comes a little late does not delay the next.
+        self._due = interval + (self._due if due and now < self._due + interval else now)
+        self._told, self._requested = lasting, False
         return state
 
     def state(self) -> State:
