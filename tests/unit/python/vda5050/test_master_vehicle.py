@@ -323,6 +323,25 @@ def test_a_load_that_it_tells_is_believed(bench):
     assert bench.shadow.shelf_id == 0
 
 
+@pytest.mark.parametrize("name", ["RFID_7c4", "0815"])
+def test_a_vehicle_may_have_names_of_its_own_for_loads(bench, name):
+    action = lift(bench)
+    done = (ActionState(action.id, "pick", ActionStatus.FINISHED),)
+    bench.tell(actions=done, loads=(Load(name),))
+    bench.tell()
+    assert bench.shadow.shelf_id == 12
+
+
+def test_an_order_that_the_vehicle_forgot_is_blocked(bench):
+    bench.follow(2)
+    bench.events()
+    bench.tell(order_id="", nodes=())
+    ((kind, text),) = bench.events()
+    assert kind == "BLOCKED"
+    assert "does not know its order" in text
+    assert bench.shadow.status == Status.IDLE
+
+
 def test_a_person_ahead_blocks_it(bench):
     bench.follow(4)
     bench.tell(field_violation=True)

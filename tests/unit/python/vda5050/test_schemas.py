@@ -2,6 +2,7 @@
 """Every kind of message that is sent fits the official schemas of 2.1.0."""
 
 import json
+import math
 from dataclasses import replace
 
 import jsonschema
@@ -55,6 +56,13 @@ def test_states_of_a_trip_with_everything_in_it(version):
         check(Kind.STATE, state, version)
 
 
+@pytest.mark.parametrize("turns", [0.5, -0.5, 1.5, 0.4999999])
+def test_a_heading_is_at_most_half_a_turn(turns):
+    bench = Bench()
+    bench.robot.extra = {"yaw": turns * math.tau}
+    assert abs(bench.tick().position.theta) <= math.pi
+
+
 def test_factsheet():
     check(Kind.FACTSHEET, Bench().vehicle.take_factsheet())
 
@@ -64,6 +72,15 @@ def test_connection_and_visualization():
         check(Kind.CONNECTION, Connection(state))
     state = Bench().tick()
     check(Kind.VISUALIZATION, Visualization(state.position, state.velocity))
+
+
+def test_instant_actions_under_both_names_where_peers_differ():
+    message = replace(
+        InstantActions((Action("stateRequest", "a"),)), header=HEADERS.next(Kind.ORDER)
+    )
+    told = json.loads(codec_for("2.0.0").encode(message))
+    assert told["instantActions"] == told["actions"] != []
+    assert "instantActions" not in json.loads(codec_for("2.1.0").encode(message))
 
 
 def test_what_a_master_sends():

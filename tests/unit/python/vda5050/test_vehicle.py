@@ -162,6 +162,13 @@ def test_refuses_another_order_while_one_is_under_way():
     assert error_types(bench.vehicle.state()) == ["orderError"]
 
 
+def test_takes_the_next_order_as_soon_as_the_last_node_is_passed():
+    bench = Bench()
+    bench.order("o", row(0, 3))
+    bench.until(lambda state: not state.nodes)
+    assert bench.order("p", row(3, 5)), bench.vehicle.errors
+
+
 def test_refuses_unknown_actions_trajectories_and_actions_at_edges():
     bench = Bench()
     assert not bench.order("o", row(0, 1), actions={1: [Action("dance", "a")]})

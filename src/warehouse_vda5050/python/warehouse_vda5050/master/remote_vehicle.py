@@ -5,6 +5,7 @@ Commands and states go in; orders and instant actions, reports and events come o
 clock [s] of any zero.
 """
 
+import re
 from dataclasses import dataclass
 from enum import Enum
 
@@ -27,6 +28,7 @@ from warehouse_vda5050.model import (
 )
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
+UNIT = re.compile(r"(?:storage_unit)?(\d+)")  # other names are a vehicle's own
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
 
 
@@ -70,6 +72,10 @@ class RemoteVehicle:
         self.last_end: EventKind | None = None
 
     # --- in
+
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over the cells of the floor as it is now."""
+        self._grid = grid
 
     def command(self, command: Command) -> None:
         """Takes a command; the answer is an event."""
@@ -255,6 +261,8 @@ class RemoteVehicle:
         if self._journey is None or state.order_id != way.order_id:
             if self._cancelling and self._is_cancelled(state):
                 self._end(EventKind.DONE, "cancelled")
+            elif self._journey and way.had:
+                self._end(EventKind.BLOCKED, "the vehicle does not know its order any more")
             return
         way.confirm(state.order_id, state.order_update)
         if not self._lift and state.last_node_sequence <= 2 * (way.had - 1):
@@ -305,15 +313,15 @@ class RemoteVehicle:
     # --- what others did
 
     def _take_load(self, state: State) -> None:
-        """Believes what the vehicle says of its load, where it says which unit that is."""
+        """Believes what the vehicle says of its load; which unit that is, only if it is not known."""
         if self._lift or not self.view.tells_loads:
             return
         if not state.loads:
             self.load = 0
             return
-        digits = "".join(c for c in state.loads[0].id if c.isdigit())
-        if digits:
-            self.load = int(digits)
+        named = UNIT.fullmatch(state.loads[0].id)
+        if named and not self.load:
+            self.load = int(named[1])
 
     def _end_foreign(self, state: State) -> None:
         """Has an order cancelled that an earlier run or another master left."""

@@ -107,7 +107,7 @@ def _with_report(state: State, report: Report) -> State:
         position=AgvPosition(
             round(report.x, 4),
             round(report.y, 4),
-            round(math.remainder(report.yaw, 2 * math.pi), 4),
+            _heading(report.yaw),
             initialized=report.localized,
         ),
         velocity=Velocity(round(forward, 3), round(aside, 3), round(report.omega, 3)),
@@ -117,6 +117,11 @@ def _with_report(state: State, report: Report) -> State:
         emergency_stop=report.stopped,
         field_violation=report.blocked,
     )
+
+
+def _heading(yaw: float) -> float:
+    """Returns an angle in [-π, π]: peers drop a state whose heading is rounded beyond that."""
+    return max(-math.pi, min(round(math.remainder(yaw, math.tau), 4), math.pi))
 
 
 def _lasting(state: State) -> State:
