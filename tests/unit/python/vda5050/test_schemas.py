@@ -5,10 +5,9 @@ import json
 import math
 from dataclasses import replace
 
-import jsonschema
-import paths
 import pytest
 from grid_robot import Bench, drop, order, pick, row
+from official_schemas import VALIDATORS, faults
 
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.headers import Headers
@@ -23,18 +22,12 @@ from warehouse_vda5050.model import (
 )
 from warehouse_vda5050.topics import Identity, Kind
 
-SCHEMAS = paths.ROOT / "tests" / "vda5050" / "schemas_2_1_0"
 HEADERS = Headers(Identity("kiva", "7"), "2.1.0")
-VALIDATORS = {
-    kind: jsonschema.Draft202012Validator(json.loads((SCHEMAS / f"{kind.value}.json").read_text()))
-    for kind in Kind
-}
 
 
 def check(kind, message, version="2.1.0"):
     message = replace(message, header=HEADERS.next(kind))
-    faults = VALIDATORS[kind].iter_errors(json.loads(codec_for(version).encode(message)))
-    assert [f"{list(fault.path)}: {fault.message}" for fault in faults] == []
+    assert faults(kind, codec_for(version).encode(message)) == []
 
 
 @pytest.mark.parametrize("version", ["2.0.0", "2.1.0"])

@@ -28,7 +28,7 @@ from warehouse_vda5050.model import (
 )
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
-UNIT = re.compile(r"(?:storage_unit)?(\d+)")  # other names are a vehicle's own
+UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
 
 
@@ -106,6 +106,7 @@ class RemoteVehicle:
         """Returns what is to be sent now."""
         if not self.view.hears:
             return []
+        self._insist()
         order, instants = self._due_order(now), self._instants.due(now)
         return [message for message in (instants, order) if message is not None]
 
@@ -207,6 +208,12 @@ class RemoteVehicle:
     def _ask_to_cancel(self) -> None:
         self._cancelling, self._cancel_id = True, self._instants.ask("cancelOrder")
 
+    def _insist(self) -> None:
+        """Asks again to cancel what a vehicle that never answered still drives."""
+        drives = self.view.state is not None and self.view.state.nodes
+        if self._cancelling and drives and self._instants.is_given_up(self._cancel_id):
+            self._ask_to_cancel()
+
     def _is_cancelled(self, state: State) -> bool:
         return not state.nodes and not self._instants.is_pending(self._cancel_id)
 
@@ -257,6 +264,8 @@ class RemoteVehicle:
             self._journey = self._lift = None
 
     def _advance(self, way: Journey, state: State) -> None:
+        if state.order_id == way.order_id:
+            way.confirm(state.order_update)
         self._note_refusal(way, state)
         if self._journey is None or state.order_id != way.order_id:
             if self._cancelling and self._is_cancelled(state):
@@ -264,7 +273,6 @@ class RemoteVehicle:
             elif self._journey and way.had:
                 self._end(EventKind.BLOCKED, "the vehicle does not know its order any more")
             return
-        way.confirm(state.order_id, state.order_update)
         if not self._lift and state.last_node_sequence <= 2 * (way.had - 1):
             self.reached = max(self.reached, state.last_node_sequence // 2 + 1)
         if not state.nodes and not state.driving:
@@ -274,6 +282,9 @@ class RemoteVehicle:
         """Ends the command where nothing of it is left to be done."""
         if self._cancelling and self._is_cancelled(state):
             self._end(EventKind.DONE, "cancelled")
+            return
+        if way.is_cut_short(state.order_update, state.last_node_sequence):
+            self._end(EventKind.BLOCKED, f"others ended its order at {state.last_node}")
             return
         mine = {action.id for action in way.actions}
         told = {one.id: one for one in state.actions if one.id in mine}
@@ -288,14 +299,17 @@ class RemoteVehicle:
     def _finish(self, way: Journey) -> None:
         lift = self._lift
         if lift:
-            self.load = lift.shelf_id if lift.up else 0
             self._happened(EventKind.LIFTED if lift.up else EventKind.DROPPED, "", lift.shelf_id)
         else:
             self.reached = len(way.points)
         self._end(EventKind.DONE, f"done: {'lift' if lift else f'follow path {way.path_id}'}")
+        if lift:
+            self.load = lift.shelf_id if lift.up else 0
 
     def _end(self, kind: EventKind, text: str) -> None:
         self._journey, self._lift, self._cancelling = None, None, False
+        if self.view.state:
+            self._take_load(self.view.state)  # a lift that was cancelled may be done all the same
         self.last_end = kind
         self._happened(kind, text)
 
