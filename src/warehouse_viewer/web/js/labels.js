@@ -34,6 +34,7 @@ export class Labels {
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
     if ((span.dataset.note ?? '') !== note) span.dataset.note = note;
-    span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, var(--over))`;
+    // All of it within the window: percentages are of the label's own width.
+    span.style.transform = `translate(clamp(50%, ${x.toFixed(1)}px, 100vw - 50%), ${y.toFixed(1)}px) translate(-50%, var(--over))`;
   }
 }
