@@ -50,6 +50,7 @@ test-long: build  ## fleets at work, with and without faults, seed after seed; h
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	../scripts/axe; ../scripts/screens; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
 test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray

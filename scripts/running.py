@@ -5,6 +5,7 @@ scenarios, drawings. Each is a context that gives an address and ends what it st
 import json
 import os
 import re
+import signal
 import socket
 import subprocess
 import sys
@@ -18,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 300.0  # for what is started and for what it does [s, wall]
 sys.path.append(str(ROOT / "tests/rostest"))
+signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what was started ends then, too
 
 
 def wait(true, what):
@@ -61,7 +63,7 @@ def served(node, *arguments):
 
 @contextmanager
 def shift(folder, **arguments):
-    """The address of a shift under ROS, `roslaunch warehouse_sim operations.launch NAME:=VALUE …`."""
+    """The address of a shift under ROS; `arguments` are those of operations.launch."""
     port = free_port()
     given = {"viewer_port": 0, "database": folder / "shift.db"} | arguments
     command = ["roslaunch", "-p", port, "warehouse_sim", "operations.launch"]
