@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-PATIENCE = 300.0  # for what is started and for what it does [s, wall]
+PATIENCE = 600.0  # for what is started and for what it does [s, wall]
 sys.path.append(str(ROOT / "tests/rostest"))
 signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what was started ends then, too
 

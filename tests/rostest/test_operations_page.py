@@ -46,7 +46,8 @@ HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
 UNFIT = """[...document.querySelectorAll('button, .button')].filter((e) => e.checkVisibility())
   .filter((e) => {
     const { width, height, left, right, top, bottom } = e.getBoundingClientRect();
-    return Math.min(width, height) < 64 || left < 0 || right > innerWidth || top < 0 || bottom > innerHeight;
+    return Math.min(width, height) < 64 || Math.min(left, top) < 0
+      || right > innerWidth || bottom > innerHeight;
   }).map((e) => `${e.id} ${e.offsetWidth} x ${e.offsetHeight}`)"""
 
 # Answers *Damaged* and what it asks; once more if a bundle that was under way ends in between.
@@ -112,7 +113,7 @@ class OperationsPage(WorkPageTest):
         wait_until(done, "what was missing is brought from elsewhere", LONG)
 
     def is_for_gloves(self):
-        """A screen with work has large buttons, all of them in sight, and nothing for axe to say."""
+        """A screen with work has large buttons, all in sight, and nothing for axe to say."""
         for size in (PHONE, TABLET):
             self.page.be_phone(*size)
             self.assertEqual(self.page.read(UNFIT), [], size)

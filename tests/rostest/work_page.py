@@ -54,7 +54,9 @@ class WorkPageTest(PageTest):
     def tap(self, button):
         """Touches a button of a screen once it may be meant: it has been there for a moment."""
         element = f"document.getElementById('{button}')"
-        self.page.until(f"page.view.isSettled && {element}.checkVisibility() && !{element}.disabled")
+        self.page.until(
+            f"page.view.isSettled && {element}.checkVisibility() && !{element}.disabled"
+        )
         self.page.tap_on(button)
 
     def click(self, selector):
