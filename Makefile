@@ -43,7 +43,7 @@ test: deps  ## build and run every test; make test ARGS="-L unit" only those
 	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; }"
 	@scripts/test -j$(JOBS) $(ARGS)
 
-test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
+test-long: build  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
 	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py; \
