@@ -34,6 +34,9 @@ export class Labels {
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
     if ((span.dataset.note ?? '') !== note) span.dataset.note = note;
-    span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, var(--over))`;
+    // All of it within the window, and signs below the bar; percentages are of the label's own size.
+    const along = `clamp(50%, ${x.toFixed(1)}px, 100vw - 50%)`;
+    const down = kind.startsWith('sign') ? `max(${y.toFixed(1)}px, var(--free-top) - var(--over))` : `${y.toFixed(1)}px`;
+    span.style.transform = `translate(${along}, ${down}) translate(-50%, var(--over))`;
   }
 }
