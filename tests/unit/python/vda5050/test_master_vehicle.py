@@ -372,6 +372,12 @@ def test_a_vehicle_that_begins_again_unseen_is_heard(bench):
     assert bench.shadow.x == 1
 
 
+def test_a_vehicle_that_comes_back_is_asked_for_its_state(bench):
+    bench.vehicle.take_connection(ConnectionState.CONNECTIONBROKEN, 0)
+    bench.vehicle.take_connection(ConnectionState.ONLINE, 0)
+    assert [action.type for action in bench.instants()] == ["stateRequest"]
+
+
 def test_a_load_that_it_tells_is_believed(bench):
     bench.tell(loads=(Load("storage_unit5"),))
     assert bench.shadow.shelf_id == 5

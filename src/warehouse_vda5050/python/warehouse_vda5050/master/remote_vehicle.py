@@ -60,7 +60,7 @@ class RemoteVehicle:
         self.robot, self._grid, self._run = robot, grid, run
         self.view = VehicleView(robot.frame)
         self._instants = InstantRequests(f"{run}-{robot.number}")
-        self._instants.ask("stateRequest")  # else the first one may be 30 s away
+        self._state_id = self._instants.ask("stateRequest")  # else the first may be 30 s away
         self._count = 0  # of orders
         self._journey: Journey | None = None
         self._lift: Lift | None = None  # that the journey is made for
@@ -92,13 +92,15 @@ class RemoteVehicle:
         self._take_load(state)
         if self._cancelling and not self._journey and self._is_cancelled(state):
             self._cancelling = False
-        self._end_foreign(state)
         if self._journey:
             self._advance(self._journey, state)
+        self._end_foreign(state)
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Takes in whether the vehicle is there."""
         self.view.take_connection(state, now)
+        if state is ConnectionState.ONLINE:  # what it told meanwhile was not heard
+            self._ask_for_state()
 
     # --- out
 
@@ -249,12 +251,16 @@ class RemoteVehicle:
             return None
         self._sent_at, self._times = now, self._times + 1
         if self._times % ASKS_AFTER == 0:
-            self._instants.ask("stateRequest")
+            self._ask_for_state()
         if way.had or self._times < MOST_TIMES:
             return way.sent
         self._give_up(way, "the vehicle does not tell that it has the order")
         self._ask_to_cancel()  # it may have it all the same
         return None
+
+    def _ask_for_state(self) -> None:
+        if not self._instants.is_pending(self._state_id):
+            self._state_id = self._instants.ask("stateRequest")
 
     def _give_up(self, way: Journey, why: str) -> None:
         """Ends what the vehicle never had; keeps what it has of a path."""
@@ -338,7 +344,8 @@ class RemoteVehicle:
             self.load = int(named[1])
 
     def _end_foreign(self, state: State) -> None:
-        """Has an order cancelled that an earlier run or another master left."""
+        """Has an order cancelled that an earlier run or another master left, or that was given up
+        and came all the same."""
         if self._journey or self._cancelling or not state.nodes:
             return
         self._ask_to_cancel()
