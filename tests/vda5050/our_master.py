@@ -17,8 +17,7 @@ from pathlib import Path
 
 import rospy
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "rostest"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "rostest"))
 
 from node_test import call, wait_until
 from warehouse_test import Collector
@@ -31,6 +30,7 @@ from warehouse_msgs.srv import ReleaseTransport, Transport
 from warehouse_vda5050.mqtt.broker import OwnBroker
 from warehouse_vda5050.ros.master import grid_of
 
+HERE = Path(__file__).resolve().parent
 ENVIRONMENTS = Path(sys.argv[1])
 ROBOTS = """
 21: {manufacturer: lib, serial: "1", action_parameters: {loadType: EPAL, duration: 1}}
