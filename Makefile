@@ -59,7 +59,7 @@ test-wheel: wheel  ## use the wheel in an environment with nothing else, with St
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)
 
-test-vda5050: build  ## let masters of other makers drive robots over VDA 5050; from PyPI and npm
+test-vda5050: build  ## masters of other makers drive robots over VDA 5050, and ours their vehicles; from PyPI and npm
 	@scripts/test-vda5050 $(ARGS)
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour

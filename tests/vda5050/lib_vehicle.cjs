@@ -10,8 +10,8 @@ const vehicle = new AgvController(
   { agvAdapterType: VirtualAgvAdapter },
   {
     initialPosition: { mapId: 'hall', x: Number(x), y: Number(y), theta: 0, lastNodeId },
-    vehicleSpeed: 1.5,
-    tickRate: 20,
+    vehicleSpeed: 3,
+    tickRate: 40,
   },
 );
 vehicle.start();

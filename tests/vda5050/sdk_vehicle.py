@@ -25,8 +25,8 @@ async def main():
     vehicle = FakeAgv(
         VehicleConfig(broker_url=URL, manufacturer="sdk", serial_number=SERIAL),
         RealBroker(),
-        node_delay=0.7,
-        action_delay=2.0,
+        node_delay=0.35,
+        action_delay=1.0,
         initial_node_id=NODE,
         start_x=float(X),
         start_y=float(Y),

@@ -333,7 +333,7 @@ class RemoteVehicle:
     # --- what others did
 
     def _take_load(self, state: State) -> None:
-        """Believes what the vehicle says of its load; which unit that is, only if it is not known."""
+        """Believes what the vehicle says of its load; which unit it is, only if no pick told."""
         if self._lift or not self.view.tells_loads:
             return
         if not state.loads:
