@@ -53,7 +53,9 @@ def check(python, preset, folder):
         assert same.all(), f"{preset}: {name} differ"
     assert after.point_of(0) == before.point_of(0) and lanes(back) == lanes(file), preset
     sizes = ", ".join(f"{len(part)} {name}" for name, part in found["vdma-lif"].items())
-    print(f"{preset}: {sizes}, read by {' and '.join(found)}; the same floor comes back", flush=True)
+    print(
+        f"{preset}: {sizes}, read by {' and '.join(found)}; the same floor comes back", flush=True
+    )
 
 
 def main():

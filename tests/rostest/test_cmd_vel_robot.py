@@ -41,6 +41,7 @@ from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import Identity, Kind, Topics
 
 WAFFLE = ROOT / "tests" / "worlds" / "robots" / "waffle.sdf"
+VEHICLE = ROOT / "examples" / "cmd_vel_robot" / "vehicle.py"
 WHO = Identity("example", "7")
 NUMBER = 21  # of the robot for the master
 NOISE = 0.02  # standard deviation of odometry: poses [m, rad], speeds [m/s, rad/s]
@@ -61,8 +62,8 @@ def free_port():
 
 
 class Sensors:
-    """What a robot would tell in place of the true /bot/odom: on /bot/noisy poses that are off by
-    noise; on /bot/drifting ones in a frame that wanders, with its place in tf, that off by noise."""
+    """What a robot would tell in place of the true /bot/odom: on /bot/noisy poses that are off; on
+    /bot/drifting poses in a frame that wanders, with its place in tf, which is off as well."""
 
     def __init__(self):
         self.random = random.Random(1)
@@ -176,7 +177,7 @@ class CmdVelRobot(unittest.TestCase):
 
     def start(self, odometry, *further):
         """The example's program, as doc/vda5050.md has it."""
-        command = ["setpriv", "--pdeathsig", "TERM", str(ROOT / "examples/cmd_vel_robot/vehicle.py")]
+        command = ["setpriv", "--pdeathsig", "TERM", str(VEHICLE)]
         topics = [f"odom:={odometry}", "cmd_vel:=/bot/cmd_vel"]
         floor = [f"_broker:=localhost:{self.broker.port}", "_columns:=8", "_rows:=8", "_serial:=7"]
         program = subprocess.Popen([*command, *topics, *floor, *further])
