@@ -22,12 +22,6 @@ from node_test import call, wait_until
 from warehouse_test import Collector, pose
 
 from gazebo_msgs.srv import SpawnModel
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / "unit" / "python" / part) for part in ("", "vda5050")]
-
-import official_schemas
-
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Follow
@@ -39,6 +33,12 @@ from warehouse_vda5050.mqtt.loop import Link, MqttLoop
 from warehouse_vda5050.mqtt.master_link import MasterLink
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import Identity, Kind, Topics
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "unit" / "python"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "unit" / "python" / "vda5050"))
+
+import official_schemas
+from paths import ROOT
 
 WAFFLE = ROOT / "tests" / "worlds" / "robots" / "waffle.sdf"
 VEHICLE = ROOT / "examples" / "cmd_vel_robot" / "vehicle.py"
