@@ -61,6 +61,7 @@ test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 
 test-vda5050: build  ## masters of other makers drive robots over VDA 5050, and ours their vehicles; from PyPI and npm
 	@scripts/test-vda5050 $(ARGS)
+	@scripts/test-lif
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers

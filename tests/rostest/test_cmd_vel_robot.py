@@ -22,12 +22,6 @@ from node_test import call, wait_until
 from warehouse_test import Collector, pose
 
 from gazebo_msgs.srv import SpawnModel
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / "unit" / "python" / part) for part in ("", "vda5050")]
-
-import official_schemas
-
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Follow
@@ -40,7 +34,14 @@ from warehouse_vda5050.mqtt.master_link import MasterLink
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import Identity, Kind, Topics
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "unit" / "python"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "unit" / "python" / "vda5050"))
+
+import official_schemas
+from paths import ROOT
+
 WAFFLE = ROOT / "tests" / "worlds" / "robots" / "waffle.sdf"
+VEHICLE = ROOT / "examples" / "cmd_vel_robot" / "vehicle.py"
 WHO = Identity("example", "7")
 NUMBER = 21  # of the robot for the master
 NOISE = 0.02  # standard deviation of odometry: poses [m, rad], speeds [m/s, rad/s]
@@ -61,8 +62,8 @@ def free_port():
 
 
 class Sensors:
-    """What a robot would tell in place of the true /bot/odom: on /bot/noisy poses that are off by
-    noise; on /bot/drifting ones in a frame that wanders, with its place in tf, that off by noise."""
+    """What a robot would tell in place of the true /bot/odom: on /bot/noisy poses that are off; on
+    /bot/drifting poses in a frame that wanders, with its place in tf, which is off as well."""
 
     def __init__(self):
         self.random = random.Random(1)
@@ -176,7 +177,7 @@ class CmdVelRobot(unittest.TestCase):
 
     def start(self, odometry, *further):
         """The example's program, as doc/vda5050.md has it."""
-        command = ["setpriv", "--pdeathsig", "TERM", str(ROOT / "examples/cmd_vel_robot/vehicle.py")]
+        command = ["setpriv", "--pdeathsig", "TERM", str(VEHICLE)]
         topics = [f"odom:={odometry}", "cmd_vel:=/bot/cmd_vel"]
         floor = [f"_broker:=localhost:{self.broker.port}", "_columns:=8", "_rows:=8", "_serial:=7"]
         program = subprocess.Popen([*command, *topics, *floor, *further])

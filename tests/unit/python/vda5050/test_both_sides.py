@@ -89,6 +89,7 @@ class Histories(RuleBasedStateMachine):
 
     def teardown(self):
         """Once messages arrive again, transports are carried out."""
+        self.go_on()  # what is late has come
         self.sides.master.command(Stop(False))
         robot, carried = self.sides.robot, self.coordinator.carried
         for _ in range(CALM):

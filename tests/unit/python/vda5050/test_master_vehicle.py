@@ -305,6 +305,7 @@ def test_stop_and_go_on(bench):
     assert [one.type for one in bench.instants()] == ["startPause"]
     bench.vehicle.command(Stop(False))
     assert [one.type for one in bench.instants()] == ["stopPause"]
+    assert [one.type for one in bench.instants(2.5)] == ["stopPause"]  # the stop is not sent again
 
 
 def test_an_order_of_an_earlier_run_is_cancelled(bench):

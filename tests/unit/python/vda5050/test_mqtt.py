@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import pytest
 from grid_robot import GRID, GridRobot, is_over, order, row
-
 from official_schemas import faults
 
 from warehouse_vda5050.codec import codec_for
@@ -308,7 +307,7 @@ def test_password_and_tls(tmp_path):
         assert not site.master.connected
         site.settings = BrokerSettings("localhost", site.broker.port, tls=True, user="robot")
         stranger = site.loop.add(Link("stranger", site.settings, (), lambda *_: None))
-        site.until(lambda: "CERTIFICATE" in stranger.fault)  # of an authority that nobody knows
+        site.until(lambda: "CERTIFICATE" in stranger.fault)  # of an authority that is unknown here
         broker = f"localhost:{site.broker.port}"
         site.settings = read_settings(broker, str(pem), "robot", str(secret))
         site.add(0)

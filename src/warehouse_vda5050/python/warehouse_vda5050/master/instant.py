@@ -34,6 +34,12 @@ class InstantRequests:
         self._pending[action.id] = _Pending(action)
         return action.id
 
+    def forget(self, *kinds: str) -> None:
+        """Sends actions of these types no more: one that is wanted now must not be undone."""
+        self._pending = {
+            name: one for name, one in self._pending.items() if one.action.type not in kinds
+        }
+
     def due(self, now: float) -> InstantActions | None:
         """Returns what is to be sent now."""
         pending = [one for one in self._pending.values() if not one.is_given_up]

@@ -139,6 +139,7 @@ class RemoteVehicle:
         if isinstance(command, Cancel):
             self._cancel()
         elif isinstance(command, Stop):
+            self._instants.forget("startPause", "stopPause")
             self._instants.ask("startPause" if command.stop else "stopPause")
         elif isinstance(command, Follow):
             self._follow(command)
