@@ -71,10 +71,13 @@ def shift(folder, **arguments):
     told = [f"{name}:={value}" for name, value in given.items()]
     with process(*command, *told, env=environment, stdout=subprocess.DEVNULL) as one:
         master = xmlrpc.client.ServerProxy(environment["ROS_MASTER_URI"])
-        yield wait(lambda: one.poll() is None and _parameter(master, "/viewer/address"), "a shift")
+        yield wait(lambda: _told(one, master, "/viewer/address"), "a shift")
 
 
-def _parameter(master, name):
+def _told(launch, master, name):
+    """Returns a ROS parameter, None as long as there is none."""
+    if launch.poll() is not None:
+        raise RuntimeError(f"roslaunch has ended with {launch.returncode}")
     try:
         code, _, value = master.getParam("/running", name)
     except OSError:  # there is no master yet
