@@ -30,10 +30,10 @@ export class Labels {
   }
 
   place(span, { text, kind, at, note = '' }) {
-    const [x, y] = this.stage.pixelOf(...at);
+    const place = this.stage.pixelOf(...at).map(Math.round).join('px ');
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
     if ((span.dataset.note ?? '') !== note) span.dataset.note = note;
-    span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, var(--over))`;
+    if (span.style.translate !== `${place}px`) span.style.translate = `${place}px`; // else it would be painted again
   }
 }
