@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse under ROS: a session of its own, what its clients get, and what its nodes need."""
 
+import collections
 import contextlib
 import json
 import os
@@ -48,24 +49,15 @@ class Session:
         os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
         self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
         os.environ["ROS_HOME"] = self._home.name
-        command = ["setpriv", "--pdeathsig", "TERM"]  # nothing is left if this is killed
-        command += ["roslaunch", "-p", str(port), "--sigint-timeout=3", "--sigterm-timeout=1"]
-        command += [
-            "warehouse_sim",
-            "warehouse.launch",
-            *self._words,
-            f"viewer_port:={self._page}",
-        ]
-        print(f"$ {' '.join(command)}", file=sys.stderr, flush=True)
         self._log = open(f"{self._home.name}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
-        self._launch = subprocess.Popen(
-            command, stdout=self._log, stderr=self._log, start_new_session=True
-        )
+        self._launches = []
+        words = ["warehouse.launch", *self._words, f"viewer_port:={self._page}"]
+        self.launch("-p", str(port), "warehouse_sim", *words)
         try:
-            self._wait(rosgraph.is_master_online, "the master")
+            self.wait(rosgraph.is_master_online, "the master")
             if self._await_ready:
                 name = "/warehouse/create_warehouse_models"
-                self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
+                self.wait(lambda: name in rosservice.get_service_list(), "the warehouse")
         except BaseException:  # a Ctrl-C too: nothing may be left running
             self.__exit__()
             raise
@@ -73,9 +65,10 @@ class Session:
 
     def __exit__(self, *_):
         started = self.nodes()
-        self._launch.send_signal(signal.SIGINT)
         try:
-            self._launch.wait(60)
+            for launch in reversed(self._launches):  # the master ends last
+                launch.send_signal(signal.SIGINT)
+                launch.wait(60)
         except subprocess.TimeoutExpired:
             for pid in started:  # roslaunch gives each a group of its own
                 with contextlib.suppress(ProcessLookupError):
@@ -83,10 +76,21 @@ class Session:
         self._log.close()
         self._home.cleanup()
 
-    def _wait(self, condition, what, pause=0.05):
+    def launch(self, *words):
+        """Starts one more roslaunch, which ends with the session."""
+        command = ["setpriv", "--pdeathsig", "TERM"]  # nothing is left if this is killed
+        command += ["roslaunch", "--sigint-timeout=3", "--sigterm-timeout=1", *words]
+        print(f"$ {' '.join(command)}", file=sys.stderr, flush=True)
+        started = subprocess.Popen(
+            command, stdout=self._log, stderr=self._log, start_new_session=True
+        )
+        self._launches.append(started)
+
+    def wait(self, condition, what, pause=0.05):
+        """Until `condition()`; raises FailedError with what was logged after PATIENCE."""
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
-            if self._launch.poll() is not None:
+            if any(launch.poll() is not None for launch in self._launches):
                 break
             with contextlib.suppress(OSError, rosservice.ROSServiceException):
                 if condition():
@@ -145,11 +149,11 @@ class Session:
 
     def wait_for_deliveries(self, count):
         """Until so many storage units were brought to stations."""
-        self._wait(lambda: self.delivered() >= count, f"{count} deliveries", pause=1)
+        self.wait(lambda: self.delivered() >= count, f"{count} deliveries", pause=1)
 
     def nodes(self):
-        """Process ids by program name: all that roslaunch started, and itself."""
-        out, pids = {}, [self._launch.pid]
+        """Program names by process id: all that roslaunch started, and itself."""
+        out, pids = {}, [launch.pid for launch in self._launches]
         while pids:
             pid = pids.pop()
             out[pid] = _command(pid)
@@ -166,7 +170,10 @@ class Session:
 
     def cpu(self):
         """CPU seconds by program name."""
-        return {name: _cpu(pid) for pid, name in self.nodes().items()}
+        used = collections.Counter()
+        for pid, name in self.nodes().items():
+            used[name] += _cpu(pid)
+        return used
 
 
 def _command(pid):

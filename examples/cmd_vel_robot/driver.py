@@ -25,19 +25,24 @@ class CmdVelDriver(Driver):
         self._path_id = 0
         self._refusal = ""
         self._stopped = self._busy = False
+        self._speed = self._rate = 0.0  # as told [m/s, rad/s]
+        self._is_news = False  # odometry came since the last command
         self._heard_at = -math.inf
         self._now = 0.0
 
     # --- of the host
 
     def on_odometry(self, time: float, pose: Pose, speed: float, rate: float) -> None:
-        """Takes in where the robot tells to be [m, rad] and how fast it is, at a time [s]."""
+        """Takes in where the robot tells to be [m, rad] and how fast it is, at a time [s] of the
+        robot's own clock."""
         self._filter.update(time, pose, speed, rate)
-        self._heard_at = time
+        self._speed, self._rate, self._is_news = speed, rate, True
 
     def command(self, now: float, dt: float) -> tuple[float, float]:
         """Returns the speeds to be commanded now [m/s, rad/s]."""
         self._now = now
+        if self._is_news:
+            self._heard_at, self._is_news = now, False
         pose = self._filter.pose
         if pose is None or not self._heard:
             return 0.0, 0.0
@@ -74,8 +79,12 @@ class CmdVelDriver(Driver):
         """Returns where the robot is, and how far it has come."""
         if self._filter.pose is None:
             return None
+        yaw = self._filter.pose[2]
         return Report(
             *self._filter.pose,
+            vx=self._speed * math.cos(yaw),
+            vy=self._speed * math.sin(yaw),
+            omega=self._rate,
             busy=self._busy,
             moving=self._follower.moves,
             path_id=self._path_id,

@@ -25,6 +25,11 @@ def library() -> str:
     return found[-1].read_text(encoding="utf-8")
 
 
+def is_there() -> bool:
+    """Returns whether axe is installed: for a test that does more than look at its page."""
+    return bool(sorted(ROOT.glob(LIBRARY)))
+
+
 def findings(page, only=None, themes=("dark", "light")) -> list[str]:
     """Returns a sentence for each fault of a Browser's page, dark and light.
 

@@ -27,6 +27,11 @@ OPTIONS = (
 THEME = """const { dataset } = document.documentElement;
 if (dataset.theme) dataset.theme = arguments[0];"""
 
+CENTRE = (
+    "(r => [r.x + r.width / 2, r.y + r.height / 2])"
+    "(document.getElementById('{}').getBoundingClientRect())"
+)
+
 
 class Browser:
     """One page; `world`, `stage`, … below are of web/js/main.js."""
@@ -39,12 +44,19 @@ class Browser:
 
     def be_phone(self, width=390, height=844):
         """A small window of the kind that fingers tap at; for what is opened from now on."""
-        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": True}
+        self._be(width, height, has_fingers=True)
+
+    def be_screen(self, width, height):
+        """A window of that size with a mouse; for what is opened from now on."""
+        self._be(width, height, has_fingers=False)
+
+    def _be(self, width, height, has_fingers):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": has_fingers}
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
-        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": has_fingers})
 
     def be_desktop(self):
-        """Takes be_phone() back."""
+        """Takes be_phone() and be_screen() back."""
         self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
 
@@ -98,9 +110,31 @@ class Browser:
 
     def tap(self, px, py):
         """Touches a point of the window [px]."""
-        for kind, points in (("touchStart", [{"x": px, "y": py}]), ("touchEnd", [])):
-            event = {"type": kind, "touchPoints": points}
-            self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
+        self.swipe([(px, py)])
+
+    def tap_on(self, element):
+        """Touches the middle of an element, by its id."""
+        self.tap(*self.read(CENTRE.format(element)))
+
+    def swipe(self, *paths):
+        """Moves fingers, one along each path of points of the window [px]; paths are as long as
+        each other."""
+        for i, points in enumerate(zip(*paths)):
+            self.touch("touchMove" if i else "touchStart", *points)
+        self.touch("touchEnd")
+
+    def touch(self, kind, *points):
+        """Fingers at points of the window [px]; touchStart, touchMove or touchEnd."""
+        touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        event = {"type": kind, "touchPoints": touches}
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
+
+    def drop(self, path, px, py):
+        """Lets a file go over a point of the window [px], as if it came from elsewhere."""
+        data = {"items": [], "files": [str(path)], "dragOperationsMask": 1}
+        for kind in ("dragEnter", "dragOver", "drop"):
+            event = {"type": kind, "x": px, "y": py, "data": data}
+            self.driver.execute_cdp_cmd("Input.dispatchDragEvent", event)
 
     def click_on(self, element):
         """Clicks an element, by its id, where a person would."""

@@ -7,6 +7,7 @@ import unittest
 import actionlib
 import rospy
 import rostest
+from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus, GoalStatusArray
 from node_test import PATIENCE, Listener, create, wait_until
 from std_srvs.srv import Empty
@@ -15,17 +16,38 @@ from warehouse_test import place
 from warehouse_msgs.msg import CarryAction, CarryFeedback, CarryGoal, Event, MoveAction, MoveGoal
 
 NEAR = 0.05  # [m]
-TIMEOUT = rospy.Duration(1000)  # simulated; the test itself has a limit
+
+
+class Client:
+    """Sends a goal and keeps its handle.
+
+    actionlib's SimpleActionClient knows a goal only once it was sent, and drops an answer that is
+    quicker; then it waits for ever. The handle of its ActionClient misses none.
+    """
+
+    def __init__(self, name, kind):
+        self._client, self._goal = actionlib.ActionClient(name, kind), None
+        soon = rospy.Duration(nsecs=1)  # zero would be for ever
+        wait_until(lambda: self._client.wait_for_server(soon), "the action server")
+
+    def send(self, goal, heard):
+        self._goal = self._client.send_goal(goal, feedback_cb=lambda _, told: heard(told))
+
+    def cancel(self):
+        self._goal.cancel()
+
+    def ended(self):
+        """(its status, its result), once the goal has ended."""
+        wait_until(lambda: self._goal.get_comm_state() == CommState.DONE, "the end of a goal")
+        return self._goal.get_goal_status(), self._goal.get_result()
 
 
 class Actions(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.wait_for_service("/warehouse/create_warehouse_models", PATIENCE)
-        cls.move = actionlib.SimpleActionClient("/warehouse/move", MoveAction)
-        cls.carry = actionlib.SimpleActionClient("/warehouse/carry", CarryAction)
-        for client in (cls.move, cls.carry):
-            wait_until(client.wait_for_server, "the action servers")
+        cls.move = Client("/warehouse/move", MoveAction)
+        cls.carry = Client("/warehouse/carry", CarryAction)
 
     def setUp(self):
         self.assertTrue(create("small").success)
@@ -35,12 +57,11 @@ class Actions(unittest.TestCase):
         self.street = (self.unit[0], self.unit[1] - 1)
 
     def send(self, client, goal):
-        client.send_goal(goal, feedback_cb=self.feedback.append)
+        client.send(goal, self.feedback.append)
 
     def ended(self, client, state):
-        self.assertTrue(client.wait_for_result(TIMEOUT))
-        result = client.get_result()
-        self.assertEqual(client.get_state(), state, result)
+        status, result = client.ended()
+        self.assertEqual(status, state, result)
         return result
 
     def at(self, name):
@@ -90,7 +111,7 @@ class Actions(unittest.TestCase):
     def test_cancelled_it_sends_no_further_command(self):
         self.send(self.carry, CarryGoal(1, 1, *self.street))
         wait_until(lambda: self.feedback, "the robot at work")
-        self.carry.cancel_goal()
+        self.carry.cancel()
         self.ended(self.carry, GoalStatus.PREEMPTED)
         self.assert_near("kiva1", self.unit)
         self.assert_near("storage_unit1", self.unit)
@@ -107,8 +128,7 @@ class Actions(unittest.TestCase):
         self.ended(self.move, GoalStatus.SUCCEEDED)
 
     def test_robots_work_side_by_side(self):
-        other = actionlib.SimpleActionClient("/warehouse/move", MoveAction)
-        wait_until(other.wait_for_server, "the action server")
+        other = Client("/warehouse/move", MoveAction)
         home = self.at("kiva2")
         self.send(self.move, MoveGoal(1, *self.street))
         self.send(other, MoveGoal(2, home[0], home[1]))

@@ -4,17 +4,31 @@
 
 import asyncio
 import json
+import tempfile
 import time
 from pathlib import Path
 
+import axe
 import rospy
 import rostest
 import websockets
+from browser import CENTRE
 from node_test import wait_until
 from page_test import address, ask, fetch
 from prometheus_client.parser import text_string_to_metric_families
 from sqlalchemy import insert
-from work_page import CARD, LONG, READY, TASK, WorkPageTest, pieces, station, submit
+from work_page import (
+    CARD,
+    LONG,
+    PHONE,
+    READY,
+    TABLET,
+    TASK,
+    WorkPageTest,
+    pieces,
+    station,
+    submit,
+)
 
 from warehouse_operations import check, schema
 from warehouse_operations.database import open_engine
@@ -27,6 +41,14 @@ ROW = """[...document.querySelectorAll('.order-rows .order')]
   .map((row) => row.textContent).find((text) => text.startsWith('{}'))"""
 LIT = "document.querySelector('#front .lit')"
 HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
+
+# Buttons too small for a glove, or out of sight.
+UNFIT = """[...document.querySelectorAll('button, .button')].filter((e) => e.checkVisibility())
+  .filter((e) => {
+    const { width, height, left, right, top, bottom } = e.getBoundingClientRect();
+    return Math.min(width, height) < 64 || Math.min(left, top) < 0
+      || right > innerWidth || bottom > innerHeight;
+  }).map((e) => `${e.id} ${e.offsetWidth} x ${e.offsetHeight}`)"""
 
 # Answers *Damaged* and what it asks; once more if a bundle that was under way ends in between.
 LEFT_OUT = """(() => {
@@ -73,14 +95,15 @@ class OperationsPage(WorkPageTest):
         self.page.until(f"{HAND}.textContent === 'Automatic'")
         number = submit("page-2", "sku-4", 3)
         self.click(CARD.format("pick1", "a"))
-        self.page.until(READY)
+        self.screen("pick1")
         self.wait_for(f"{TASK} === 'Take 3 × sku-4' && {LIT}")
+        self.is_for_gloves()
         unit = ask("/stations")[1]["stations"][0]["shelf_id"]
-        self.click("#fewer")
+        self.tap("fewer")
         self.tap("confirm")
         self.page.until(f"{TASK} === 'Take 1 × sku-4'")
         self.tap("short")
-        self.click("#question-yes")
+        self.tap("question-yes")
         self.page.until(f"page.bench.told.shelf_id !== {unit}")  # it has no more
         self.overview()
         self.press("pick1", 2)
@@ -88,6 +111,14 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(pieces("sku-4").get(unit, 0), 0)
         done = lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED"  # noqa: E731
         wait_until(done, "what was missing is brought from elsewhere", LONG)
+
+    def is_for_gloves(self):
+        """A screen with work has large buttons, all in sight, and nothing for axe to say."""
+        for size in (PHONE, TABLET):
+            self.page.be_phone(*size)
+            self.assertEqual(self.page.read(UNFIT), [], size)
+        if axe.is_there():
+            self.assertEqual(axe.findings(self.page), [])
 
     def test_3_a_person_puts_new_stock_in(self):
         self.press("replenish1", 2)
@@ -178,21 +209,43 @@ class OperationsPage(WorkPageTest):
         self.page.until("!document.getElementById('entry').open")
         self.page.type("typed-1", "search")
         self.page.until(ROW.format("typed-1"))
-        upload = "page.upload.check(new File([{}], 'orders.csv'))"
         wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
-        self.page.read(upload.format(json.dumps(wrong)))
+        self.let_fall(wrong)
         self.page.until(
             "document.querySelector('#sheet-faults tbody').textContent.startsWith('3quantity')"
         )
         self.assertEqual(ask("/orders?search=up-1")[1]["total"], 0)
         self.page.read("document.getElementById('sheet').close()")
-        self.page.read(upload.format(json.dumps(wrong.replace("none", "2"))))
+        self.let_fall(wrong.replace("none", "2"))
         self.click("#sheet-yes:not([hidden])")
         self.page.until("!document.getElementById('sheet').open")
         self.assertEqual(ask("/orders?search=up-")[1]["total"], 2)
         status, sheet = fetch("api/v1/orders.csv?search=up-2")
         self.assertEqual((status, sheet.decode("utf-8-sig").count("up-2")), (200, 1))
         self.assertEqual(fetch("api/v1/orders.xlsx?search=up-2")[1][:2], b"PK")
+
+    def let_fall(self, text):
+        """Drops a file with orders on the list."""
+        self.page.read("document.getElementById('orders').scrollIntoView({block: 'center'})")
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write(text)
+            file.flush()
+            self.page.drop(file.name, *self.page.read(CENTRE.format("orders")))
+            self.page.until("document.getElementById('sheet').open")
+
+    def test_7_all_can_use_it(self):
+        self.assertEqual(axe.findings(self.page), [])
+
+    def test_7_fingers_spread_the_last_hour(self):
+        self.page.be_phone(*PHONE)
+        self.page.read("page.gantt.box.scrollIntoView({block: 'center'})")
+        x, y = self.page.read(CENTRE.format("gantt"))
+        left, right = [(x - i, y) for i in (20, 60, 100)], [(x + i, y) for i in (20, 60, 100)]
+        self.page.swipe(left, right)
+        self.page.until("!page.gantt.view.isWhole")
+        self.page.tap_on("gantt-all")
+        self.page.until("page.gantt.view.isWhole")
+        self.page.be_desktop()
 
     def test_7_the_last_hour_is_read_by_keys_and_alarms_are_told(self):
         self.page.read("page.gantt.box.focus()")

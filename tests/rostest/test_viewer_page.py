@@ -43,18 +43,17 @@ TURNS = """const [done] = arguments, { pace } = window.page.stage;
   const frame = (then) => requestAnimationFrame(then);
   pace.rest.then(() => frame(() => frame(() => frame(done))))"""
 
-CENTRE = (
-    "(r => [r.x + r.width / 2, r.y + r.height / 2])"
-    "(document.getElementById('{}').getBoundingClientRect())"
-)
-
 # What can be tapped but is smaller than a finger's 44 px, or has nothing to read.
-SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .events li')]
+SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .events li, .track')]
   .filter((e) => e.checkVisibility() && e.type !== 'checkbox' && !e.closest('dialog'))
   .filter((e) => {
     const { width, height } = e.getBoundingClientRect();
     return width < 44 || height < 44 || !(e.textContent.trim() || e.title || e.ariaLabel);
   }).map((e) => `${e.id || e.className || e.textContent} ${e.offsetWidth} x ${e.offsetHeight}`)"""
+
+# How the floor is looked at: about the vertical [rad], and from how far [m].
+TURNED = "page.stage.controls.getAzimuthalAngle()"
+AWAY = "page.stage.camera.position.distanceTo(page.stage.controls.target)"
 
 
 # How many bytes differ, by more than shadows in another order do, between the picture as it is
@@ -437,7 +436,7 @@ class Phone(PageTest):
         self.page.tap(*self.page.pixel(*place("kiva3")[:2], 0.3))
         self.page.until("page.selected === 'kiva3'")
         self.page.until("document.getElementById('details-panel').classList.contains('open')")
-        self.page.tap(*self.page.read(CENTRE.format("close")))
+        self.page.tap_on("close")
         self.page.until("page.selected === null")
 
     def test_everything_is_as_large_as_a_finger_and_has_a_name(self):
@@ -447,6 +446,40 @@ class Phone(PageTest):
             small = self.page.read(SMALL)
             self.assertEqual(small, [], drawer)
         self.page.read("page.select(null)")
+
+    def test_fingers_turn_the_floor_spread_it_and_push_it(self):
+        """One turns, two that part bring it near, two side by side push; none of it is a tap."""
+        self.page.read("page.showAll(false)")
+        before = self.view()
+        self.page.swipe([(150, 400), (190, 400), (230, 400)])
+        self.page.until(f"Math.abs({TURNED} - {before['turned']}) > 0.1")
+        left, right = [(150, 400), (110, 400), (70, 400)], [(240, 400), (280, 400), (320, 400)]
+        self.page.swipe(left, right)
+        self.page.until(f"{AWAY} < 0.7 * {before['away']}")
+        x, y = self.view()["target"]
+        self.page.swipe([(150, 400), (150, 450)], [(240, 400), (240, 450)])
+        target = "page.stage.controls.target"
+        self.page.until(f"Math.hypot({target}.x - {x}, {target}.y - {y}) > 0.5")
+        self.assertEqual(self.page.read("page.selected"), None)
+        self.page.read("page.showAll(false)")
+
+    def view(self):
+        return self.page.read(f"""{{turned: {TURNED}, away: {AWAY},
+            target: page.stage.controls.target.toArray().slice(0, 2)}}""")
+
+    def test_the_time_line_follows_a_finger(self):
+        self.page.until("page.timeline.track.end - page.timeline.track.begin > 5")
+        track = self.page.read(
+            "document.getElementById('replay-track').getBoundingClientRect().toJSON()"
+        )
+        at = lambda part: (track["left"] + part * track["width"], track["y"] + 22)  # noqa: E731
+        self.page.swipe([at(0.9), at(0.6), at(0.25)])
+        self.page.until("document.body.classList.contains('replaying')")
+        part = "(({begin, end}) => (page.timeline.player.time - begin) / (end - begin))"
+        self.page.until(f"Math.abs({part}(page.timeline.track) - 0.25) < 0.05")
+        self.page.until("document.querySelector('#replay-track .at').hidden")
+        self.page.tap_on("replay-live")
+        self.page.until("!document.body.classList.contains('replaying')")
 
     def test_reset_lies_apart_from_undo(self):
         undo, reset = (

@@ -9,6 +9,7 @@ from page_test import PageTest, address, ask
 LONG = 120.0  # for what robots do [s, wall]
 TASK = "document.querySelector('#take:not([hidden]) #task')?.textContent"
 READY = "page.bench && page.news.state === 'live'"  # of a station's screen
+TABLET, PHONE = (1024, 768), (390, 844)  # [px]
 CARD = "[data-station={}] {}"
 
 
@@ -40,18 +41,23 @@ class WorkPageTest(PageTest):
 
     def overview(self):
         """Shows the page /operations."""
+        self.page.be_desktop()
         self.page.open(address() + self.path)
         self.page.until(self.ready)
 
     def screen(self, name):
-        """Shows a station's screen."""
+        """Shows a station's screen, on a tablet."""
+        self.page.be_phone(*TABLET)
         self.page.open(f"{address()}station/{name}")
         self.page.until(READY)
 
     def tap(self, button):
-        """Presses a button of a screen once it may be meant: it has been there for a moment."""
-        self.page.until("page.view.isSettled")
-        self.click(f"#{button}")
+        """Touches a button of a screen once it may be meant: it has been there for a moment."""
+        element = f"document.getElementById('{button}')"
+        self.page.until(
+            f"page.view.isSettled && {element}.checkVisibility() && !{element}.disabled"
+        )
+        self.page.tap_on(button)
 
     def click(self, selector):
         """In one go: an element may have been drawn again between search and click."""

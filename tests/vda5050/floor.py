@@ -47,6 +47,7 @@ def trips(state, grid, robots, units):
                     "there": there,
                     "onward": onward,
                     "back": back,
+                    **longest_straight(onward),
                 }
                 break
             else:
@@ -54,7 +55,19 @@ def trips(state, grid, robots, units):
             break
 
 
-def straights(grid, robots):
+def longest_straight(way):
+    """Returns the longest straight of a way, and the approach to it."""
+    corners = [
+        k
+        for k in range(1, len(way) - 1)
+        if way[k - 1][0] != way[k + 1][0] and way[k - 1][1] != way[k + 1][1]
+    ]
+    ends = [0, *corners, len(way) - 1]
+    first, last = max(zip(ends, ends[1:]), key=lambda run: run[1] - run[0])
+    return {"approach": way[: first + 1], "straight": way[first : last + 1]}
+
+
+def steps_aside(grid, robots):
     """Returns for each robot a step to a free neighbour and back: twenty at once."""
     taken = set(robots.values()) | grid.blocked
     found = {}
@@ -79,7 +92,7 @@ def main() -> None:
         if len(chosen) == 3:
             break
     floor = {key: getattr(grid, key) for key in ("x", "y", "spacing", "columns", "rows")}
-    steps = straights(grid, robots)
+    steps = steps_aside(grid, robots)
     print(json.dumps({"floor": floor, "robots": robots, "trips": chosen, "steps": steps}))
 
 

@@ -9,7 +9,7 @@ import { topOf } from '../../../src/warehouse_viewer/web/js/heat_scale.js';
 import { whole } from '../../../src/warehouse_viewer/web/js/order_entry.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
-import { waitingOf, waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
+import { waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
@@ -59,11 +59,6 @@ test('a typed number is whole and within its bounds, or says what was expected',
 
 test('a table of orders is told by its size', () => {
   assert.equal(sizeOf({ orders: 1, lines: 2, pieces: 1200 }), '1 order, 2 lines, 1,200 pieces');
-});
-
-test('a station that a person leaves alone says so, by the minute', () => {
-  assert.equal(waitingOf({ waiting: 59 }), '');
-  assert.equal(waitingOf({ waiting: 1219 }), 'has waited for a person for 20 min');
 });
 
 test('an order is late past its due time, until it is complete, and for ever if it was then', () => {

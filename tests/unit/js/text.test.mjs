@@ -31,7 +31,8 @@ test('robots are listed by trouble, then by number', () => {
 test('simulated time in minutes and seconds', () => {
   assert.equal(clock(0), '0:00.0');
   assert.equal(clock(59.96), '1:00.0');
-  assert.equal(clock(3725.34), '62:05.3');
+  assert.equal(clock(3725.34), '1:02:05.3');
+  assert.equal(clock(3599.97), '1:00:00.0');
 });
 
 test('reasons of refusals', () => {

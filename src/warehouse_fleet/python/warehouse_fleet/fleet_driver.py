@@ -132,6 +132,8 @@ class FleetDriver:
         events = self.world.events()
         if self.events is not None:
             self.events.append(events)
+        if not len(events):
+            return []
         kinds = events["kind"]
         self.failures.note(kinds)
         if np.isin(kinds, (EventKind.FELL, EventKind.PICKED_UP)).any():

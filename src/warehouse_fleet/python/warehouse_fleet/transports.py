@@ -73,6 +73,7 @@ class Transports:
         self.park: Callable[[int], int | None] = lambda _robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
+        self._queues = {name: frozenset(one.queue.tolist()) for name, one in self.stations.items()}
         self.left_out: frozenset[str] = frozenset()  # stations that no robot can reach
         self.charging = Charging(plan, traffic, self.distance)
         self.places = np.flatnonzero(plan.storage)  # cells
@@ -216,8 +217,8 @@ class Transports:
 
     def in_lane(self, transport: Transport) -> bool:
         """Returns whether a transport's robot is in the lane of the station that it goes to."""
-        station = self.stations.get(transport.station)
-        return station is not None and self.robots.cell[transport.robot] in station.queue
+        queue = self._queues.get(transport.station, ())
+        return int(self.robots.cell[transport.robot]) in queue
 
     def update_units(self, poses: UnitPoses) -> None:
         """Updates where all units stand; others than robots move units as well. Units that stand

@@ -34,8 +34,9 @@ class ActivityLog:
     def observe(self, elapsed: float, transports: Any, standing: np.ndarray) -> None:
         """Adds what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
         doing: collections.Counter[str] = collections.Counter()
+        bringing = Step.BRINGING
         for one in transports.assigned():
-            queues = one.step == Step.BRINGING and standing[one.robot] and transports.in_lane(one)
+            queues = one.step == bringing and standing[one.robot] and transports.in_lane(one)
             doing["queue" if queues else OF_STEP[one.step]] += 1
         doing["idle"] = self.robots - doing.total()
         for activity, count in doing.items():

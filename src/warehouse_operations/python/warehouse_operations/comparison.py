@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from warehouse_operations.runs import Run
 
@@ -28,7 +28,7 @@ class Estimate:
         sample = np.asarray(values, float)
         half = float("nan")
         if len(sample) > 1:
-            factor = stats.t.ppf((1 + CONFIDENCE) / 2, len(sample) - 1)
+            factor = special.stdtrit(len(sample) - 1, (1 + CONFIDENCE) / 2)
             half = float(factor * sample.std(ddof=1) / np.sqrt(len(sample)))
         return cls(float(sample.mean()), half, len(sample))
 
@@ -144,7 +144,7 @@ def _of_samples(a: np.ndarray, b: np.ndarray) -> tuple[Estimate, float, float]:
         nothing = Estimate(mean, float("nan"), len(b))
         return nothing, 1.0, float(np.copysign(np.inf, mean)) if mean else 0.0
     freedom = errors.sum() ** 2 / (errors**2 / [len(a) - 1, len(b) - 1]).sum()
-    half = float(stats.t.ppf((1 + CONFIDENCE) / 2, freedom) * np.sqrt(errors.sum()))
+    half = float(special.stdtrit(freedom, (1 + CONFIDENCE) / 2) * np.sqrt(errors.sum()))
     p_value = _p_value(mean, np.sqrt(errors.sum()), freedom)
     spread = np.sqrt((a.var(ddof=1) + b.var(ddof=1)) / 2)
     small = _small_sample(len(a) + len(b) - 2)
@@ -153,7 +153,7 @@ def _of_samples(a: np.ndarray, b: np.ndarray) -> tuple[Estimate, float, float]:
 
 def _p_value(mean: float, error: float, freedom: float) -> float:
     """Returns the two-sided p-value of a mean with that standard error (Student's t)."""
-    return float(2 * stats.t.sf(abs(mean) / error, freedom))
+    return float(2 * special.stdtr(freedom, -abs(mean) / error))
 
 
 def _small_sample(freedom: int) -> float:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from warehouse_layout import FloorError, layout_choice
 from warehouse_layout.layout_file import LayoutFileError, text_of
-from warehouse_operations import check, layout_site, report, runs
+from warehouse_operations import check, layout_site, runs
 from warehouse_operations.building import world_of
 from warehouse_operations.database import DatabaseError
 from warehouse_operations.demand import DemandError
@@ -228,6 +228,8 @@ def _simulate(
             faults = check.faults(kept.engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
+    from warehouse_operations import report  # its charts take a second to import
+
     report.write(folder / runs.REPORT, [run])
     if run.kpis["collisions"]:
         faults.append(f"{run.kpis['collisions']} collisions")

@@ -28,7 +28,7 @@ from warehouse_vda5050.model import (
 )
 from warehouse_vda5050.mqtt.loop import Link, MqttLoop, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
-from warehouse_vda5050.topics import Identity, Kind, Topics
+from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
 from warehouse_vda5050.validation import MessageError
 
 
@@ -84,7 +84,7 @@ class DemoMaster:
         try:
             who, kind = self._topics.parse(topic)
             message: Any = self._codec.decode(kind, payload).message
-        except MessageError as error:
+        except (MessageError, TopicError) as error:
             self._tell(f"{topic}: {error}")
             return
         if isinstance(message, Connection):
@@ -145,8 +145,11 @@ class DemoMaster:
         failed = [a for a in state.actions if a.status is ActionStatus.FAILED and not a.instant]
         if failed:
             raise TripError(f"{who.serial}: {failed[0].type} failed: {failed[0].result}")
-        over = not state.nodes and all(a.status.is_over for a in state.actions)
-        return state if over and not state.driving else None
+        if state.nodes or state.driving or not all(a.status.is_over for a in state.actions):
+            return None
+        if state.last_node_sequence != order.nodes[-1].sequence:
+            raise TripError(f"{who.serial}: order {order.id} was ended at {state.last_node}")
+        return state
 
 
 def _progress(state: State) -> Iterable[str]:

@@ -100,6 +100,7 @@ class SimulatedDriver(Driver):
         self._world, self._sheet = world, sheet or Factsheet()
         self._taken_from: int | None = None  # the mode that it goes back to
         self._stopped = False
+        self._charged_enough = False  # it was told to stop, and stands there still
 
     def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
         """Sends a path, or more of it."""
@@ -138,6 +139,8 @@ class SimulatedDriver(Driver):
     def _report(self, seen: Sighting) -> Report:
         blocked = seen.status == Status.BLOCKED or seen.state == State.BLOCKED
         standing = abs(seen.vx) + abs(seen.vy) + abs(seen.yaw_rate) < 1e-3
+        self._charged_enough &= seen.at_charger
+        charging = seen.at_charger and standing and not self._charged_enough
         return Report(
             seen.x,
             seen.y,
@@ -154,7 +157,7 @@ class SimulatedDriver(Driver):
             blocked=blocked or seen.held_by_person,
             localized=not seen.lost,
             heard=not seen.failures & 1 << FailureKind.RADIO_LOST,
-            battery=Battery(100.0 * seen.charge, seen.at_charger and standing),
+            battery=Battery(100.0 * seen.charge, charging),
             mode=self._mode(seen.mode),
             errors=_errors(seen),
         )
@@ -184,6 +187,14 @@ class SimulatedDriver(Driver):
         seen = self.sighting
         if before is not None and seen and seen.mode == Mode.MANUAL:
             self._world.set_mode(self.kiva_id, before)
+
+    def charge(self, on: bool) -> str:
+        """Tells of charging, or no more of it until the robot has left the charger. The charger in
+        the floor charges whatever stands there."""
+        if not (self.sighting and self.sighting.at_charger):
+            return "the robot stands at no charger" if on else ""
+        self._charged_enough = not on
+        return ""
 
     def init_position(self, x: float, y: float, yaw: float) -> str:
         """Returns '' if the robot is there, else where it is."""

@@ -19,13 +19,14 @@ from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
 @dataclass(frozen=True)
 class SiteSettings:
-    """What all vehicles share; `moving` as in VehicleSettings."""
+    """What all vehicles share; `moving` and `visualization` as in VehicleSettings."""
 
     manufacturer: str
     codec: Codec
     topics: Topics
     broker: BrokerSettings
     moving: float = 1.0
+    visualization: float = 1.0
 
 
 class Vehicles:
@@ -70,7 +71,13 @@ class Vehicles:
         settings = self._settings
         driver = SimulatedDriver(kiva_id, self._world, Factsheet(description="simulated robot"))
         vehicle = Vehicle(
-            driver, grid, VehicleSettings(moving=settings.moving, first_path=self._first_path)
+            driver,
+            grid,
+            VehicleSettings(
+                moving=settings.moving,
+                visualization=settings.visualization,
+                first_path=self._first_path,
+            ),
         )
         identity = Identity(settings.manufacturer, str(kiva_id))
         link = VehicleLink(

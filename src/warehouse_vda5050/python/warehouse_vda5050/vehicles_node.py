@@ -19,7 +19,6 @@ class VehiclesNode:
 
     def __init__(self) -> None:
         arguments: BrokerArguments = read_arguments(rospy.get_param)
-        interval = float(rospy.get_param("~interval", 1.0))
         self._stack = contextlib.ExitStack()
         self._stopping = False
         broker, self._address = own_broker(arguments, self._stack)
@@ -28,7 +27,8 @@ class VehiclesNode:
             arguments.codec,
             arguments.topics,
             broker,
-            interval,
+            float(rospy.get_param("~interval", 1.0)),
+            float(rospy.get_param("~visualization", 1.0)),
         )
         rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
         self._world = WorldLink()

@@ -130,8 +130,9 @@ export class Bar {
   }
 }
 
-/** Simulated time [s] in minutes and seconds. */
+/** Simulated time [s] as 2:05.3, from an hour on as 1:02:05.3. */
 export function clock(stamp) {
-  const tenths = Math.round(10 * stamp);
-  return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, '0')}`;
+  const tenths = Math.round(10 * stamp), hours = Math.floor(tenths / 36_000);
+  const minutes = String(Math.floor(tenths / 600) % 60), seconds = ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
+  return hours ? `${hours}:${minutes.padStart(2, '0')}:${seconds}` : `${minutes}:${seconds}`;
 }

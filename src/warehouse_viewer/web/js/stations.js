@@ -118,11 +118,6 @@ function chip({ unit, robot, stands, is_long: isLong }) {
   return out;
 }
 
-/** That a station has waited for a person for a minute or longer; '': it has not. */
-export function waitingOf({ waiting }) {
-  return waiting < UNATTENDED ? '' : `has waited for a person for ${Math.floor(waiting / 60)} min`;
-}
-
 /** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
 export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders }, now) {
   const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));

@@ -21,6 +21,7 @@ from warehouse_operations.document import canvas, page, sheets, tokens
 from warehouse_operations.simulation import Description, simulate
 
 DESIGN = paths.ROOT / "src" / "warehouse_viewer" / "web" / "design.css"
+SIZE = paths.ROOT / "src" / "warehouse_operations" / "nodes" / "size"
 PATIENCE = 60.0  # with a machine that has much to do [s]
 
 
@@ -73,6 +74,13 @@ def test_reports_are_for_all_and_look_as_they_did(chromium, file):
         assert chromium.read(shown) >= 6
     chromium.be_desktop()
     assert chromium.complaints() == []
+
+
+def test_a_sizing_report_is_for_all(chromium, tmp_path):
+    wanted = "--layout small --orders-per-hour 120 --hours 1 --seeds 2 --late 20% --robots 6 --out"
+    subprocess.run([SIZE, *wanted.split(), tmp_path], check=True, capture_output=True)
+    chromium.open((tmp_path / "report.html").as_uri())
+    assert axe.findings(chromium) == []
 
 
 def test_the_first_sheet_is_printed_alone_and_no_chart_is_cut(chromium, file, tmp_path):

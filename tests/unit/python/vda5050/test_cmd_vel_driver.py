@@ -125,3 +125,11 @@ def test_without_odometry_it_is_not_heard_and_stands():
     robot.run(2)
     assert robot.driver.command(robot.time + 5, STEP) == (0.0, 0.0)
     assert not robot.driver.report().heard
+
+
+def test_a_robot_whose_clock_is_another_is_heard():
+    robot = Wheels()
+    robot.driver.on_odometry(robot.time - 1e6, (robot.x, robot.y, robot.yaw), 0.3, 0.1)
+    robot.driver.command(robot.time + 10, STEP)
+    report = robot.driver.report()
+    assert report.heard and (report.vx, report.omega) == (pytest.approx(0.3), 0.1)

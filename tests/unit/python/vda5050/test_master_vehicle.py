@@ -198,7 +198,7 @@ def test_a_refused_update_leaves_what_the_vehicle_has(bench):
     bench.tell(errors=())
     bench.vehicle.command(Follow(9, 0, (), 3))
     again = bench.order()
-    assert (again.update, again.nodes[0].id, len(again.base)) == (1, "c6_5", 2)
+    assert (again.update, again.nodes[0].id, len(again.base)) == (2, "c6_5", 2)
 
 
 def test_a_refused_order_is_over(bench):
@@ -249,6 +249,47 @@ def test_a_cancelled_path_is_done(bench):
     bench.tell(nodes=(), actions=(ActionState(action.id, "cancelOrder", ActionStatus.FINISHED),))
     assert bench.events()[-1] == ("DONE", "cancelled")
     assert bench.instants(2.5) == []
+
+
+def test_a_lift_that_was_cancelled_may_be_done_all_the_same(bench):
+    action = lift(bench)
+    bench.vehicle.command(Cancel())
+    (cancel,) = bench.instants()
+    ended = (ActionState(action.id, "pick", ActionStatus.FINISHED),)
+    ended += (ActionState(cancel.id, "cancelOrder", ActionStatus.FINISHED),)
+    bench.tell(actions=ended, loads=(Load("storage_unit12"),))
+    assert bench.shadow.shelf_id == 12
+
+
+def test_a_cancel_that_was_never_answered_is_asked_for_again(bench):
+    order = bench.follow(4)
+    bench.vehicle.command(Cancel())
+    asked = {action.id for _ in range(30) for action in bench.instants(2.5)}
+    bench.take(order, at=2)  # it still drives
+    (again,) = bench.instants(2.5)
+    assert again.type == "cancelOrder" and again.id not in asked
+
+
+def test_an_order_that_others_cancelled_is_blocked(bench):
+    bench.follow(4)
+    bench.tell(nodes=(), last_node="c6_5", last_node_sequence=2)
+    assert bench.events()[-1] == ("BLOCKED", "others ended its order at c6_5")
+    assert bench.shadow.reached == 2
+
+
+def test_an_order_that_the_vehicle_lost_is_blocked(bench):
+    bench.follow(2)
+    bench.tell(order_id="", order_update=0, nodes=())
+    assert bench.events()[-1] == ("BLOCKED", "the vehicle does not know its order any more")
+
+
+def test_an_error_of_an_order_that_it_has_is_no_refusal(bench):
+    bench.vehicle.command(Follow(9, 0, WAY, 2))
+    order = bench.order()
+    references = (("orderId", order.id), ("orderUpdateId", "0"))
+    bench.state = replace(bench.state, errors=(Error("orderError", references=references),))
+    bench.take(order)
+    assert bench.events() == [("ACCEPTED", "follow path 9")]
 
 
 def test_a_state_from_before_ends_no_cancelled_path(bench):
@@ -316,10 +357,46 @@ def test_an_older_state_is_dropped(bench):
     assert bench.shadow.x == 1
 
 
+@pytest.mark.parametrize(("time", "number"), [("t0", 7), ("t9", 0)])
+def test_a_clock_set_back_or_numbers_that_begin_again_are_no_old_states(bench, time, number):
+    header = Header(timestamp="t5", header_id=6)
+    bench.vehicle.take_state(replace(bench.state, header=header), 0)
+    moved = replace(bench.state, position=AgvPosition(1, 0, 0))
+    bench.vehicle.take_state(replace(moved, header=Header(number, time)), 0)
+    assert bench.shadow.x == 1
+
+
+def test_a_vehicle_that_begins_again_unseen_is_heard(bench):
+    bench.vehicle.take_connection(ConnectionState.ONLINE, 0)  # no will came before
+    bench.vehicle.take_state(State(position=AgvPosition(1, 0, 0), header=Header(0, "s")), 0)
+    assert bench.shadow.x == 1
+
+
+def test_a_vehicle_that_comes_back_is_asked_for_its_state(bench):
+    bench.vehicle.take_connection(ConnectionState.CONNECTIONBROKEN, 0)
+    bench.vehicle.take_connection(ConnectionState.ONLINE, 0)
+    assert [action.type for action in bench.instants()] == ["stateRequest"]
+
+
 def test_a_load_that_it_tells_is_believed(bench):
     bench.tell(loads=(Load("storage_unit5"),))
     assert bench.shadow.shelf_id == 5
     bench.tell(loads=())
+    assert bench.shadow.shelf_id == 0
+
+
+@pytest.mark.parametrize("name", ["RFID_7c4", "0815"])
+def test_a_vehicle_may_have_names_of_its_own_for_loads(bench, name):
+    action = lift(bench)
+    done = (ActionState(action.id, "pick", ActionStatus.FINISHED),)
+    bench.tell(actions=done, loads=(Load(name),))
+    bench.tell()
+    assert bench.shadow.shelf_id == 12
+
+
+@pytest.mark.parametrize("name", ["", "pallet", "7²", "9" * 5000, "unit99999999999"])
+def test_a_load_without_a_units_number_is_none(bench, name):
+    bench.tell(loads=(Load(name),))
     assert bench.shadow.shelf_id == 0
 
 

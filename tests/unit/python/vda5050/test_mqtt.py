@@ -6,14 +6,21 @@ import pathlib
 import shutil
 import subprocess
 import time
+from dataclasses import replace
 
 import pytest
 from grid_robot import GRID, GridRobot, is_over, order, row
 
+from official_schemas import faults
+
 from warehouse_vda5050.codec import codec_for
-from warehouse_vda5050.model import ConnectionState
+from warehouse_vda5050.master.commands import Follow, Lift
+from warehouse_vda5050.master.fleet import RemoteFleet
+from warehouse_vda5050.master.robots_file import RemoteRobot
+from warehouse_vda5050.model import Action, BlockingType, ConnectionState, Header, InstantActions
 from warehouse_vda5050.mqtt.broker import OwnBroker
 from warehouse_vda5050.mqtt.loop import Link, MqttLoop, Outgoing
+from warehouse_vda5050.mqtt.master_link import MasterLink
 from warehouse_vda5050.mqtt.settings import BrokerError, BrokerSettings, read_settings
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
 from warehouse_vda5050.topics import FROM_VEHICLE, Identity, Kind, Topics
@@ -36,7 +43,8 @@ def free_port():
 
 
 class Site:
-    """A broker, vehicles 1 …, and a master that writes down what they tell."""
+    """A broker, vehicles 1 …, and a master that writes down what they tell, and what of it does
+    not fit the official schemas."""
 
     def __init__(self, count=1, lines="allow_anonymous true", **settings):
         self.broker = OwnBroker(free_port(), lines)
@@ -45,7 +53,8 @@ class Site:
         self.robots, self.vehicles = [], []
         for k in range(count):
             self.add(k)
-        self.told = []
+        self.told, self.faults = [], []
+        self.listens, self.coordinate = True, lambda: None
         filters = [(TOPICS.everyone(kind), 1) for kind in (*FROM_VEHICLE, Kind.ORDER)]
         self.master = self.loop.add(Link("master", self.settings, filters, self._on_message))
 
@@ -58,19 +67,26 @@ class Site:
         self.loop.add(link.link)
 
     def _on_message(self, topic, payload, retained):
+        if not self.listens:
+            return
         who, kind = TOPICS.parse(topic)
         told = None if kind is Kind.ORDER else CODEC.decode(kind, payload).message
         self.told.append((who.serial, kind, told, retained))
+        self.faults += faults(kind, payload) if told else []
 
     def until(self, condition, steps=True, seconds=10):
         end = time.monotonic() + seconds
         while not condition():
-            assert time.monotonic() < end, self.told[-3:]
+            assert time.monotonic() < end, (self.told[-3:], self.link_faults())
             self.loop.poll(0.01)
+            self.coordinate()
             for robot, vehicle in zip(self.robots, self.vehicles):
                 if steps:
                     robot.step()
                 vehicle.tick(time.monotonic())
+
+    def link_faults(self):
+        return {link.name: link.fault for link in self.loop.links}
 
     def begin(self):
         """Waits until the master hears all vehicles."""
@@ -97,7 +113,8 @@ class Site:
     def close(self):
         for vehicle in self.vehicles:
             vehicle.close()
-        self.master.close()
+        for link in self.loop.links:
+            link.close()
         self.loop.close()
         self.broker.close()
 
@@ -108,6 +125,7 @@ def site():
     site.begin()
     yield site
     site.close()
+    assert site.faults == []
 
 
 def connection_is(site, state):
@@ -155,15 +173,99 @@ def test_broker_killed_in_mid_order(site):
     assert [e[2][0] for e in site.robots[0].events] == list(range(1, 10))
 
 
+class Fleet:
+    """Our master with a coordinator's commands for vehicle 1, at the site's broker."""
+
+    def __init__(self, site):
+        who = Identity("kiva", "1")
+        self.fleet = RemoteFleet([RemoteRobot(1, who)], GRID, "run")
+        (self.vehicle,) = self.fleet.vehicles
+        self.ended, self.complaints = [], []
+        take = lambda identity, message: self.fleet.take(identity, message, time.monotonic())  # noqa: E731
+        self.link = MasterLink(
+            "ours", [who], CODEC, TOPICS, site.settings, take, self.complaints.append
+        )
+        site.loop.add(self.link.link)
+        site.coordinate = self.step
+        site.until(lambda: self.vehicle.view.is_there)
+
+    def step(self):
+        for who, message in self.fleet.messages(time.monotonic()):
+            self.link.send(who, message)
+        self.ended += [e.kind.value for e in self.fleet.take_events() if e.kind.value != "ACCEPTED"]
+
+
+def test_broker_killed_twice_under_our_master(site):
+    """While a path is driven, and while a unit is lifted: nothing is lost, nothing done twice."""
+    robot, fleet = site.robots[0], Fleet(site)
+    robot.units = {"storage_unit7": (4, 0)}
+    points = tuple((float(x), 0.0) for x in range(5))
+    fleet.fleet.command(1, Follow(3, 0, points, 3))
+    site.until(lambda: robot.cell == (1, 0))
+    site.broker.stop(kill=True)
+    fleet.fleet.command(1, Follow(3, 0, (), 5))  # not heard by anyone
+    site.until(lambda: robot.cell == (2, 0) and not robot.busy)  # the end of its base
+    site.broker.start()
+    site.until(lambda: fleet.ended == ["DONE"], seconds=20)
+    fleet.fleet.command(1, Lift(True, 7))
+    site.until(lambda: robot.lifting)
+    site.broker.stop(kill=True)
+    site.until(lambda: robot.load and not robot.busy)
+    site.broker.start()
+    site.until(lambda: fleet.ended == ["DONE", "LIFTED", "DONE"], seconds=20)
+    assert [cell for what, _, cell in robot.events if what == "at"] == [(x, 0) for x in range(1, 5)]
+    assert [what for what, *_ in robot.events if what != "at"] == ["pick"]
+    assert fleet.vehicle.load == 7 and not fleet.complaints
+
+
+def test_hostile_vehicles_cost_our_master_a_line_each(site):
+    fleet, site.listens = Fleet(site), False
+    hostile = [b"{", b"[" * 50_000, b'{"orderId": NaN}', b'{"nodeStates": 5}', b""]
+    for payload in hostile:
+        site.master.publish(Outgoing(TOPICS.of(Identity("kiva", "1"), Kind.STATE), payload))
+    site.until(lambda: len(fleet.complaints) == len(hostile))
+    assert fleet.vehicle.view.is_there
+
+
 def test_leftovers_are_not_acted_upon(site):
     site.vehicles[0].close()
     site.until(connection_is(site, ConnectionState.OFFLINE))
     site.send(Kind.ORDER, order("left", row(0, 3)), serial="2", retain=True)
+    pause = InstantActions((Action("startPause", "left", BlockingType.NONE),))
+    site.send(Kind.INSTANT_ACTIONS, pause, serial="2", retain=True)
     site.until(lambda: any(kind is Kind.ORDER for _, kind, *_ in site.told))
     site.add(1)
-    site.until(lambda: (s := site.last(Kind.STATE, "2")) and s.errors)
-    assert "retained" in site.last(Kind.STATE, "2").errors[0].description
-    assert not site.last(Kind.STATE, "2").order_id
+    site.until(lambda: (s := site.last(Kind.STATE, "2")) and len(s.errors) == 2)
+    told = site.last(Kind.STATE, "2")
+    assert all("retained" in error.description for error in told.errors)
+    assert not told.order_id and not told.paused and not told.actions
+
+
+def test_a_state_of_an_earlier_run_does_not_tell_our_master_where_a_vehicle_is(site):
+    site.until(lambda: site.last(Kind.STATE))
+    state = site.last(Kind.STATE)
+    site.vehicles[0].close()
+    site.until(connection_is(site, ConnectionState.OFFLINE))
+    site.told.clear()
+    site.send(Kind.STATE, state, retain=True)
+    site.until(lambda: site.told)  # the broker keeps it now
+    fleet = RemoteFleet([RemoteRobot(1, Identity("kiva", "1"))], GRID, "run")
+    view, heard = fleet.vehicles[0].view, []
+    take = lambda who, message: fleet.take(who, message, 0.0) or heard.append(message)  # noqa: E731
+    link = MasterLink("ours", [Identity("kiva", "1")], CODEC, TOPICS, site.settings, take)
+    site.loop.add(link.link)
+    site.until(lambda: heard)
+    assert view.connection is ConnectionState.OFFLINE and not view.is_there
+
+
+def test_a_master_that_begins_again_counts_from_0_with_its_clock_set_back(site):
+    site.until(lambda: site.last(Kind.STATE))
+    late = Header(5, "2031-01-01T00:00:00.000Z", "2.1.0", "kiva", "1")
+    site.send(Kind.ORDER, replace(order("a", row(0, 2)), header=late))
+    site.until(lambda: site.last(Kind.STATE).last_node == "c2_0" and is_over(site.last(Kind.STATE)))
+    early = replace(late, header_id=0, timestamp="2001-01-01T00:00:00.000Z")
+    site.send(Kind.ORDER, replace(order("b", row(2, 4)), header=early))
+    site.until(lambda: site.last(Kind.STATE).last_node == "c4_0")
 
 
 def test_hostile_messages_cost_a_warning_each(site):
@@ -204,6 +306,9 @@ def test_password_and_tls(tmp_path):
     try:
         site.until(lambda: site.master.fault not in ("", "not connected yet"))  # no password
         assert not site.master.connected
+        site.settings = BrokerSettings("localhost", site.broker.port, tls=True, user="robot")
+        stranger = site.loop.add(Link("stranger", site.settings, (), lambda *_: None))
+        site.until(lambda: "CERTIFICATE" in stranger.fault)  # of an authority that nobody knows
         broker = f"localhost:{site.broker.port}"
         site.settings = read_settings(broker, str(pem), "robot", str(secret))
         site.add(0)

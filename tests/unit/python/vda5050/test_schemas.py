@@ -2,12 +2,12 @@
 """Every kind of message that is sent fits the official schemas of 2.1.0."""
 
 import json
+import math
 from dataclasses import replace
 
-import jsonschema
-import paths
 import pytest
 from grid_robot import Bench, drop, order, pick, row
+from official_schemas import VALIDATORS, faults
 
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.headers import Headers
@@ -22,18 +22,12 @@ from warehouse_vda5050.model import (
 )
 from warehouse_vda5050.topics import Identity, Kind
 
-SCHEMAS = paths.ROOT / "tests" / "vda5050" / "schemas_2_1_0"
 HEADERS = Headers(Identity("kiva", "7"), "2.1.0")
-VALIDATORS = {
-    kind: jsonschema.Draft202012Validator(json.loads((SCHEMAS / f"{kind.value}.json").read_text()))
-    for kind in Kind
-}
 
 
 def check(kind, message, version="2.1.0"):
     message = replace(message, header=HEADERS.next(kind))
-    faults = VALIDATORS[kind].iter_errors(json.loads(codec_for(version).encode(message)))
-    assert [f"{list(fault.path)}: {fault.message}" for fault in faults] == []
+    assert faults(kind, codec_for(version).encode(message)) == []
 
 
 @pytest.mark.parametrize("version", ["2.0.0", "2.1.0"])
@@ -55,6 +49,13 @@ def test_states_of_a_trip_with_everything_in_it(version):
         check(Kind.STATE, state, version)
 
 
+@pytest.mark.parametrize("turns", [0.5, -0.5, 1.5, 0.4999999])
+def test_a_heading_is_at_most_half_a_turn(turns):
+    bench = Bench()
+    bench.robot.extra = {"yaw": turns * math.tau}
+    assert abs(bench.tick().position.theta) <= math.pi
+
+
 def test_factsheet():
     check(Kind.FACTSHEET, Bench().vehicle.take_factsheet())
 
@@ -64,6 +65,15 @@ def test_connection_and_visualization():
         check(Kind.CONNECTION, Connection(state))
     state = Bench().tick()
     check(Kind.VISUALIZATION, Visualization(state.position, state.velocity))
+
+
+def test_instant_actions_under_both_names_where_peers_differ():
+    message = replace(
+        InstantActions((Action("stateRequest", "a"),)), header=HEADERS.next(Kind.ORDER)
+    )
+    told = json.loads(codec_for("2.0.0").encode(message))
+    assert told["instantActions"] == told["actions"] != []
+    assert "instantActions" not in json.loads(codec_for("2.1.0").encode(message))
 
 
 def test_what_a_master_sends():

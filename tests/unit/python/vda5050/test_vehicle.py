@@ -162,6 +162,13 @@ def test_refuses_another_order_while_one_is_under_way():
     assert error_types(bench.vehicle.state()) == ["orderError"]
 
 
+def test_takes_the_next_order_as_soon_as_the_last_node_is_passed():
+    bench = Bench()
+    bench.order("o", row(0, 3))
+    bench.until(lambda state: not state.nodes)
+    assert bench.order("p", row(3, 5)), bench.vehicle.errors
+
+
 def test_refuses_unknown_actions_trajectories_and_actions_at_edges():
     bench = Bench()
     assert not bench.order("o", row(0, 1), actions={1: [Action("dance", "a")]})
@@ -365,3 +372,21 @@ def test_a_robot_on_one_node_carries_out_an_action():
     assert bench.order("o", [(0, 0)], actions={0: [pick()]})
     state = bench.until(is_over)
     assert state.actions[0].status is ActionStatus.FINISHED and state.loads[0].id == "7"
+
+
+def test_positions_are_told_while_it_moves():
+    bench = Bench(visualization=2.0)
+    assert bench.vehicle.take_visualization(bench.now).position.x == 0
+    bench.tick(5)
+    assert bench.vehicle.take_visualization(bench.now) is None  # it stands where it stood
+    bench.order("o", row(0, 9))
+    told = []
+    for _ in range(12):
+        bench.tick()
+        told.append(bench.vehicle.take_visualization(bench.now))
+    seen = [one.position.x for one in told if one]
+    assert len(seen) == 5 and seen == sorted(set(seen))
+
+
+def test_without_an_interval_no_positions_are_told():
+    assert Bench(visualization=0.0).vehicle.take_visualization(0.0) is None

@@ -70,13 +70,6 @@ def drag(page, *cells):
     mouse(page, "mouseReleased", cells[-1], 0)
 
 
-def touch(page, kind, *points):
-    """Fingers at points of the window [px]."""
-    touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
-    event = {"type": kind, "touchPoints": touches}
-    page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
-
-
 def keys(page, text):
     page.driver.switch_to.active_element.send_keys(text)
 

@@ -25,7 +25,6 @@ from editor_page import (
     paper,
     press,
     saved,
-    touch,
 )
 
 from warehouse_layout import file_check, generator, layout_file
@@ -187,16 +186,12 @@ def test_fingers_draw_and_two_zoom(chromium, address):
         paper(chromium, address)
         keys(chromium, "d.")
         start, end = at(chromium, (3, 3)), at(chromium, (8, 3))
-        touch(chromium, "touchStart", start)
-        touch(chromium, "touchMove", end)
-        touch(chromium, "touchEnd")
+        chromium.swipe([start, end])
         chromium.until("page.editor.drawing.count('.') === 6")
         before = chromium.read("page.editor.view.scale")
         a, b = at(chromium, (4, 8)), at(chromium, (6, 8))
-        touch(chromium, "touchStart", a)
-        touch(chromium, "touchStart", a, b)
-        touch(chromium, "touchMove", (a[0] - 60, a[1]), (b[0] + 60, b[1]))
-        touch(chromium, "touchEnd")
+        chromium.touch("touchStart", a)
+        chromium.swipe([a, (a[0] - 60, a[1])], [b, (b[0] + 60, b[1])])
         chromium.until(f"page.editor.view.scale > {before} * 1.5")
         assert lines(chromium) == ["......"]
         assert chromium.complaints() == []

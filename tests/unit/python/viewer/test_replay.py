@@ -9,11 +9,13 @@ import subprocess
 import sys
 import urllib.request
 
+import axe
 import numpy as np
 import pytest
 import rosbag
 import rospy
 from asgi import request
+from browser import browser
 from paths import ROOT
 from std_msgs.msg import Header
 from test_viewer_model import World, fleet, objects, scenery, states
@@ -31,6 +33,7 @@ from warehouse_viewer.replay.opening import open_recording
 from warehouse_viewer.replay.recorder import LENGTH, Recorder
 from warehouse_viewer.replay.standalone import RECORDED, application
 
+PATIENCE = 60.0  # with a machine that has much to do [s, wall]
 NODES = ROOT / "src" / "warehouse_viewer" / "nodes"
 
 
@@ -323,6 +326,7 @@ def test_a_shift_is_simulated_recorded_and_served(tmp_path):
         try:
             url = server.stdout.readline().split()[4]
             index = json.load(urllib.request.urlopen(f"{url}recording/index", timeout=20))
+            assert faults_on_a_phone(url) == []
         finally:
             server.send_signal(signal.SIGINT)
         assert server.wait(20) in (0, -signal.SIGINT)
@@ -336,6 +340,21 @@ def test_a_shift_is_simulated_recorded_and_served(tmp_path):
         for one in m["events"]
     }
     assert "ACCEPTED" in kinds
+
+
+def faults_on_a_phone(url):
+    """What axe and the console find on the page of a minute, through which a finger leads."""
+    with browser(PATIENCE) as page:
+        page.be_phone()
+        page.open(url)
+        page.until("page.timeline.player.chunk && page.stage.frames")
+        track = "document.getElementById('replay-track').getBoundingClientRect().toJSON()"
+        box = page.read(track)
+        at = lambda part: (box["left"] + part * box["width"], box["top"] + box["height"] / 2)  # noqa: E731
+        page.swipe([at(0.1), at(0.4), at(0.75)])
+        page.until("Math.abs(page.timeline.player.time - 45) < 1")
+        page.until("document.getElementById('time').textContent.startsWith('0:45')")
+        return page.complaints() + (axe.findings(page) if axe.is_there() else [])
 
 
 def test_ideal_robots_are_not_recorded(tmp_path):

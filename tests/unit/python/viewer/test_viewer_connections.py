@@ -7,13 +7,22 @@ import socket
 import pytest
 import uvicorn
 from asgi import echo
+from starlette.applications import Starlette
+from starlette.routing import WebSocketRoute
 
+from warehouse_viewer.api import stream
 from warehouse_viewer.server import connections
 from warehouse_viewer.server.connections import BoundedConnection
 from warehouse_viewer.server.http_server import config_of
+from warehouse_viewer.server.sockets import SocketLimit
 
 PATIENCE = 20  # of this test with the server [s, wall]
 GET = b"GET / HTTP/1.1\r\nhost: localhost\r\n\r\n"
+UPGRADE = GET[:-2] + (
+    b"connection: upgrade\r\nupgrade: websocket\r\nsec-websocket-version: 13\r\n"
+    b"sec-websocket-key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
+)
+GIVEN_UP = (1011).to_bytes(2, "big")  # a WebSocket's close code
 BEGUN = b"POST / HTTP/1.1\r\nhost: localhost\r\ncontent-length: 5\r\n\r\n"
 
 
@@ -22,12 +31,12 @@ class Server(uvicorn.Server):
         """pytest's stay."""
 
 
-def serving(visit, application=echo):
-    """Runs visit(server, connect) with a server at its side."""
+def serving(visit, application=echo, **options):
+    """Runs visit(server, connect) with a server at its side; `options` are uvicorn's."""
 
     async def run():
         listener = connections.listen("127.0.0.1", 0)
-        server = Server(config_of(application))
+        server = Server(config_of(application, **options))
         task = asyncio.create_task(server.serve(sockets=[listener]))
         port = listener.getsockname()[1]
         try:
@@ -106,3 +115,77 @@ def test_a_newcomer_ends_the_one_that_waited_longest(monkeypatch):
         assert len(server.server_state.connections) == 3
 
     serving(visit)
+
+
+def test_a_machine_that_fell_asleep_is_no_error(caplog):
+    """It answers no pings, and what is sent to it then goes nowhere."""
+    sockets, gone = SocketLimit(), asyncio.Event()
+
+    async def tell(socket):
+        try:
+            while True:
+                await socket.send_text("news")
+                await asyncio.sleep(0.01)
+        finally:
+            gone.set()
+
+    async def visit(_, connect):
+        reader, writer = await connect()
+        writer.write(UPGRADE)
+        assert b"101" in await reader.readline()
+        await reader.readuntil(GIVEN_UP)
+        writer.close()
+        await asyncio.wait_for(gone.wait(), PATIENCE)
+
+    application = Starlette(routes=[WebSocketRoute("/", lambda one: sockets.admit(one, tell))])
+    serving(visit, application, ws="websockets", ws_ping_interval=0.1, ws_ping_timeout=0.1)
+    assert "Exception" not in caplog.text
+
+
+def followed(send_news, ended):
+    """An application that sends news over a WebSocket, and puts the end into `ended`."""
+
+    async def follow(socket):
+        await socket.accept()
+        try:
+            await stream.until_gone(socket, lambda: send_news(socket), rate=10)
+            ended.put_nowait(None)
+        except Exception as error:
+            ended.put_nowait(error)
+
+    return Starlette(routes=[WebSocketRoute("/", follow)])
+
+
+@pytest.mark.parametrize("library", ["websockets", "wsproto"])
+def test_a_client_that_goes_while_it_is_sent_to_is_no_fault(library):
+    pytest.importorskip(library)
+    ended = asyncio.Queue()
+
+    async def flood(socket):
+        while True:  # it reads none of it
+            await socket.send_text("x" * 60_000)
+            await asyncio.sleep(0)
+
+    async def visit(_, connect):
+        reader, writer = await connect()
+        writer.write(UPGRADE)
+        await reader.readuntil(b"x" * 1000)
+        writer.transport.abort()
+        assert await asyncio.wait_for(ended.get(), PATIENCE) is None
+
+    serving(visit, followed(flood, ended), ws=library)
+
+
+def test_a_fault_while_the_client_is_there_is_one(monkeypatch):
+    monkeypatch.setattr(stream, "FAREWELL", 0.1)
+    ended = asyncio.Queue()
+
+    async def fail(_):
+        raise KeyError("robots")
+
+    async def visit(_, connect):
+        _, writer = await connect()
+        writer.write(UPGRADE)
+        assert isinstance(await asyncio.wait_for(ended.get(), PATIENCE), KeyError)
+
+    serving(visit, followed(fail, ended))

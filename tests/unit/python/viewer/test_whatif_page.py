@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import axe
 import paths
 import pytest
 
@@ -72,6 +73,10 @@ def test_two_layouts_are_compared(page):
     assert "Robots " in rows and "Layout " not in rows and "Pieces picked an hour" in rows
     assert page.read("page.comparison.chart.scales.y.min") == 0
     assert page.complaints() == []
+
+
+def test_the_comparison_is_for_all(page):
+    assert axe.findings(page) == []
 
 
 def test_the_comparison_is_in_the_address(page):

@@ -17,8 +17,9 @@ def run(work: "Transports") -> None:
     robots, idle = work.robots, work.without_work()
     idle[list(work.charging.cell_of)] = False
     robots.goal[idle & (robots.goal == robots.cell)] = NOWHERE
-    # A robot with work at a cell comes first, and stays.
-    robots.goal[idle & np.isin(robots.goal, robots.goal[~idle])] = NOWHERE
+    sent = idle & (robots.goal != NOWHERE)
+    if sent.any():  # a robot with work at a cell comes first, and stays
+        robots.goal[sent & np.isin(robots.goal, robots.goal[~idle])] = NOWHERE
     _send_freed(work, idle)
     _clear_streets(work, idle & (robots.goal == NOWHERE) & ~work.aside[robots.cell])
 

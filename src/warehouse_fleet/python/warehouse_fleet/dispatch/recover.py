@@ -85,6 +85,8 @@ def _adopt(work: "Transports", robot: int, shelf: int) -> None:
 
 def _avoid(work: "Transports", closed: set[int]) -> None:
     """Chooses another place for units that can't get to theirs, which is closed."""
+    if not closed:
+        return
     for transport in work.book.assigned():
         is_away = work.robots.cell[transport.robot] != transport.place
         if transport.step == Step.STORING and transport.place in closed and is_away:

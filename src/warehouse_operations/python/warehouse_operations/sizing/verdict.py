@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from warehouse_operations.comparison import CONFIDENCE, Estimate
 from warehouse_operations.sizing.point import Record
@@ -84,7 +84,7 @@ class Verdict:
             return math.inf * side
         count = shifts or len(values)
         error = values.std(ddof=1) / math.sqrt(count)
-        return float(values.mean() + side * stats.t.ppf(1 - risk, count - 1) * error)
+        return float(values.mean() + side * special.stdtrit(count - 1, 1 - risk) * error)
 
     @property
     def at_most(self) -> float:

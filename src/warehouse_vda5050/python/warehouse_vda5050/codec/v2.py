@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""VDA 5050 2.1.0, and 2.0.0, which lacks maps alone of what is sent here.
+"""VDA 5050 2.1.0; and 2.0.0, which has no maps in what is sent here, and instant actions twice.
 
 What is read is what peers in the field send: `instantActions` for `actions`, `position` for
 `nodePosition`, small letters in enumerations, missing headers and blocking types.
@@ -63,6 +63,8 @@ class CodecV2(Codec):
         value = WRITERS[type(message)](message)
         if self.version == "2.0.0":
             value.pop("maps", None)
+            if isinstance(message, InstantActions):
+                value["instantActions"] = value["actions"]  # what some peers of 2.0.0 read
         return value
 
     def read(self, kind: Kind, fields: Fields) -> Any:

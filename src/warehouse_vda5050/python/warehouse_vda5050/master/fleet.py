@@ -26,6 +26,11 @@ class RemoteFleet:
         """The vehicles, by number."""
         return list(self._vehicles.values())
 
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over the cells of the floor as it is now."""
+        for vehicle in self._vehicles.values():
+            vehicle.set_grid(grid)
+
     def command(self, kiva_id: int, command: Command) -> None:
         """Gives a command to its vehicle; those to other robots are others' business."""
         if kiva_id == ALL and isinstance(command, (Stop, Cancel)):

@@ -15,6 +15,10 @@ class _Pending:
     times: int = 0
     due: float = 0.0
 
+    @property
+    def is_given_up(self) -> bool:
+        return self.times >= MOST_TIMES
+
 
 class InstantRequests:
     """The instant actions of one vehicle that are not over yet. Times are [s] of any clock."""
@@ -32,16 +36,19 @@ class InstantRequests:
 
     def due(self, now: float) -> InstantActions | None:
         """Returns what is to be sent now."""
-        due = [one for one in self._pending.values() if one.due <= now]
+        pending = [one for one in self._pending.values() if not one.is_given_up]
+        due = [one for one in pending if one.due <= now]
         for one in due:
             one.times, one.due = one.times + 1, now + RESEND
-            if one.times >= MOST_TIMES:
-                del self._pending[one.action.id]
         return InstantActions(tuple(one.action for one in due)) if due else None
 
     def is_pending(self, name: str) -> bool:
         """Returns whether the vehicle has not answered an action yet, and it is still sent."""
-        return name in self._pending
+        return name in self._pending and not self._pending[name].is_given_up
+
+    def is_given_up(self, name: str) -> bool:
+        """Returns whether the vehicle did not answer an action however often it was sent."""
+        return name in self._pending and self._pending[name].is_given_up
 
     def take(self, state: State) -> None:
         """Takes in a state: what it answers is sent no more."""

@@ -24,6 +24,8 @@ class Journey:
     points: list[Point]
     released: int
     had: int = 0  # how many points the vehicle has as released
+    had_update: int = -1  # the last orderUpdateId that it has
+    end: int = 0  # sequenceId of the last node that it has
     update: int = -1  # the last orderUpdateId sent
     is_changed: bool = True  # since then
     sent: Order | None = field(default=None, repr=False)
@@ -60,17 +62,23 @@ class Journey:
         whole = self.released == len(self.points)
         return whole and not self.is_changed and not self.awaits_answer
 
-    def confirm(self, order_id: str, update: int) -> None:
-        """Notes the order that a vehicle tells it has."""
-        if self.sent and (order_id, update) == (self.order_id, self.update):
+    def confirm(self, update: int) -> None:
+        """Notes the update of this order that a vehicle tells it has."""
+        if self.sent and update == self.update:
             self.had = (self.sent.base[-1].sequence // 2) + 1
+            self.had_update, self.end = update, self.sent.nodes[-1].sequence
             self.sent = None
 
+    def is_cut_short(self, update: int, sequence: int) -> bool:
+        """Returns whether a vehicle that has nothing left to drive stands before the end of what
+        it has, as after a cancelOrder."""
+        return update == self.had_update and sequence < self.end
+
     def refuse(self) -> None:
-        """Goes back to what the vehicle has: it refused the last order."""
+        """Goes back to what the vehicle has: it refused the last order. Its number is not given
+        again, for states may still tell of it."""
         self.sent, self.is_changed = None, False
         self.released = self.had
-        self.update -= 1
 
     def next_order(self, place: PlaceNode) -> Order | None:
         """Returns the order that says what has changed; None as long as there is nothing to say, or

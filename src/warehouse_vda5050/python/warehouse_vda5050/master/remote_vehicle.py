@@ -5,6 +5,7 @@ Commands and states go in; orders and instant actions, reports and events come o
 clock [s] of any zero.
 """
 
+import re
 from dataclasses import dataclass
 from enum import Enum
 
@@ -27,6 +28,7 @@ from warehouse_vda5050.model import (
 )
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
+UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
 
 
@@ -58,7 +60,7 @@ class RemoteVehicle:
         self.robot, self._grid, self._run = robot, grid, run
         self.view = VehicleView(robot.frame)
         self._instants = InstantRequests(f"{run}-{robot.number}")
-        self._instants.ask("stateRequest")  # else the first one may be 30 s away
+        self._state_id = self._instants.ask("stateRequest")  # else the first may be 30 s away
         self._count = 0  # of orders
         self._journey: Journey | None = None
         self._lift: Lift | None = None  # that the journey is made for
@@ -70,6 +72,10 @@ class RemoteVehicle:
         self.last_end: EventKind | None = None
 
     # --- in
+
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over the cells of the floor as it is now."""
+        self._grid = grid
 
     def command(self, command: Command) -> None:
         """Takes a command; the answer is an event."""
@@ -86,13 +92,15 @@ class RemoteVehicle:
         self._take_load(state)
         if self._cancelling and not self._journey and self._is_cancelled(state):
             self._cancelling = False
-        self._end_foreign(state)
         if self._journey:
             self._advance(self._journey, state)
+        self._end_foreign(state)
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Takes in whether the vehicle is there."""
         self.view.take_connection(state, now)
+        if state is ConnectionState.ONLINE:  # what it told meanwhile was not heard
+            self._ask_for_state()
 
     # --- out
 
@@ -100,6 +108,7 @@ class RemoteVehicle:
         """Returns what is to be sent now."""
         if not self.view.hears:
             return []
+        self._insist()
         order, instants = self._due_order(now), self._instants.due(now)
         return [message for message in (instants, order) if message is not None]
 
@@ -201,6 +210,12 @@ class RemoteVehicle:
     def _ask_to_cancel(self) -> None:
         self._cancelling, self._cancel_id = True, self._instants.ask("cancelOrder")
 
+    def _insist(self) -> None:
+        """Asks again to cancel what a vehicle that never answered still drives."""
+        drives = self.view.state is not None and self.view.state.nodes
+        if self._cancelling and drives and self._instants.is_given_up(self._cancel_id):
+            self._ask_to_cancel()
+
     def _is_cancelled(self, state: State) -> bool:
         return not state.nodes and not self._instants.is_pending(self._cancel_id)
 
@@ -236,12 +251,16 @@ class RemoteVehicle:
             return None
         self._sent_at, self._times = now, self._times + 1
         if self._times % ASKS_AFTER == 0:
-            self._instants.ask("stateRequest")
+            self._ask_for_state()
         if way.had or self._times < MOST_TIMES:
             return way.sent
         self._give_up(way, "the vehicle does not tell that it has the order")
         self._ask_to_cancel()  # it may have it all the same
         return None
+
+    def _ask_for_state(self) -> None:
+        if not self._instants.is_pending(self._state_id):
+            self._state_id = self._instants.ask("stateRequest")
 
     def _give_up(self, way: Journey, why: str) -> None:
         """Ends what the vehicle never had; keeps what it has of a path."""
@@ -251,12 +270,15 @@ class RemoteVehicle:
             self._journey = self._lift = None
 
     def _advance(self, way: Journey, state: State) -> None:
+        if state.order_id == way.order_id:
+            way.confirm(state.order_update)
         self._note_refusal(way, state)
         if self._journey is None or state.order_id != way.order_id:
             if self._cancelling and self._is_cancelled(state):
                 self._end(EventKind.DONE, "cancelled")
+            elif self._journey and way.had:
+                self._end(EventKind.BLOCKED, "the vehicle does not know its order any more")
             return
-        way.confirm(state.order_id, state.order_update)
         if not self._lift and state.last_node_sequence <= 2 * (way.had - 1):
             self.reached = max(self.reached, state.last_node_sequence // 2 + 1)
         if not state.nodes and not state.driving:
@@ -266,6 +288,9 @@ class RemoteVehicle:
         """Ends the command where nothing of it is left to be done."""
         if self._cancelling and self._is_cancelled(state):
             self._end(EventKind.DONE, "cancelled")
+            return
+        if way.is_cut_short(state.order_update, state.last_node_sequence):
+            self._end(EventKind.BLOCKED, f"others ended its order at {state.last_node}")
             return
         mine = {action.id for action in way.actions}
         told = {one.id: one for one in state.actions if one.id in mine}
@@ -280,14 +305,17 @@ class RemoteVehicle:
     def _finish(self, way: Journey) -> None:
         lift = self._lift
         if lift:
-            self.load = lift.shelf_id if lift.up else 0
             self._happened(EventKind.LIFTED if lift.up else EventKind.DROPPED, "", lift.shelf_id)
         else:
             self.reached = len(way.points)
         self._end(EventKind.DONE, f"done: {'lift' if lift else f'follow path {way.path_id}'}")
+        if lift:
+            self.load = lift.shelf_id if lift.up else 0
 
     def _end(self, kind: EventKind, text: str) -> None:
         self._journey, self._lift, self._cancelling = None, None, False
+        if self.view.state:
+            self._take_load(self.view.state)  # a lift that was cancelled may be done all the same
         self.last_end = kind
         self._happened(kind, text)
 
@@ -305,18 +333,19 @@ class RemoteVehicle:
     # --- what others did
 
     def _take_load(self, state: State) -> None:
-        """Believes what the vehicle says of its load, where it says which unit that is."""
+        """Believes what the vehicle says of its load; which unit that is, only if it is not known."""
         if self._lift or not self.view.tells_loads:
             return
         if not state.loads:
             self.load = 0
             return
-        digits = "".join(c for c in state.loads[0].id if c.isdigit())
-        if digits:
-            self.load = int(digits)
+        named = UNIT.fullmatch(state.loads[0].id)
+        if named and not self.load:
+            self.load = int(named[1])
 
     def _end_foreign(self, state: State) -> None:
-        """Has an order cancelled that an earlier run or another master left."""
+        """Has an order cancelled that an earlier run or another master left, or that was given up
+        and came all the same."""
         if self._journey or self._cancelling or not state.nodes:
             return
         self._ask_to_cancel()

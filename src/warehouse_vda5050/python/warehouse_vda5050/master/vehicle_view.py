@@ -25,10 +25,11 @@ class VehicleView:
     def take_state(self, state: State, now: float) -> bool:
         """Takes in a state. Returns False for one that is older than the one before.
 
-        Of one time the header's number decides; it begins again at 0 after 2³² of them.
+        Older is what both the time and the number of its header say to be: clocks are set back,
+        and numbers begin again at 0.
         """
-        stamp = state.header.timestamp, state.header.header_id
-        if stamp < self._stamp:
+        time, number = stamp = state.header.timestamp, state.header.header_id
+        if time <= self._stamp[0] and number <= self._stamp[1] and stamp != self._stamp:
             return False
         self._stamp = stamp
         self.state, self.heard_at = state, now
@@ -39,8 +40,9 @@ class VehicleView:
         return True
 
     def take_connection(self, connection: ConnectionState, now: float) -> None:
-        """Takes in whether the vehicle is there. One that comes back may set its clock back."""
-        if connection == ConnectionState.ONLINE and self.connection != connection:
+        """Takes in whether the vehicle is there. One that comes back, be it unseen, may have
+        another clock and count from 0."""
+        if connection == ConnectionState.ONLINE:
             self._stamp, self.heard_at = ("", 0), now
         self.connection = connection
 

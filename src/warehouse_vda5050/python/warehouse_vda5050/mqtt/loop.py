@@ -166,6 +166,8 @@ class MqttLoop:
 
     def __init__(self) -> None:
         self.links: list[Link] = []
+        self._selector = selectors.DefaultSelector()
+        self._watched: dict[Link, tuple[Any, int]] = {}  # the socket, and which events
         self._pool = ThreadPoolExecutor(8, thread_name_prefix="mqtt-connect")
 
     def add(self, link: Link) -> Link:
@@ -194,17 +196,27 @@ class MqttLoop:
                 self.links.remove(link)
 
     def _serve(self, timeout: float) -> None:
-        with selectors.DefaultSelector() as selector:
-            for link in self.links:
-                socket = link.socket
-                if socket is not None and socket.fileno() >= 0:
-                    writes = selectors.EVENT_WRITE if link.wants_to_write else 0
-                    selector.register(socket, selectors.EVENT_READ | writes, link)
-            if not selector.get_map():
-                time.sleep(timeout)
-                return
-            for key, events in selector.select(timeout):
-                _serve_one(key.data, events)
+        self._watch()
+        if not self._watched:
+            time.sleep(timeout)
+            return
+        for key, events in self._selector.select(timeout):
+            _serve_one(key.data, events)
+
+    def _watch(self) -> None:
+        """Brings the selector up to date; of a thousand links few change from time to time."""
+        wanted = {}
+        for link in self.links:
+            socket = link.socket
+            if socket is not None and socket.fileno() >= 0:
+                writes = selectors.EVENT_WRITE if link.wants_to_write else 0
+                wanted[link] = socket, selectors.EVENT_READ | writes
+        # First those that go: a new socket may have the number of a closed one.
+        for link in [link for link in self._watched if self._watched[link] != wanted.get(link)]:
+            self._selector.unregister(self._watched.pop(link)[0])
+        for link in wanted.keys() - self._watched.keys():
+            self._watched[link] = wanted[link]
+            self._selector.register(*wanted[link], link)
 
     def close(self, timeout: float = 2.0) -> None:
         """Waits until links that were closed have said goodbye; ends the others."""
@@ -212,6 +224,7 @@ class MqttLoop:
         while time.monotonic() < end and any(link.socket for link in self.links):
             self.poll(0.01)
         self._pool.shutdown(wait=False, cancel_futures=True)
+        self._selector.close()
 
 
 def _serve_one(link: Link, events: int) -> None:

@@ -59,6 +59,9 @@ class VehicleLink:
         state = self.vehicle.take_state(now)
         if state:
             self._send(Kind.STATE, state)
+        seen = self.vehicle.take_visualization(now)
+        if seen:
+            self._send(Kind.VISUALIZATION, seen)
         factsheet = self.vehicle.take_factsheet()
         if factsheet:
             self._send(Kind.FACTSHEET, factsheet)

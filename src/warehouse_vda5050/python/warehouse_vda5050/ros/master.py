@@ -17,8 +17,8 @@ from warehouse_client.warehouse import Warehouse
 from warehouse_fleet.message_enums import EventKind as Kind
 from warehouse_fleet.message_enums import FailureKind, Mode
 from warehouse_layout import models
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_msgs.msg import Event, FleetState
+from warehouse_layout.floor_plan import FloorError, FloorPlan
+from warehouse_msgs.msg import Event, FleetState, Scenery
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Command
@@ -47,6 +47,7 @@ class Master:
         self._warehouse = warehouse
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
+        self._scenery: Scenery | None = None  # that the floor's cells were read with
         self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
         self._spawned: set[int] = set()
         self._modes: dict[int, bool] = {}
@@ -71,6 +72,7 @@ class Master:
                 send(identity, message)
             if time.monotonic() >= self._next_shadows:
                 self._next_shadows = time.monotonic() + PERIOD
+                self._follow_floor(fleet)
                 self._show(fleet)
             self._publish_events(fleet.take_events())
         self._show_silence(fleet)
@@ -95,6 +97,17 @@ class Master:
             rospy.loginfo_once("waits for the warehouse")
             time.sleep(PERIOD)
         return grid_of(self._warehouse.plan())
+
+    def _follow_floor(self, fleet: RemoteFleet) -> None:
+        """Reads the floor's cells again once another scenery is told."""
+        scenery = self._warehouse.scenery
+        if scenery is self._scenery:
+            return
+        try:
+            fleet.set_grid(grid_of(self._warehouse.plan()))
+        except (rospy.ServiceException, FloorError):
+            return  # the warehouse is being built or ends; there is another time
+        self._scenery = scenery
 
     # --- out
 

@@ -8,7 +8,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from warehouse_vda5050.driver import Report
-from warehouse_vda5050.model import MAP_ID, AgvPosition, Battery, Load, State, Velocity
+from warehouse_vda5050.model import (
+    MAP_ID,
+    AgvPosition,
+    Battery,
+    Load,
+    State,
+    Velocity,
+    Visualization,
+)
 
 if TYPE_CHECKING:
     from warehouse_vda5050.vehicle.vehicle import Vehicle
@@ -22,8 +30,10 @@ class Teller:
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
         self._told: State | None = None  # without what changes all the time
-        self._told_at = -math.inf
+        self._due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
+        self._shown: Visualization | None = None
+        self._shown_at = -math.inf
         self._deceleration = max(0.1, vehicle.driver.factsheet().max_deceleration)
         self._top_speed = vehicle.driver.factsheet().max_speed
 
@@ -37,13 +47,26 @@ class Teller:
             return None
         state = self.state()
         lasting = _lasting(state)
-        settings = self._vehicle.settings
-        interval = settings.moving if state.driving else settings.interval
-        due = now - self._told_at >= min(interval, settings.interval)
+        due = now >= self._due
         if lasting == self._told and not due and not self._requested:
             return None
-        self._told, self._told_at, self._requested = lasting, now, False
+        settings = self._vehicle.settings
+        interval = min(settings.moving, settings.interval) if state.driving else settings.interval
+        # A state that comes a little late does not delay the next.
+        self._due = interval + (self._due if due and now < self._due + interval else now)
+        self._told, self._requested = lasting, False
         return state
+
+    def take_visualization(self, now: float) -> Visualization | None:
+        """Returns position and speed if they changed and it is time to tell them."""
+        report, interval = self._vehicle.report, self._vehicle.settings.visualization
+        if report is None or not interval or now - self._shown_at < interval:
+            return None
+        seen = Visualization(_position(report), _velocity(report))
+        if seen == self._shown:
+            return None
+        self._shown, self._shown_at = seen, now
+        return seen
 
     def state(self) -> State:
         """Returns the state as it is now."""
@@ -96,25 +119,30 @@ class Teller:
 
 
 def _with_report(state: State, report: Report) -> State:
-    forward = report.vx * math.cos(report.yaw) + report.vy * math.sin(report.yaw)
-    aside = report.vy * math.cos(report.yaw) - report.vx * math.sin(report.yaw)
     charge = round(min(100.0, max(0.0, report.battery.charge)), 2)
     return replace(
         state,
         driving=report.moving,
-        position=AgvPosition(
-            round(report.x, 4),
-            round(report.y, 4),
-            round(math.remainder(report.yaw, 2 * math.pi), 4),
-            initialized=report.localized,
-        ),
-        velocity=Velocity(round(forward, 3), round(aside, 3), round(report.omega, 3)),
+        position=_position(report),
+        velocity=_velocity(report),
         loads=(Load(report.load),) if report.load else (),
         battery=Battery(charge, report.battery.charging),
         mode=report.mode,
         emergency_stop=report.stopped,
         field_violation=report.blocked,
     )
+
+
+def _position(report: Report) -> AgvPosition:
+    # In [-π, π]: peers drop a state whose heading is rounded beyond that.
+    yaw = max(-math.pi, min(round(math.remainder(report.yaw, math.tau), 4), math.pi))
+    return AgvPosition(round(report.x, 4), round(report.y, 4), yaw, initialized=report.localized)
+
+
+def _velocity(report: Report) -> Velocity:
+    c, s = math.cos(report.yaw), math.sin(report.yaw)
+    ahead, aside = c * report.vx + s * report.vy, c * report.vy - s * report.vx
+    return Velocity(round(ahead, 3), round(aside, 3), round(report.omega, 3))
 
 
 def _lasting(state: State) -> State:

@@ -22,6 +22,7 @@ from warehouse_vda5050.model import (
     OperatingMode,
     Order,
     State,
+    Visualization,
 )
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
@@ -42,11 +43,13 @@ KEPT_ERRORS = 10
 @dataclass(frozen=True)
 class VehicleSettings:
     """interval: at the latest so long after the last state comes the next [s]; moving: the same
-    while it drives. linger: so long after an order the robot is given back [s]. first_path: the
-    number of its first path."""
+    while it drives; visualization: between two positions of a robot that moves [s], 0: none.
+    linger: so long after an order the robot is given back [s]. first_path: the number of its first
+    path."""
 
     interval: float = 30.0
     moving: float = 1.0
+    visualization: float = 1.0
     linger: float = 3.0
     first_path: int = 1
 
@@ -310,6 +313,10 @@ class Vehicle:
     def take_state(self, now: float) -> State | None:
         """Returns the state if something happened or it is time for one."""
         return self._teller.take(now)
+
+    def take_visualization(self, now: float) -> Visualization | None:
+        """Returns position and speed if the robot moved and it is time to tell them."""
+        return self._teller.take_visualization(now)
 
     def state(self) -> State:
         """Returns the state as it is now."""

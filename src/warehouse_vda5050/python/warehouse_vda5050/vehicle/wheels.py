@@ -64,7 +64,8 @@ class Wheels:
     def _count_heard(self, leg: Leg, report: Report) -> int:
         leg.heard = True
         self.fault = ""
-        reached = min(report.reached, len(leg.points))
+        # The last point counts once the robot stands: masters send the next order right then.
+        reached = min(report.reached, len(leg.points) - report.busy)
         passed = max(0, reached - leg.counted)
         leg.counted += passed
         if not report.busy:

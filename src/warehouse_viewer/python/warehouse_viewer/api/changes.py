@@ -19,14 +19,12 @@ A slow reader misses states in between, never the newest. `missed`: there were m
 list again.
 """
 
-import asyncio
 import json
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import Literal
 
 from pydantic import BaseModel, Field
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from warehouse_viewer.api import catalogue, operations_json
 from warehouse_viewer.api.backend import ApiBackend
@@ -164,13 +162,7 @@ def topics(text: str) -> list[str]:
 async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], rate: float) -> None:
     """Serves one client until it disconnects: the TOPICS `wanted`, each at most `rate` times a
     second. The socket is accepted already."""
-    listener = asyncio.create_task(until_gone(socket))
-    reader = _Reader(socket, backend, wanted)
-    with suppress(WebSocketDisconnect, RuntimeError):
-        while not listener.done():
-            await reader.send_news()
-            await asyncio.wait({listener}, timeout=1 / rate)
-    listener.cancel()
+    await until_gone(socket, _Reader(socket, backend, wanted).send_news, rate)
 
 
 class _Reader:

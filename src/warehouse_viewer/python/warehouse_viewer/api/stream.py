@@ -13,6 +13,7 @@ A slow reader misses states in between, never the newest; of events at most the 
 
 import asyncio
 import json
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
 
@@ -22,27 +23,56 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 
+FAREWELL = 1.0  # until a client that nothing can be sent to is known to have gone [s, wall]
+
 
 async def serve(socket: WebSocket, backend: ApiBackend, rate: float) -> None:
     """Serves one client until it disconnects, at most `rate` times a second.
 
     The socket is accepted already.
     """
-    listener = asyncio.create_task(until_gone(socket))
     known: dict[int, Any] = {}
     event = backend.journal.last_id
-    with suppress(WebSocketDisconnect, RuntimeError):
-        while not listener.done():
-            known = await _send_robots(socket, backend, known)
-            events = backend.journal.since(event)
-            if events:
-                event = events[-1]["id"]
-                await _send(socket, {"type": "events", "events": events})
-            await asyncio.wait({listener}, timeout=1 / rate)
-    listener.cancel()
+
+    async def send_news():
+        nonlocal known, event
+        known = await _send_robots(socket, backend, known)
+        events = backend.journal.since(event)
+        if events:
+            event = events[-1]["id"]
+            await _send(socket, {"type": "events", "events": events})
+
+    await until_gone(socket, send_news, rate)
 
 
-async def until_gone(socket: WebSocket) -> None:
+async def until_gone(
+    socket: WebSocket, send_news: Callable[[], Awaitable[None]], rate: float
+) -> None:
+    """Sends news at most `rate` times a second until the client disconnects.
+
+    Raises what send_news() raises while the client is there.
+    """
+    listener = asyncio.create_task(_listen(socket))
+    sender = asyncio.create_task(_send_forever(send_news, 1 / rate))
+    try:
+        await asyncio.wait({listener, sender}, return_when=asyncio.FIRST_COMPLETED)
+        # Of a client that has gone, each of uvicorn's libraries tells the sender by another error.
+        await asyncio.wait({listener}, timeout=FAREWELL)
+        if not listener.done():
+            sender.result()
+    finally:
+        listener.cancel()
+        sender.cancel()
+        await asyncio.gather(listener, sender, return_exceptions=True)
+
+
+async def _send_forever(send_news, gap):
+    while True:
+        await send_news()
+        await asyncio.sleep(gap)
+
+
+async def _listen(socket):
     """Reads and drops what a client sends until it disconnects."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:

@@ -5,6 +5,7 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 from starlette.websockets import WebSocket, WebSocketState
+from websockets.exceptions import ConnectionClosed
 
 MOST_SOCKETS = 50
 TRY_AGAIN = 1013  # a WebSocket's close code
@@ -24,7 +25,9 @@ class SocketLimit:
             return
         self._open += 1
         try:
-            await serve(socket)
+            # So uvicorn tells of a client that went without a word: a machine that fell asleep.
+            with suppress(ConnectionClosed):
+                await serve(socket)
         finally:
             self._open -= 1
             # A client that has gone needs no close, and wsproto would refuse to send one.

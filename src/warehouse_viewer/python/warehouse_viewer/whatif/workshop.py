@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from warehouse_operations import report, runs
+from warehouse_operations import runs
 from warehouse_operations.locks import FileLock, InUseError
 from warehouse_operations.runs import KPIS, REPORT, Run
 from warehouse_operations.simulation import ERRORS
@@ -142,6 +142,8 @@ class Workshop:
 
     def report(self, names: Sequence[str]) -> str:
         """Returns the report about all runs of scenarios, HTML."""
+        from warehouse_operations import report  # its charts take a second to import
+
         found = [runs.read(run.folder) for name in names for run in self._runs(name)]
         return report.page(found)
 

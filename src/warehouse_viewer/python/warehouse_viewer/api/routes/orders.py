@@ -4,7 +4,7 @@
 import asyncio
 from typing import Any
 
-from fastapi import APIRouter, HTTPException, Path, Query
+from fastapi import APIRouter, Depends, HTTPException, Path, Query
 from fastapi.responses import Response
 
 from warehouse_msgs import msg, srv
@@ -60,35 +60,14 @@ async def get_orders(
     return {"total": found.total, "orders": [order(one) for one in found.orders]}
 
 
-@router.get("/orders.csv", response_class=Response, responses=problems(409) | CSV)
-async def export_csv(
+async def exported(
     search: str = SEARCH,
     state: State | None = None,
     late: bool = LATE,
     backend: ApiBackend = BACKEND,
-) -> Any:
-    """Orders as CSV, a row for each of their lines."""
-    orders = await _all(backend, search, state, late)
-    headers = {"content-disposition": 'attachment; filename="orders.csv"'}
-    return Response(order_sheet.as_csv(orders), media_type="text/csv", headers=headers)
-
-
-@router.get("/orders.xlsx", response_class=Response, responses=problems(409) | XLSX)
-async def export_xlsx(
-    search: str = SEARCH,
-    state: State | None = None,
-    late: bool = LATE,
-    backend: ApiBackend = BACKEND,
-) -> Any:
-    """Orders as a spreadsheet, a row for each of their lines."""
-    orders = await _all(backend, search, state, late)
-    sheet = await asyncio.to_thread(order_sheet.as_xlsx, orders)
-    headers = {"content-disposition": 'attachment; filename="orders.xlsx"'}
-    return Response(sheet, media_type=SPREADSHEET, headers=headers)
-
-
-async def _all(backend, search, state, late):
-    """All orders of a search as JSON has them; 409 if they are more than a sheet should have."""
+) -> list[Any]:
+    """Returns all orders of a search as JSON has them; 409 if they are more than a sheet should
+    have."""
     which = ANY if state is None else STATES.index(state)
     found: list[Any] = []
     while True:
@@ -100,6 +79,24 @@ async def _all(backend, search, state, late):
         found += map(order, some.orders)
         if len(found) >= some.total or not some.orders:
             return found
+
+
+@router.get("/orders.csv", response_class=Response, responses=problems(409) | CSV)
+async def export_csv(orders: list[Any] = Depends(exported)) -> Any:
+    """Orders as CSV, a row for each of their lines."""
+    return _file("orders.csv", order_sheet.as_csv(orders), "text/csv")
+
+
+@router.get("/orders.xlsx", response_class=Response, responses=problems(409) | XLSX)
+async def export_xlsx(orders: list[Any] = Depends(exported)) -> Any:
+    """Orders as a spreadsheet, a row for each of their lines."""
+    sheet = await asyncio.to_thread(order_sheet.as_xlsx, orders)
+    return _file("orders.xlsx", sheet, SPREADSHEET)
+
+
+def _file(name, content, kind):
+    headers = {"content-disposition": f'attachment; filename="{name}"'}
+    return Response(content, media_type=kind, headers=headers)
 
 
 @router.post("/orders/table", response_model=TableAnswer, responses=problems(*SENT))
