@@ -56,6 +56,27 @@ TURNED = "page.stage.controls.getAzimuthalAngle()"
 AWAY = "page.stage.camera.position.distanceTo(page.stage.controls.target)"
 
 
+# How many bytes differ, by more than shadows in another order do, between the picture as it is
+# drawn, upon the backdrop, and the whole drawn at once; and how many colours it has.
+BACKDROP = """(() => {
+  const { stage } = page, { renderer, scene, camera, backdrop } = stage, gl = renderer.getContext();
+  const { width, height } = renderer.domElement;
+  const pixels = (draw) => {
+    draw();
+    const out = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, out);
+    return out;
+  };
+  const drawn = pixels(() => stage.render(performance.now()));
+  backdrop.copy.visible = false;
+  camera.layers.enable(1);
+  const whole = pixels(() => renderer.render(scene, camera));
+  backdrop.copy.visible = true;
+  return [drawn.filter((byte, i) => i % 4 < 3 && Math.abs(byte - whole[i]) > 8).length,
+    new Set(new Uint32Array(drawn.buffer)).size];
+})()"""
+
+
 class ViewerPage(PageTest):
     ready = f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2"
 
@@ -97,6 +118,11 @@ class ViewerPage(PageTest):
         picture = Image.open(io.BytesIO(self.page.driver.get_screenshot_as_png()))
         middle = picture.convert("RGB").crop((290, 70, 990, 540))
         self.assertGreater(len(middle.getcolors(maxcolors=middle.width * middle.height)), 100)
+
+    def test_upon_the_backdrop_the_picture_is_the_same(self):
+        differ, colours = self.page.read(BACKDROP)
+        self.assertLess(differ, 30)
+        self.assertGreater(colours, 100)
 
     def test_a_click_selects_and_another_sends(self):
         x, y, _ = place("kiva1")

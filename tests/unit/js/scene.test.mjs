@@ -3,6 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { Renewal, STILL } from '../../../src/warehouse_viewer/web/js/backdrop.js';
 import { FAR, NEAR, StandingCrowd, View } from '../../../src/warehouse_viewer/web/js/crowd.js';
 import { scaleFor } from '../../../src/warehouse_viewer/web/js/fit.js';
 import { boundsOf, hull, merge } from '../../../src/warehouse_viewer/web/js/looks.js';
@@ -48,27 +49,71 @@ test('a shelf has a picture as full as it is', () => {
   assert.equal(shelfGeometry(SHELF).index.count, 5 * 6);
 });
 
-test('what stands on a square of the floor is drawn again only when something there changes', () => {
-  const crowd = new StandingCrowd(new THREE.Group(), 200, boundsOf(UNIT), 100);
+/** 200 units on two squares of the floor. */
+function standing() {
+  const crowd = new StandingCrowd(new THREE.Group(), 200, boundsOf(UNIT), 100, 0);
   crowd.add(merge(UNIT), null, NEAR);
   crowd.add(hull(UNIT), null, FAR);
   const matrix = new THREE.Matrix4(), place = (i, x, moves) => crowd.put(i, matrix.makeTranslation(x, 0.5, 0), moves);
   for (let i = 0; i < 200; ++i) place(i, i < 100 ? 1 : 33);
-  crowd.fill(viewFrom(40, 17), true);
-  const counts = () => crowd.parts.map(({ copies }) => copies[1]?.drawn ?? 0);
+  crowd.fill(viewFrom(40, 17), true, true);
+  return { crowd, place, counts: () => crowd.parts.map(({ copies }) => copies[1]?.drawn ?? 0) };
+}
+
+test('what stands on a square of the floor is drawn again only when something there changes', () => {
+  const { crowd, place, counts } = standing();
   assert.deepEqual(counts(), [0, 100, 100]);
   const seen = crowd.parts[2].copies[1].mesh.geometry.attributes.position.version;
   place(5, 1, true); // it is lifted
-  crowd.fill(viewFrom(40, 17), false);
+  crowd.fill(viewFrom(40, 17), false, true);
   assert.deepEqual(counts(), [1, 99, 100]);
   assert.equal(crowd.parts[2].copies[1].mesh.geometry.attributes.position.version, seen);
   place(5, 33);
-  crowd.fill(viewFrom(40, 17), false);
+  crowd.fill(viewFrom(40, 17), false, true);
   assert.deepEqual(counts(), [0, 99, 101]);
-  crowd.fill(viewFrom(40, 5000), true);
+  crowd.fill(viewFrom(40, 5000), true, true);
   assert.ok(crowd.parts.slice(1).every(({ copies }) => !copies[1].mesh.visible));
-  crowd.fill(viewFrom(40, 17), true);
+  crowd.fill(viewFrom(40, 17), true, true);
   assert.ok(crowd.parts.slice(1).every(({ copies }) => copies[1].mesh.visible));
+});
+
+test('what was put down moves on until the backdrop takes it in, and is nowhere missing', () => {
+  const { crowd, place, counts } = standing();
+  const shows = (moved, settles) => {
+    crowd.fill(viewFrom(40, 17), moved, settles);
+    return counts();
+  };
+  assert.equal(crowd.isUnsettled, false);
+  place(5, 1, true);
+  assert.equal(crowd.isUnsettled, true);
+  assert.deepEqual(shows(false, false), [1, 100, 100]); // the backdrop has it, too
+  assert.deepEqual(shows(false, true), [1, 99, 100]);
+  assert.equal(crowd.isUnsettled, false);
+  place(5, 33);
+  assert.deepEqual(shows(false, false), [1, 99, 100]);
+  place(5, 34, true); // lifted again before
+  assert.deepEqual(shows(false, true), [1, 99, 100]);
+  place(5, 33);
+  assert.deepEqual(shows(false, true), [0, 99, 101]);
+});
+
+test('only what stands is in the backdrop, unless one sees through it', () => {
+  const { crowd, place } = standing(), layers = () => crowd.parts.map(({ copies }) => copies[1].mesh.layers.mask);
+  place(5, 1, true);
+  crowd.fill(viewFrom(40, 17), false, true);
+  assert.deepEqual(layers(), [1, 1 << STILL, 1 << STILL]);
+  crowd.setStill(false);
+  assert.deepEqual(layers(), [1, 1, 1]);
+});
+
+test('the backdrop is drawn at once for another view, and for what came or went after a while', () => {
+  const renewal = new Renewal();
+  assert.ok(renewal.settles(0, false) && renewal.take(0));
+  assert.ok(!renewal.settles(100, true) && !renewal.take(100));
+  renewal.ask();
+  assert.ok(renewal.settles(200, false) && renewal.take(200));
+  assert.ok(!renewal.settles(600, true) && !renewal.settles(900, false));
+  assert.ok(renewal.settles(700, true) && renewal.take(700) && !renewal.take(701));
 });
 
 test('a floor from above fits its room whichever side is up', () => {

@@ -3,7 +3,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { Belts } from './belts.js';
-import { Crowd, FAR, NEAR, StandingCrowd, TINY, View } from './crowd.js';
+import { FAR, NEAR, StandingCrowd, TINY, View } from './crowd.js';
 import { ALL, boundsOf, boxesOf, hull, materialOf, matrixOf, merge } from './looks.js';
 import { COLOURS, Robots } from './robots.js';
 import { addShadows } from './shadows.js';
@@ -46,7 +46,7 @@ export class Actors {
     this.bounds = each(boundsOf);
     this.robots = new Robots(this.group, this.world, look(scene.robot_look));
     this.buildUnits(look(scene.unit_look));
-    this.items = new StandingCrowd(this.group, scene.items.length, this.bounds.item, DETAIL.item);
+    this.items = new StandingCrowd(this.group, scene.items.length, this.bounds.item, DETAIL.item, 0);
     if (hasShapes(look(scene.item_look))) this.items.add(merge(look(scene.item_look)), materialOf(), NEAR);
     this.itemPlace = scene.items.map((_, i) => matrixOf(scene.item_pose.slice(7 * i, 7 * i + 7)));
     this.buildScenery(look);
@@ -57,7 +57,7 @@ export class Actors {
   /** Units that stand are drawn by squares of the floor, as full as they are. */
   buildUnits(links) {
     const { units } = this.world.scene, bounds = this.bounds.unit;
-    this.units = new StandingCrowd(this.group, units.length, bounds, DETAIL.unit);
+    this.units = new StandingCrowd(this.group, units.length, bounds, DETAIL.unit, 0); // the far show as much
     const most = Math.max(1, ...this.world.itemsOf.map((items) => items.length));
     this.variants = this.world.itemsOf.map((items, unit) => variantOf(items.length / most, unit));
     if (!hasShapes(links)) return;
@@ -80,13 +80,15 @@ export class Actors {
     return kind === 'scenery' ? this.sceneryBase : crowds[kind].base;
   }
 
-  /** Before each picture: what is drawn in detail, how, and what not. */
-  fill(camera, height) {
+  /** Before the picture of that time [ms]: what is drawn in detail, how, and what not. Returns whether the
+   *  backdrop has to be drawn soon. */
+  fill(camera, height, now) {
     const moved = this.view.update(camera, height);
-    const crowds = [this.robots.crowd, this.units, this.items, ...this.sceneryCrowds, this.belts.slats];
-    for (const crowd of crowds) {
-      crowd.fill(this.view, moved);
-    }
+    const standing = [this.units, this.items, ...this.sceneryCrowds];
+    const changed = standing.some((crowd) => crowd.isUnsettled);
+    const settles = this.stage.settles(now, moved, changed);
+    for (const crowd of [this.robots.crowd, ...standing, this.belts.slats]) crowd.fill(this.view, moved, settles);
+    return changed && !settles;
   }
 
   /** Puts these robots, and what they carry, where they are drawn now. */
@@ -135,12 +137,14 @@ export class Actors {
 
   setSeeThrough(through) {
     this.seeThrough = through;
+    // What moves is seen through what stands.
+    for (const crowd of [this.units, this.items]) crowd.setStill(!through);
     for (const { material, order } of [...this.units.layers, ...this.items.layers]) {
       if (order < 0) continue; // a shadow
       Object.assign(material, { transparent: through, opacity: through ? 0.18 : 1, depthWrite: !through });
       material.needsUpdate = true;
     }
-    this.stage.invalidate();
+    this.stage.renew();
   }
 
   // --- scenery
@@ -161,7 +165,7 @@ export class Actors {
 
   /** Scenery of one look; walls have a colour of the theme's. */
   crowdOf(links, count, areWalls) {
-    const bounds = boundsOf(links), out = new Crowd(this.group, count, bounds, DETAIL.scenery);
+    const bounds = boundsOf(links), out = new StandingCrowd(this.group, count, bounds, DETAIL.scenery);
     if (!hasShapes(links)) return out;
     if (!areWalls) addShadows(out, bounds, NEAR | FAR);
     out.add(merge(links, areWalls && ALL), materialOf(true), NEAR);
@@ -175,10 +179,11 @@ export class Actors {
 
   placeScenery(models) {
     for (const model of models) {
-      const matrix = poseMatrix(this.world.sceneryPose, model);
-      matrix.toArray(this.sceneryBase, 16 * model);
+      const matrix = poseMatrix(this.world.sceneryPose, model), at = 16 * model;
+      const isThere = this.sceneryBase[at + 15] === 1;
+      matrix.toArray(this.sceneryBase, at);
       const { crowd, index } = this.sceneryPlaces[model];
-      crowd.put(index, matrix);
+      crowd.put(index, matrix, isThere); // what is told again is a person, or was pushed
     }
     if (models.length) this.belts.run(0);
   }

@@ -2,7 +2,7 @@
 // The bar at the top: which warehouse, its time, and what can be done to the simulation.
 
 import { post } from './api.js';
-import { $, enable, on, setIcon } from './dom.js';
+import { $, enable, on, setIcon, tell } from './dom.js';
 import { confirmed } from './question.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
@@ -71,7 +71,7 @@ export class Bar {
     const reached = this.latest >= UNDO + SAVED_EVERY;
     this.latest = Math.max(this.latest, stamp);
     if (!reached && this.latest >= UNDO + SAVED_EVERY) this.enable();
-    $('time').textContent = clock(stamp);
+    tell($('time'), clock(stamp));
   }
 
   showLink(live, reason) {
@@ -82,7 +82,7 @@ export class Bar {
 
   link(state, text) {
     $('link').dataset.state = state;
-    $('link').textContent = text;
+    tell($('link'), text);
   }
 
   showStatus(status) {
@@ -92,9 +92,9 @@ export class Bar {
       this.enable();
       return;
     }
-    $('warehouse').textContent = status.warehouse || 'Warehouse';
+    tell($('warehouse'), status.warehouse || 'Warehouse');
     this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
-    $('factor').textContent = status.paused ? '' : `×${status.factor.toFixed(2)}`;
+    tell($('factor'), status.paused ? '' : `×${status.factor.toFixed(2)}`);
     this.stepSize = status.step_size;
     this.showPaused(status.paused);
     this.showSpeed(status.target_factor);
@@ -102,6 +102,7 @@ export class Bar {
   }
 
   showPaused(paused) {
+    if (paused === this.paused) return;
     this.paused = paused;
     setIcon($('pause'), paused ? 'play' : 'pause');
     $('pause').querySelector('span').textContent = paused ? 'Resume' : 'Pause';

@@ -13,13 +13,13 @@ const model = new THREE.Matrix4();
 
 export class Belts {
   /** `models` index the matrices of `base`; `links`: their look, whose largest shape is the belt. Slats
-   *  are seen in detail, or not, from `detail` pixels a metre on. */
+   *  are seen from `detail` pixels a metre on. */
   constructor(group, models, links, base, detail) {
     Object.assign(this, { models, base, way: 0 });
     const belt = largestOf(links ?? []);
     const [length, width, height] = belt?.size ?? [0, 0, 0];
     this.length = length - MARGIN;
-    this.slats = new Crowd(group, belt ? SLATS * models.length : 0, { centre: [0, 0, 0], radius: width / 2 }, detail);
+    this.slats = new Crowd(group, belt ? SLATS * models.length : 0, { centre: [0, 0, 0], radius: width / 2 }, detail, 0);
     if (!belt) return;
     this.top = belt.matrix.elements[14] + height / 2 + SLAT[1] / 2;
     const slat = new THREE.BoxBufferGeometry(SLAT[0], width - MARGIN, SLAT[1]);

@@ -3,6 +3,7 @@
 // boxes where they are small, and not at all out of sight.
 
 import * as THREE from '/three/build/three.module.js';
+import { STILL } from './backdrop.js';
 import { Instances, Merged, TINT } from './copies.js';
 import { drawsInSoftware } from './software.js';
 
@@ -10,14 +11,16 @@ import { drawsInSoftware } from './software.js';
 export const FAR = 1, NEAR = 2, TINY = 4;
 const SMALL = 7; // [px] a metre, below which things are tiny
 const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
+const CHEAP_IN_SOFTWARE = 10000; // the same of what moves, where the processor draws
 const TILE = 16; // edge of a square of the floor whose things are drawn together [m]
 const MOVING = 'moving'; // where things are that are under way, one by one
 
 export class Crowd {
   /** `count` things whose shapes reach `radius` around `centre` [m, in the thing's frame]. They
-   *  are seen in detail from `detail` pixels a metre on. */
-  constructor(group, count, { centre, radius }, detail) {
-    Object.assign(this, { group, count, centre, radius, detail });
+   *  are seen in detail from `detail` pixels a metre on, or always, if in detail all have no more than
+   *  `cheap` vertices. */
+  constructor(group, count, { centre, radius }, detail, cheap = drawsInSoftware() ? CHEAP_IN_SOFTWARE : CHEAP) {
+    Object.assign(this, { group, count, centre, radius, detail, cheap });
     this.base = new Float32Array(16 * count); // where each is
     this.tint = new Float32Array(TINT * count);
     for (let i = 0; i < count; ++i) this.base[16 * i + 15] = 1; // of no size until placed
@@ -48,7 +51,7 @@ export class Crowd {
   }
 
   get isCheap() {
-    return this.vertices <= CHEAP;
+    return this.vertices <= this.cheap;
   }
 
   partOf() {
@@ -76,30 +79,53 @@ export class Crowd {
   }
 }
 
-/** Many things of which most stand still: those that stand on a square of the floor are one part,
- *  which is drawn as it was until one of them comes, goes or looks other. */
+/** Many things of which most stand still: those that stand on a square of the floor are one part of the
+ *  backdrop, which is drawn as it was until one of them comes, goes or looks other. */
 export class StandingCrowd extends Crowd {
-  constructor(...all) {
-    super(...all);
+  constructor(group, count, bounds, detail, cheap = CHEAP) {
+    super(group, count, bounds, detail, cheap);
     this.places = Array(this.count).fill(MOVING);
     this.byPlace = new Map([[MOVING, this.parts[0]]]);
+    this.halted = new Set(); // drawn as what moves until the backdrop takes them in
+    this.layer = STILL;
   }
 
   partOf(i) {
     return this.byPlace.get(this.places[i]);
   }
 
-  /** What the far are drawn as shows as much. */
-  get isCheap() {
-    return false;
-  }
-
   /** `moves`: it is under way. */
   put(i, matrix, moves = false) {
-    const { elements: m } = matrix;
-    const x = Math.floor(m[12] / TILE), y = Math.floor(m[13] / TILE);
-    this.bring(i, moves ? MOVING : `${x} ${y}`, x, y);
     super.put(i, matrix);
+    if (moves) {
+      this.halted.delete(i);
+      this.bring(i, MOVING);
+    } else this.halted.add(i);
+  }
+
+  /** Whether what stands is part of the backdrop. */
+  setStill(isStill) {
+    this.layer = isStill ? STILL : 0;
+    for (const { copies, layer } of this.parts) for (const one of copies) one?.mesh.layers.set(layer);
+  }
+
+  /** Whether something came or went that the backdrop does not show yet. */
+  get isUnsettled() {
+    return this.halted.size > 0 || this.parts.some((part) => part instanceof Tile && part.stale);
+  }
+
+  /** `settles`: the backdrop takes in what changed. */
+  fill(view, moved, settles) {
+    if (settles) this.settle();
+    for (const part of this.parts) if (settles || !(part instanceof Tile)) part.fill(view, moved);
+  }
+
+  settle() {
+    for (const i of this.halted) {
+      const [x, y] = [this.base[16 * i + 12], this.base[16 * i + 13]].map((at) => Math.floor(at / TILE));
+      this.bring(i, `${x} ${y}`, x, y);
+    }
+    this.halted.clear();
   }
 
   bring(i, place, x, y) {
@@ -112,6 +138,7 @@ export class StandingCrowd extends Crowd {
       this.parts.push(part);
     }
     this.partOf(i).members.add(i);
+    this.partOf(i).stale = true;
   }
 }
 
@@ -119,6 +146,10 @@ export class StandingCrowd extends Crowd {
 class Part {
   constructor(crowd, members) {
     Object.assign(this, { crowd, members: new Set(members), stale: true, copies: [] });
+  }
+
+  get layer() {
+    return 0;
   }
 
   remove(i) {
@@ -152,6 +183,7 @@ class Part {
   make({ geometry, material, order }) {
     const copies = new (drawsInSoftware() ? Merged : Instances)(geometry, material);
     copies.mesh.renderOrder = order;
+    copies.mesh.layers.set(this.layer);
     this.crowd.group.add(copies.mesh);
     copies.begin();
     return copies;
@@ -164,6 +196,10 @@ class Tile extends Part {
     super(crowd, []);
     const { centre: [, , z], radius } = crowd;
     Object.assign(this, { x, y, z, level: 0, reach: TILE * Math.SQRT1_2 + radius });
+  }
+
+  get layer() {
+    return this.crowd.layer;
   }
 
   fill(view, moved) {

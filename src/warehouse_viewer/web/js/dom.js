@@ -16,6 +16,11 @@ export function make(tag, { click, ...properties } = {}, ...children) {
   return out;
 }
 
+/** Sets a text; one that is the same already would be painted again. */
+export function tell(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 export function setIcon(button, name) {
   button.querySelector('use').setAttribute('href', `/web/icons.svg#${name}`);
 }

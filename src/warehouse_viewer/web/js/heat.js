@@ -2,6 +2,7 @@
 // Where on the floor robots drive and where they wait, as colours.
 
 import * as THREE from '/three/build/three.module.js';
+import { STILL } from './backdrop.js';
 import { Changes } from './changes.js';
 import { $, on, press } from './dom.js';
 import { STOPS, swatches, topOf } from './heat_scale.js';
@@ -59,7 +60,7 @@ export class HeatMap {
       this.object = null;
     }
     if (this.heat) this.paint(this.heat);
-    this.stage.invalidate();
+    this.stage.renew();
   }
 
   paint({ x, y, spacing, width, seconds, ...heat }) {
@@ -69,6 +70,7 @@ export class HeatMap {
     this.object = new THREE.Mesh(new THREE.PlaneBufferGeometry(width * spacing, rows * spacing),
       new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, ...behind(-1) }));
     this.object.position.set(x + (width - 1) * spacing / 2, y + (rows - 1) * spacing / 2, HEIGHT);
+    this.object.layers.set(STILL);
     this.stage.scene.add(this.object);
     $('heat-text').textContent = `${TOLD[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;
   }

@@ -11,15 +11,18 @@ const READABLE = 10; // [px] a metre: a station that is seen so large has its na
 /** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
  *  blocked robots; numbers the nearest of those that are seen large. */
 export function labelled({ shown, activity }, view, wanted) {
-  const scales = Array.from(activity, (_, i) => (
-    view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5)));
-  const seen = [...scales.keys()].filter((i) => scales[i] > 0);
-  const matters = (i) => wanted.has(i) || activity[i] === NEEDS_HELP;
-  const nearestFirst = (a, b) => scales[b] - scales[a] || a - b;
+  const names = [], numbers = [], scales = new Map();
+  for (let i = 0; i < activity.length; ++i) { // of ten thousand, before each picture
+    const scale = view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5);
+    const matters = wanted.has(i) || activity[i] === NEEDS_HELP;
+    if (scale < (matters ? Number.MIN_VALUE : LARGE)) continue;
+    scales.set(i, scale);
+    (matters ? names : numbers).push(i);
+  }
+  const nearestFirst = (a, b) => scales.get(b) - scales.get(a) || a - b;
   return {
-    names: seen.filter(matters)
-      .sort((a, b) => wanted.has(b) - wanted.has(a) || nearestFirst(a, b)).slice(0, MOST),
-    numbers: seen.filter((i) => scales[i] >= LARGE && !matters(i)).sort(nearestFirst).slice(0, MOST),
+    names: names.sort((a, b) => wanted.has(b) - wanted.has(a) || nearestFirst(a, b)).slice(0, MOST),
+    numbers: numbers.sort(nearestFirst).slice(0, MOST),
   };
 }
 

@@ -30,13 +30,14 @@ export class Labels {
   }
 
   place(span, { text, kind, at, note = '' }) {
-    const [x, y] = this.stage.pixelOf(...at);
+    const [x, y] = this.stage.pixelOf(...at).map(Math.round);
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
     if ((span.dataset.note ?? '') !== note) span.dataset.note = note;
     // All of it within the window, and signs below the bar; percentages are of the label's own size.
-    const along = `clamp(50%, ${x.toFixed(1)}px, 100vw - 50%)`;
-    const down = kind.startsWith('sign') ? `max(${y.toFixed(1)}px, var(--free-top) - var(--over))` : `${y.toFixed(1)}px`;
-    span.style.transform = `translate(${along}, ${down}) translate(-50%, var(--over))`;
+    const down = kind.startsWith('sign') ? `max(${y}px, var(--free-top) - var(--over))` : `${y}px`;
+    const place = `clamp(50%, ${x}px, 100vw - 50%) ${down}`;
+    if (span.place !== place) span.style.translate = place; // the same would be painted again
+    span.place = place;
   }
 }

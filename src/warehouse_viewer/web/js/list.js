@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of robots, those that need help first, of which only the rows in sight exist; and the search.
 
-import { $, make, on, press } from './dom.js';
+import { $, make, on, press, tell } from './dom.js';
 import { found, rowsOf, wanted } from './search.js';
 import { ACTIVITY, ACTIVITY_CLASS, STATE } from './words.js';
 
@@ -88,7 +88,7 @@ export class RobotList {
     for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      button.querySelector('b').textContent = filter === '' ? activity.length : counts[filter];
+      tell(button.querySelector('b'), String(filter === '' ? activity.length : counts[filter]));
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
@@ -99,8 +99,19 @@ export class RobotList {
   draw() {
     const first = Math.floor(this.box.scrollTop / this.rowHeight);
     const count = Math.ceil(this.box.clientHeight / this.rowHeight) + 1;
-    const rows = this.rows.slice(first, first + count).map((i, at) => this.row(i, first + at));
-    this.inside.replaceChildren(...rows);
+    const rows = this.rows.slice(first, first + count), { children } = this.inside;
+    rows.forEach((i, k) => this.drawRow(children[k], i, first + k));
+    while (children.length > rows.length) this.inside.lastChild.remove();
+  }
+
+  /** A row that says the same already stays. */
+  drawRow(old, i, at) {
+    const { activity, state, shelf } = this.world;
+    const shows = [i, at, activity[i], state[i], shelf[i], this.nameOf(i) === this.chosen].join();
+    if (old?.shows === shows) return;
+    const row = Object.assign(this.row(i, at), { shows });
+    if (old) old.replaceWith(row);
+    else this.inside.append(row);
   }
 
   row(i, at) {

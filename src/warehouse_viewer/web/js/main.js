@@ -6,7 +6,7 @@ import { Bar } from './bar.js';
 import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
-import { $, isPressed, on, press } from './dom.js';
+import { $, isPressed, on, press, tell } from './dom.js';
 import { Drawers, marginsOf } from './drawers.js';
 import { FallenItems } from './fallen.js';
 import { FleetPanel } from './fleet.js';
@@ -109,7 +109,7 @@ class Page {
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
-    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`;
+    tell($('pace'), `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`);
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */
@@ -145,7 +145,6 @@ class Page {
     if (update.revision !== this.world.scene.revision) return; // of a scene that is past
     const changed = this.world.apply(update, performance.now());
     this.isNews = true;
-    this.bar.showTime(update.stamp);
     this.timeline.note(update.stamp);
     if (!this.stage) return;
     this.actors.robots.paint(changed.robots);
@@ -207,10 +206,10 @@ class Page {
       this.overlays.ways.follow();
     }
     this.drawn = now;
-    this.actors.fill(this.stage.camera, innerHeight);
+    const isUnsettled = this.actors.fill(this.stage.camera, innerHeight, now);
     this.labels.draw(this.actors.view, this.named(), [
       ...this.signs.labels(this.actors.view), ...this.where.draw(), ...this.fallen.labels()]);
-    return flies || this.world.moving.size > 0;
+    return flies || isUnsettled || this.world.moving.size > 0;
   }
 
   /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
@@ -397,6 +396,7 @@ class Page {
   refreshPanels() {
     if (document.hidden) return;
     this.isNews = false;
+    this.bar.showTime(this.world.stamp);
     this.list.refresh();
     this.details.refresh();
   }

@@ -11,6 +11,7 @@ const HURRY = 500; // after it was [ms]
 const SLOWEST = 500; // from one picture to the next [ms]
 const NEW = 0.3; // weight of the last picture's cost beside those before
 const LOOK = 4; // between two looks at whether a picture is done [ms]
+export const DISPLAY = 16; // from one picture of the display to the next [ms]
 
 export class Pace {
   /** `onPicture(gap)` gets the time from one picture to the next [ms], after each. */
@@ -47,7 +48,8 @@ export class Pace {
     const share = this.clock() < this.hurriedUntil ? Math.max(HURRIED, this.share) : this.share;
     this.gap = Math.min(SLOWEST, this.cost / share);
     this.onPicture(this.gap);
-    await this.wait(begun + this.gap - this.clock());
+    // It begins with a picture of the display: the nearest, not the next.
+    await this.wait(begun + this.gap - DISPLAY / 2 - this.clock());
   }
 
   wait(ms) {

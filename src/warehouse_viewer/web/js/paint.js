@@ -2,6 +2,7 @@
 // What is painted on the floor: storage places, lanes of stations, where no robot drives.
 
 import * as THREE from '/three/build/three.module.js';
+import { STILL } from './backdrop.js';
 
 const HEIGHT = -0.005; // between the floor and the borders of its cells [m]
 const TIP = 0.16, WING = 0.2, BAR = 0.1; // of an arrowhead [m]
@@ -31,6 +32,7 @@ export class Paint {
   add(kind, geometry, depth) {
     const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(behind(depth)));
     mesh.name = kind;
+    mesh.layers.set(STILL);
     this.group.add(mesh);
   }
 

@@ -19,6 +19,6 @@ export function found(names, text) {
  *  first, then by number. */
 export function rowsOf({ scene: { robots }, activity }, text, filter) {
   return [...robots.keys()]
-    .filter((i) => (filter === '' || activity[i] === Number(filter)) && `kiva${robots[i]}`.includes(text))
+    .filter((i) => (filter === '' || activity[i] === Number(filter)) && (text === '' || `kiva${robots[i]}`.includes(text)))
     .sort((a, b) => activity[b] - activity[a] || robots[a] - robots[b]);
 }

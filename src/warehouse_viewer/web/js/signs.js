@@ -2,6 +2,7 @@
 // Signs at stations: their names, how many robots queue there, and whether one waits for a person.
 
 import * as THREE from '/three/build/three.module.js';
+import { STILL } from './backdrop.js';
 import { Changes } from './changes.js';
 import { namedStations } from './labelled.js';
 
@@ -26,12 +27,14 @@ export class Signs {
     Object.assign(this.posts, { frustumCulled: false, count: stations.length });
     const matrix = new THREE.Matrix4();
     stations.forEach(({ x, y }, i) => this.posts.setMatrixAt(i, matrix.makeTranslation(x, y, TALL / 2)));
+    this.posts.layers.set(STILL);
     this.stage.scene.add(this.posts);
     this.setTheme(theme);
   }
 
   setTheme(theme) {
     this.posts?.material.color.set(POST[theme]);
+    this.stage.renew();
   }
 
   /** What the server tells of the fleet; null: none runs, and nothing more is known of stations. */

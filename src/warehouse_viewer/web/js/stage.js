@@ -3,6 +3,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
+import { Backdrop, Renewal, STILL } from './backdrop.js';
 import { on } from './dom.js';
 import { Pace } from './pace.js';
 import { Paint, behind } from './paint.js';
@@ -30,6 +31,8 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ canvas, context: this.fenced ?? undefined, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.fenced ? 1 : 2));
     this.scene = new THREE.Scene();
+    this.backdrop = this.fenced && new Backdrop(this.renderer, this.scene);
+    this.renewal = new Renewal();
     this.slanted = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
     this.slanted.position.set(0, -10, 10);
     // Looks straight down with parallel rays; its zoom is pixels a metre.
@@ -46,6 +49,7 @@ export class Stage {
     this.sky = new THREE.HemisphereLight(0xffffff, 0x777777, 0.62);
     this.sun = new THREE.DirectionalLight(0xffffff, 0.36);
     this.sun.position.set(-3, -5, 9);
+    for (const light of [this.sky, this.sun]) light.layers.enable(STILL);
     this.scene.add(this.sky, this.sun);
     this.paint = new Paint(this.scene);
     this.frames = 0; // drawn since the start
@@ -140,9 +144,31 @@ export class Stage {
 
   draw(now) {
     this.isStale = this.beforeDraw(now);
-    this.renderer.render(this.scene, this.camera);
+    this.render(now);
     this.frames += 1;
     if (this.fenced) this.pace.drew(now, fence(this.fenced));
+  }
+
+  render(now) {
+    if (this.backdrop) {
+      this.backdrop.draw(this.camera, this.renewal.take(now));
+      return;
+    }
+    this.camera.layers.enable(STILL);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Whether the picture of that time [ms] takes in what stands still: at once where the `view` is another,
+   *  soon where something came or went. */
+  settles(now, view, changed) {
+    if (view) this.renewal.ask();
+    return !this.backdrop || this.renewal.settles(now, changed);
+  }
+
+  /** What stands still looks other. */
+  renew() {
+    this.renewal.ask();
+    this.invalidate();
   }
 
   setTheme(theme) {
@@ -153,13 +179,13 @@ export class Stage {
     this.paint.setTheme(theme);
     this.sky.color.set(this.colours.sky);
     this.sky.groundColor.set(this.colours.ground);
-    this.invalidate();
+    this.renew();
   }
 
   /** What is painted on the floor, as a scene {paint, arrows} has it. */
   setPaint(scene) {
     this.paint.set(scene, document.documentElement.dataset.theme);
-    this.invalidate();
+    this.renew();
   }
 
   /** bounds [min x, max x, min y, max y] and the spacing of grid points [m]. */
@@ -171,6 +197,7 @@ export class Stage {
     this.floor = new THREE.Mesh(slab, new THREE.MeshBasicMaterial(behind(2)));
     this.floor.position.set((x0 + x1) / 2, (y0 + y1) / 2, -0.01);
     this.grid = new THREE.LineSegments(gridOf(bounds, spacing), new THREE.LineBasicMaterial());
+    for (const part of [this.floor, this.grid]) part.layers.set(STILL);
     this.scene.add(this.floor, this.grid);
     this.setTheme(document.documentElement.dataset.theme);
   }

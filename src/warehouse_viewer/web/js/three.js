@@ -3,11 +3,11 @@
 // file as /three/build/three.module.js, and index.html loads three.min.js before, which is half as large.
 
 export const {
-  Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
-  DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, Frustum, Group,
+  AlwaysDepth, Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
+  DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Frustum, Group,
   HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, LinearFilter,
   LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
   OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster,
-  RingBufferGeometry, Scene, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
-  Vector3, VertexColors, WebGLRenderer,
+  RingBufferGeometry, Scene, ShaderMaterial, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
+  Vector3, VertexColors, WebGLRenderTarget, WebGLRenderer,
 } = window.THREE;
