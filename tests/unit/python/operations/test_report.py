@@ -2,10 +2,12 @@
 """What simulate, report, check and sweep write and say."""
 
 import base64
+import contextlib
 import csv
 import json
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -64,7 +66,7 @@ def test_the_upper_bound_of_a_station():
     assert upper_bound(2.0, quick, slow) == pytest.approx(expected)
 
 
-def test_simulate_check_and_report(tmp_path, instance):
+def test_simulate_check_and_report(tmp_path, instance, monkeypatch):
     out = tmp_path / "out"
     common = ("--instance", instance, "--no-physics", "--minutes", 20)
     done = node("simulate", *common, "--seed", 7, "--out", out)
@@ -87,17 +89,9 @@ def test_simulate_check_and_report(tmp_path, instance):
     )
 
     assert node("check", out / "run.db").stdout.endswith("everything balances\n")
-    broken = subprocess.run(
-        [
-            sys.executable,
-            "-c",
-            "import sqlite3, sys; c = sqlite3.connect(sys.argv[1]);"
-            "c.execute('UPDATE bin SET quantity = quantity + 1 WHERE id = 1'); c.commit()",
-            out / "run.db",
-        ],
-        check=True,
-    )
-    assert broken.returncode == 0
+    with contextlib.closing(sqlite3.connect(out / "run.db")) as database:
+        database.execute("UPDATE bin SET quantity = quantity + 1 WHERE id = 1")
+        database.commit()
     told = node("check", out / "run.db")
     assert told.returncode == 1 and "its moves add up to" in told.stderr
 
@@ -106,10 +100,13 @@ def test_simulate_check_and_report(tmp_path, instance):
     assert node("report", tmp_path / "nothing").stderr.startswith("report: ")
 
     # Without --out none of what is there is written over.
-    for name in ("comparison.html", "comparison-2.html"):
-        compared = node("report", out, tmp_path / "again", cwd=tmp_path)
-        assert compared.stdout.splitlines()[-1] == name, compared.stderr
-        assert "<svg" in (tmp_path / name).read_text()
+    one = tmp_path / "comparison.html"
+    one.write_text("kept")
+    compared = node("report", out, tmp_path / "again", cwd=tmp_path)
+    assert compared.stdout.splitlines()[-1] == "comparison-2.html", compared.stderr
+    assert "<svg" in (tmp_path / "comparison-2.html").read_text() and one.read_text() == "kept"
+    monkeypatch.chdir(out)
+    assert report.default_path([out, tmp_path / "again"]) == Path("comparison.html")
     assert (out / "report.html").read_text() == page
 
 

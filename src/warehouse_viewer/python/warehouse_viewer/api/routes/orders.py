@@ -81,14 +81,17 @@ async def exported(
             return found
 
 
+EXPORTED = Depends(exported)
+
+
 @router.get("/orders.csv", response_class=Response, responses=problems(409) | CSV)
-async def export_csv(orders: list[Any] = Depends(exported)) -> Any:
+async def export_csv(orders: list[Any] = EXPORTED) -> Any:
     """Orders as CSV, a row for each of their lines."""
     return _file("orders.csv", order_sheet.as_csv(orders), "text/csv")
 
 
 @router.get("/orders.xlsx", response_class=Response, responses=problems(409) | XLSX)
-async def export_xlsx(orders: list[Any] = Depends(exported)) -> Any:
+async def export_xlsx(orders: list[Any] = EXPORTED) -> Any:
     """Orders as a spreadsheet, a row for each of their lines."""
     sheet = await asyncio.to_thread(order_sheet.as_xlsx, orders)
     return _file("orders.xlsx", sheet, SPREADSHEET)
