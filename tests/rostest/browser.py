@@ -31,6 +31,17 @@ CENTRE = (
     "(r => [r.x + r.width / 2, r.y + r.height / 2])"
     "(document.getElementById('{}').getBoundingClientRect())"
 )
+# Brings an element into the middle of the window, and is done once ten pictures have left it there.
+BRING = """const [element, done] = [document.getElementById(arguments[0]), arguments[1]];
+const top = () => element.getBoundingClientRect().top;
+let [was, still] = [NaN, 0];
+const look = () => {
+  still = top() === was ? still + 1 : 0;
+  if (still === 0) element.scrollIntoView({ block: 'center' });
+  was = top();
+  if (still < 10) requestAnimationFrame(look); else done();
+};
+look();"""
 
 
 class Browser:
@@ -115,6 +126,12 @@ class Browser:
     def tap_on(self, element):
         """Touches the middle of an element, by its id."""
         self.tap(*self.read(CENTRE.format(element)))
+
+    def bring(self, element):
+        """Brings an element, by its id, into view; returns its middle [px]. A window that has just
+        changed its size moves what it shows for a while."""
+        self.driver.execute_async_script(BRING, element)
+        return self.read(CENTRE.format(element))
 
     def swipe(self, *paths):
         """Moves fingers, one along each path of points of the window [px]; paths are as long as

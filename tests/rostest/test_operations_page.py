@@ -238,8 +238,7 @@ class OperationsPage(WorkPageTest):
 
     def test_7_fingers_spread_the_last_hour(self):
         self.page.be_phone(*PHONE)
-        self.page.read("page.gantt.box.scrollIntoView({block: 'center'})")
-        x, y = self.page.read(CENTRE.format("gantt"))
+        x, y = self.page.bring("gantt")
         left, right = [(x - i, y) for i in (20, 60, 100)], [(x + i, y) for i in (20, 60, 100)]
         self.page.swipe(left, right)
         self.page.until("!page.gantt.view.isWhole")

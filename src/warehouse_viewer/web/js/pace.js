@@ -7,6 +7,7 @@ export const MOST = 2 / 3; // the same where the simulation keeps its speed all 
 export const HURRIED = 1 / 2; // the same while the camera is moved, at least
 const KEPT = 0.97; // of the speed that is wanted: it is kept
 const MORE = 1.25, LESS = 0.5; // how the share changes from one look at the speed to the next
+const ADAPT = 1000; // between two looks at the speed [ms]
 const HURRY = 500; // after it was [ms]
 const SLOWEST = 500; // from one picture to the next [ms]
 const NEW = 0.3; // weight of the last picture's cost beside those before
@@ -18,6 +19,8 @@ export class Pace {
   constructor(onPicture, clock = () => performance.now(), later = (done, ms) => setTimeout(done, ms)) {
     Object.assign(this, { onPicture, clock, later });
     this.share = SHARE;
+    this.keepsSpeed = false; // the simulation
+    this.adapted = clock(); // [ms]
     this.cost = 0; // of a picture [ms]
     this.gap = 0; // from one picture to the next, at least [ms]
     this.hurriedUntil = 0; // [ms]
@@ -32,8 +35,14 @@ export class Pace {
   /** The simulation has a speed, and a wanted one (0: as fast as it can): where it falls behind, the
    *  processor is left to it. */
   yieldTo(factor, wanted) {
-    const keeps = wanted > 0 && factor >= KEPT * wanted;
-    this.share = Math.max(SHARE, Math.min(MOST, this.share * (keeps ? MORE : LESS)));
+    this.keepsSpeed = wanted > 0 && factor >= KEPT * wanted;
+  }
+
+  /** Speeds are told when they change; the share goes on changing until it is at its end. */
+  adapt() {
+    if (this.clock() < this.adapted + ADAPT) return;
+    this.adapted = this.clock();
+    this.share = Math.max(SHARE, Math.min(MOST, this.share * (this.keepsSpeed ? MORE : LESS)));
   }
 
   /** A picture was begun then [ms]; `isDone()` tells whether the processor has drawn it. */
@@ -45,6 +54,7 @@ export class Pace {
     while (!isDone()) await this.wait(LOOK);
     const cost = this.clock() - begun;
     this.cost += (this.cost ? NEW : 1) * (cost - this.cost);
+    this.adapt();
     const share = this.clock() < this.hurriedUntil ? Math.max(HURRIED, this.share) : this.share;
     this.gap = Math.min(SLOWEST, this.cost / share);
     this.onPicture(this.gap);
