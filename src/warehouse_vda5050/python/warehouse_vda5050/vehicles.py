@@ -64,8 +64,11 @@ class Vehicles:
             if kiva_id not in self.links and self._grid:
                 self._add(kiva_id, self._grid)
             if kiva_id in self.links:
-                self._drivers[kiva_id].sighting = sighting
-                self.links[kiva_id].tick(now)
+                driver, link = self._drivers[kiva_id], self.links[kiva_id]
+                is_new = driver.sighting != sighting
+                driver.sighting = sighting
+                if is_new or not link.rests(now):
+                    link.tick(now)
 
     def _add(self, kiva_id: int, grid: Grid) -> None:
         settings = self._settings

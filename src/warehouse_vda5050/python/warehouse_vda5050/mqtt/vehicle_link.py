@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A vehicle at a broker: its own connection with its will, its messages in and out."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -13,6 +14,8 @@ from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import TO_VEHICLE, Identity, Kind, Topics
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.vehicle import Vehicle
+
+REST = 1.0  # at most between two ticks of a vehicle that rests [s]
 
 
 class VehicleLink:
@@ -35,14 +38,20 @@ class VehicleLink:
         self._codec, self._topics, self._tell = codec, topics, tell
         self._headers = Headers(identity, codec.version)
         self._online = self._connection(ConnectionState.ONLINE)
-        self._now = 0.0
+        self._now = -math.inf
+        self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
         wanted = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
         self.link = Link(name, broker, wanted, self._on_message, self._on_connect, self._make_will)
 
+    def rests(self, now: float) -> bool:
+        """Whether a tick would change nothing, as long as the robot reports the same."""
+        is_due = now >= min(self._now + REST, self.vehicle.next_state)
+        return not (self._called or self.vehicle.is_taken or is_due)
+
     def tick(self, now: float) -> None:
         """Lets the vehicle go on, and sends what it has to tell. now: any clock [s]."""
-        self._now = now
+        self._now, self._called = now, False
         self.vehicle.update(now)
         report = self.vehicle.report
         if report is not None and not report.heard:
@@ -87,11 +96,13 @@ class VehicleLink:
         return self._connection(ConnectionState.CONNECTIONBROKEN)
 
     def _on_connect(self) -> None:
+        self._called = True
         self.link.publish(self._online)
         self.vehicle.request_state()
         self.vehicle.request_factsheet()
 
     def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
+        self._called = True
         try:
             _, kind = self._topics.parse(topic)
             if retained:

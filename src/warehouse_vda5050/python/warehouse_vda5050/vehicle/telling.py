@@ -30,7 +30,7 @@ class Teller:
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
         self._told: State | None = None  # without what changes all the time
-        self._due = -math.inf  # when the next state is told, if nothing happens before
+        self.due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
         self._shown: Visualization | None = None
         self._shown_at = -math.inf
@@ -47,13 +47,13 @@ class Teller:
             return None
         state = self.state()
         lasting = _lasting(state)
-        due = now >= self._due
+        due = now >= self.due
         if lasting == self._told and not due and not self._requested:
             return None
         settings = self._vehicle.settings
         interval = min(settings.moving, settings.interval) if state.driving else settings.interval
         # A state that comes a little late does not delay the next.
-        self._due = interval + (self._due if due and now < self._due + interval else now)
+        self.due = interval + (self.due if due and now < self.due + interval else now)
         self._told, self._requested = lasting, False
         return state
 

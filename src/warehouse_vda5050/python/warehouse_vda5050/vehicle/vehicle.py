@@ -310,6 +310,11 @@ class Vehicle:
 
     # What goes out.
 
+    @property
+    def next_state(self) -> float:
+        """When the next state is due, if nothing happens before [s, as `now`]."""
+        return self._teller.due
+
     def take_state(self, now: float) -> State | None:
         """Returns the state if something happened or it is time for one."""
         return self._teller.take(now)
