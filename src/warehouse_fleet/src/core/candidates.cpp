@@ -13,7 +13,12 @@ constexpr int kFine = 16;
 }  // namespace
 
 Candidates::Candidates(const Floor& floor, const Edges& edges, int depth, int horizon)
-    : floor_(floor), edges_(edges), depth_(depth), horizon_(horizon), is_kept_(floor.size()), scratch_(1) {
+    : floor_(floor),
+      edges_(edges),
+      depth_(depth),
+      horizon_(horizon),
+      is_kept_(floor.size()),
+      scratch_(1) {
   operations_.emplace_back();
   for (int free = 1; free <= depth; ++free) {
     operations_.push_back(std::make_unique<Operations>(free));
@@ -38,12 +43,11 @@ const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
 }
 
 void Candidates::find(const std::vector<Wish>& wishes, const Threads& threads) {
-  constexpr int kWorth = 100;  // robots that are worth a thread
+  constexpr int kWorth = 100;        // robots that are worth a thread
   if (threads.count() == 1) return;  // each robot's when they are asked for
   scratch_.resize(std::max<std::size_t>(threads.count(), scratch_.size()));
-  threads.share(static_cast<int>(wishes.size()), kWorth, [&](int robot, int thread) {
-    find(robot, wishes[robot], scratch_[thread]);
-  });
+  threads.share(static_cast<int>(wishes.size()), kWorth,
+                [&](int robot, int thread) { find(robot, wishes[robot], scratch_[thread]); });
 }
 
 void Candidates::find(int robot, const Wish& wish, Scratch& scratch) {

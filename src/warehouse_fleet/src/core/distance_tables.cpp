@@ -9,7 +9,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kLeastSide = 16, kMostSide = 32;  // of a region
+constexpr int kLeastSide = 12, kMostSide = 32;  // of a region
 
 bool hasStorage(const Floor& floor) {
   for (Cell cell = 0; cell < floor.size(); ++cell) {
@@ -116,7 +116,7 @@ Cell DistanceTables::middleFor(Deck deck, Cell goal) const {
 }
 
 int DistanceTables::cells(Kind kind, Cell goal) const {
-  return kind == Kind::kNear ? around(floor_, goal, regions_->side()).size() : floor_.size();
+  return kind == Kind::kNear ? around(floor_, goal, reach()).size() : floor_.size();
 }
 
 DistanceTables::Entry* DistanceTables::create(Kind kind, Deck deck, Cell goal) {
@@ -171,7 +171,7 @@ const DistanceTable* DistanceTables::find(Deck deck, Cell from, Cell goal, bool 
 }
 
 bool DistanceTables::areNear(Cell one, Cell other) const {
-  const int reach = regions_ == nullptr ? floor_.size() : regions_->side();
+  const int reach = regions_ == nullptr ? floor_.size() : this->reach();
   return std::abs(floor_.x(one) - floor_.x(other)) <= reach &&
          std::abs(floor_.y(one) - floor_.y(other)) <= reach;
 }
@@ -187,14 +187,12 @@ void DistanceTables::renew(int max_age, std::int64_t work) {
 }
 
 /// Tables around goals are renewed with the far table that they add to.
-std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age,
-                                                                   std::int64_t work) {
+std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, std::int64_t work) {
   std::unordered_map<const Entry*, std::vector<Entry*>> near;
   std::vector<Entry*> old;
   for (Entry* entry : asked_) {
     if (entry->far != nullptr) near[entry->far].push_back(entry);
-    const bool is_young =
-        entry->table.version_ == version_ && now_ - entry->table.made_ < max_age;
+    const bool is_young = entry->table.version_ == version_ && now_ - entry->table.made_ < max_age;
     if (!is_young) old.push_back(entry);
   }
   const auto turn = [](const Entry* entry) {
@@ -213,7 +211,8 @@ std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age,
     if (is_chosen[entry]) continue;
     std::int64_t states = std::int64_t{cells(entry->kind, entry->goal)} * kHeadings;
     const std::vector<Entry*>& goals = near[entry];
-    for (const Entry* goal : goals) states += std::int64_t{cells(goal->kind, goal->goal)} * kHeadings;
+    for (const Entry* goal : goals)
+      states += std::int64_t{cells(goal->kind, goal->goal)} * kHeadings;
     if (!takesWork(states)) break;
     choose(entry);
     for (Entry* goal : goals) choose(goal);
@@ -249,12 +248,12 @@ void DistanceTables::search(Entry& entry, DistanceSearch& search) const {
   entry.is_made = true;
 }
 
-/// The cells around a goal, as part of the way that leads by the region's middle or not. A goal that
-/// can't be reached from there by a short way gets a table of all cells.
+/// The cells around a goal, as part of the way that leads by the region's middle or not. A goal
+/// that can't be reached from there by a short way gets a table of all cells.
 void DistanceTables::searchNear(Entry& entry, DistanceSearch& search) const {
   const DistanceTable& far = entry.far->table;
   const Cell middle = entry.far->goal;
-  const Window window = around(floor_, entry.goal, regions_->side());
+  const Window window = around(floor_, entry.goal, reach());
   search.run(entry.deck, entry.goal, window, false);
   int detour = 0;
   for (int heading = 0; heading < kHeadings; ++heading) {

@@ -90,8 +90,8 @@ class DistanceTables {
   /// Makes what was needed, on all threads.
   void make();
 
-  /// Returns the table for a robot in the cell `from`, perhaps an outdated one; nullptr if it is not
-  /// there. It is urgent to a robot that makes no progress.
+  /// Returns the table for a robot in the cell `from`, perhaps an outdated one; nullptr if it is
+  /// not there. It is urgent to a robot that makes no progress.
   const DistanceTable* find(Deck deck, Cell from, Cell goal, bool is_urgent);
 
   /// Renews some of the tables that were found in this step, of so many states: the urgent and the
@@ -101,8 +101,8 @@ class DistanceTables {
   /// Makes the tables of all regions ahead of need, as long as `goes_on` says so and there is room.
   void prepare(const std::function<bool()>& goes_on);
 
-  /// Writes the tables of regions; or reads them. Throws std::runtime_error that says what is wrong,
-  /// for example that they were made for another floor.
+  /// Writes the tables of regions; or reads them. Throws std::runtime_error that says what is
+  /// wrong, for example that they were made for another floor.
   void save(std::ostream& out) const;
   void load(std::istream& in);
 
@@ -119,12 +119,12 @@ class DistanceTables {
     Kind kind = Kind::kWhole;
     Deck deck = Deck::kUnder;
     Cell goal = kNowhere;
-    Entry* far = nullptr;    ///< of a near table
-    int far_made = -1;       ///< when that was made
+    Entry* far = nullptr;  ///< of a near table
+    int far_made = -1;     ///< when that was made
     std::size_t bytes = 0;
     bool is_made = false;
-    int needed = -1;         ///< when it was needed last
-    int asked = -1;          ///< when it was asked for last
+    int needed = -1;  ///< when it was needed last
+    int asked = -1;   ///< when it was asked for last
     bool is_urgent = false;
     std::list<Entry>::iterator self;
     DistanceTable table;
@@ -140,6 +140,9 @@ class DistanceTables {
   bool hasRoom(std::size_t bytes);
   bool takesWork(std::int64_t states);
   int cells(Kind kind, Cell goal) const;
+  /// How many columns and rows from its goal a table ends that has a far one: behind the middle of
+  /// its region, wherever that is.
+  int reach() const { return regions_->side() * 3 / 2; }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
   std::vector<Entry*> chooseOutdated(int max_age, std::int64_t work);

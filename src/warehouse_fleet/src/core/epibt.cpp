@@ -99,8 +99,8 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
   const Edges& edges = closures_->edges();
   tables_ = std::make_unique<DistanceTables>(
-      floor, edges,
-      TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to}, threads_);
+      floor, edges, TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to},
+      threads_);
   candidates_ = std::make_unique<Candidates>(floor, edges, options_.depth, options_.horizon);
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);

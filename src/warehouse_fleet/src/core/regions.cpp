@@ -58,7 +58,8 @@ void Regions::find(Deck deck) {
   std::vector<int> nearest(size(), std::numeric_limits<int>::max());
   for (const Cell cell : largestPart(floor_, deck)) {
     const int region = of(cell), half = side_ / 2;
-    const int away = std::abs(floor_.x(cell) % side_ - half) + std::abs(floor_.y(cell) % side_ - half);
+    const int away =
+        std::abs(floor_.x(cell) % side_ - half) + std::abs(floor_.y(cell) % side_ - half);
     const bool is_nearer =
         away < nearest[region] || (away == nearest[region] && cell < middles[region]);
     if (!is_nearer) continue;

@@ -17,9 +17,7 @@ class Regions {
 
   int side() const { return side_; }
   int size() const { return columns_ * rows_; }
-  int of(Cell cell) const {
-    return floor_.y(cell) / side_ * columns_ + floor_.x(cell) / side_;
-  }
+  int of(Cell cell) const { return floor_.y(cell) / side_ * columns_ + floor_.x(cell) / side_; }
   /// Returns the cell that stands for a region on a deck: the nearest to its middle of the deck's
   /// largest connected part, no lane among them; kNowhere.
   Cell middle(Deck deck, int region) const { return middles_[static_cast<int>(deck)][region]; }

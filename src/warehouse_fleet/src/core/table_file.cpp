@@ -89,8 +89,8 @@ void DistanceTables::load(std::istream& in) {
     get(in, &key, 1);
     const auto goal = static_cast<Cell>(key >> 2);
     const auto deck = static_cast<Deck>(key >> 1 & 1);
-    const bool is_middle = regions_ != nullptr && key >= 0 && key >> 2 < floor_.size() && (key & 1) != 0 &&
-                           regions_->middle(deck, regions_->of(goal)) == goal;
+    const bool is_middle = regions_ != nullptr && key >= 0 && key >> 2 < floor_.size() &&
+                           (key & 1) != 0 && regions_->middle(deck, regions_->of(goal)) == goal;
     if (!is_middle) {
       throw std::runtime_error("table " + std::to_string(i) + " has the key " +
                                std::to_string(key) + "; that of a region was expected");

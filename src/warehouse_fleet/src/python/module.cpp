@@ -225,8 +225,7 @@ computing time of the calling thread for the step [s]; 0: what the first plan ne
 improve the plan, -1: as many as seconds allow. Equal steps give equal plans with seconds=0 and a
 number of attempts, whatever the number of threads. Other threads of Python run meanwhile. FloorError without a plan.)")
       .def(
-          "prepare",
-          [](Started& started, double seconds) { started.planner->prepare(seconds); },
+          "prepare", [](Started& started, double seconds) { started.planner->prepare(seconds); },
           py::arg("seconds") = std::numeric_limits<double>::infinity(),
           py::call_guard<py::gil_scoped_release>(),
           R"(Makes what every plan on the floor needs, ahead of the first.
