@@ -137,9 +137,10 @@ test('a sign tells who queues, and from when on a person is wanted', () => {
   assert.deepEqual(signOf(0, { open: false, waiting: 0 }), { kind: 'sign', note: 'closed' });
 });
 
+const sign = (text, x, y, note = '', kind = 'sign') => ({ text, note, kind, pixel: [x, y] });
+const shown = (...signs) => apart(signs).map(({ text }) => text);
+
 test('of signs that would cover each other the first is shown, whatever it counts', () => {
-  const sign = (text, x, y, note = '', kind = 'sign') => ({ text, note, kind, pixel: [x, y] });
-  const shown = (...signs) => apart(signs).map(({ text }) => text);
   assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 40, 15), sign('pick3', 40, 30)), ['pick1', 'pick3']);
   assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 90, 0)), ['pick1', 'pick2']);
   assert.deepEqual(shown(sign('pick1', 0, 0, '12'), sign('pick2', 90, 0, '3')), ['pick1', 'pick2']);

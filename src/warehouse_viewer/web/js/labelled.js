@@ -31,10 +31,12 @@ export function labelled({ shown, activity }, view, wanted) {
 /** Of signs {text, kind, note, pixel [x, y]} those that lie over none before them; what a person has to
  *  know goes first. */
 export function apart(signs) {
-  const out = [], matters = ({ kind }) => Number(kind !== 'sign');
+  const out = [];
   for (const sign of [...signs].sort((a, b) => matters(b) - matters(a))) if (!out.some((other) => overlap(sign, other))) out.push(sign);
   return out;
 }
+
+const matters = ({ kind }) => Number(kind !== 'sign');
 
 function overlap(a, b) {
   const [dx, dy] = [0, 1].map((i) => Math.abs(a.pixel[i] - b.pixel[i]));
