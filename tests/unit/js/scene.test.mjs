@@ -78,6 +78,15 @@ test('what stands on a square of the floor is drawn again only when something th
   assert.ok(crowd.parts.slice(1).every(({ copies }) => copies[1].mesh.visible));
 });
 
+test('a square of the floor is seen as large as its nearest edge, whatever stands there', () => {
+  const view = viewFrom(21); // 500 px a metre at 1 m, 1 m above the floor
+  for (const reach of [8 * Math.SQRT2, 8 * Math.SQRT2 + 1]) {
+    assert.ok(Math.abs(view.scaleOfSquare(8, 8, 8, reach) - 500 / 20) < 1e-6); // beneath it
+    assert.ok(Math.abs(view.scaleOfSquare(23, 8, 8, reach) - 500 / 25) < 1e-6); // 15 m aside
+    assert.equal(view.scaleOfSquare(80, 0, 8, reach), 0); // out of sight
+  }
+});
+
 test('what was put down moves on until the backdrop takes it in, and is nowhere missing', () => {
   const { crowd, place, counts } = standing();
   const shows = (moved, settles) => {

@@ -20,12 +20,14 @@ from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 
 
 class Watch(Protocol):
-    """What is known of a warehouse beside its robots: names of stations where a person works, how
-    many collisions there were, and a WarehouseObjects."""
+    """What is known of a warehouse beside its robots."""
 
-    by_hand: Collection[str]
     collisions: int
-    objects: Any
+    objects: Any  # WarehouseObjects
+
+    @property
+    def by_hand(self) -> Collection[str]:
+        """The names of stations where a person works."""
 
 
 def follow_message(releases: Releases) -> FleetFollow:
