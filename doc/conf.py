@@ -28,6 +28,8 @@ breathe_default_project = "kiva"
 breathe_default_members = ("members",)
 cpp_id_attributes = []
 
+# Classes of two packages may have one name; an annotation leads to either.
+suppress_warnings = ["ref.python"]
 # Not in Debian; only annotations and base classes need them.
 autodoc_mock_imports = ["gymnasium", "pettingzoo", "networkx", "ray", "torch", "stable_baselines3"]
 autodoc_member_order = "bysource"

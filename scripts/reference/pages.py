@@ -20,7 +20,7 @@ FENCE = re.compile(r"^(```|~~~)", re.M)
 
 
 class Mirror:
-    """A folder of Sphinx's sources. What does not change keeps its time, so that Sphinx skips it."""
+    """A folder of Sphinx's sources. What does not change keeps its time: Sphinx skips it."""
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._written = folder / "doc", set()
@@ -51,7 +51,9 @@ class Mirror:
     def _drawing(self, number, dot):
         """Has graphviz draw a graph; returns the picture's path in doc/."""
         page = f"drawings/{number}.svg"
-        drawn = subprocess.run(["dot", "-Tsvg"], input=dot.encode(), check=True, capture_output=True)
+        drawn = subprocess.run(
+            ["dot", "-Tsvg"], input=dot.encode(), check=True, capture_output=True
+        )
         self._put(page, drawn.stdout)
         return page
 
@@ -70,7 +72,11 @@ class Mirror:
         """Removes what an earlier build wrote and this one has not."""
         kept = self._written | {self._folder / "doxygen.log"}
         for path in self._folder.rglob("*"):
-            if path.is_file() and path not in kept and "xml" not in path.relative_to(self._folder).parts:
+            if (
+                path.is_file()
+                and path not in kept
+                and "xml" not in path.relative_to(self._folder).parts
+            ):
                 path.unlink()
         for path in sorted(self._folder.rglob("*"), reverse=True):
             if path.is_dir() and not any(path.iterdir()):
@@ -110,7 +116,7 @@ def relinked(text, folder, page, download):
 
 
 def with_drawings(text, draw):
-    """Returns a page's text with a picture in place of each block in mermaid's or dot's language."""
+    """Returns a page's text with a picture in place of each block of mermaid or dot."""
     blocks = iter(range(1000))
     kept = re.sub(r"\W+", "-", text.splitlines()[0]).strip("-").lower() if text else ""
 
@@ -124,8 +130,10 @@ def with_drawings(text, draw):
 
 def dot_of(mermaid):
     """Returns a graph of mermaid's (`a["text"]`, `a --> b`) in graphviz's language."""
-    lines = ['digraph { rankdir=BT; bgcolor=transparent; node [shape=box, style="rounded,filled", '
-             'fillcolor="#e8eef7", fontname="sans-serif"];']
+    lines = [
+        'digraph { rankdir=BT; bgcolor=transparent; node [shape=box, style="rounded,filled", '
+        'fillcolor="#e8eef7", fontname="sans-serif"];'
+    ]
     for line in mermaid.splitlines()[1:]:
         for name, label in re.findall(r"(\w+)\[\"?([^\]\"]+)\"?\]", line):
             lines.append(f'{name} [label="{label.replace(", ", chr(92) + "n")}"];')

@@ -24,7 +24,7 @@ FOLDERS = (
 MISSING = """<!doctype html><html lang="en"><meta charset="utf-8">
 <title>Kiva warehouse: documentation</title>
 <link rel="stylesheet" href="/web/design.css"><main><h1>Documentation</h1>
-<p>It has not been built yet. Run <code>make docs</code> in the source tree, then reload this page.</p>
+<p>It is not built yet. Run <code>make docs</code> in the source tree, then reload this page.</p>
 <p><a href="/api/docs">The HTTP API</a> has a page of its own.</p></main></html>"""
 INLINE = re.compile(r"<script>(.*?)</script>", re.S)
 
@@ -66,7 +66,9 @@ def content_policy(page: str) -> str:
     Only these scripts run, by their hashes; styles may be inline, since the theme has its colours
     there.
     """
-    hashes = [base64.b64encode(hashlib.sha256(one.encode()).digest()) for one in INLINE.findall(page)]
+    hashes = [
+        base64.b64encode(hashlib.sha256(one.encode()).digest()) for one in INLINE.findall(page)
+    ]
     scripts = " ".join(f"'sha256-{one.decode()}'" for one in dict.fromkeys(hashes))
     return (
         "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
