@@ -348,6 +348,9 @@ def test_a_shift_is_simulated_recorded_and_served(tmp_path):
     assert sum(figures[-1]["fleet"]["work"].values()) == figures[-1]["fleet"]["robots"]["automatic"]
 
 
+FIRST_VIEW = 300_000  # of the page until something is to be seen, compressed [bytes]
+WEIGHT = """performance.getEntries().filter(({ name }) => !name.includes('/recording/'))
+  .reduce((sum, { encodedBodySize = 0 }) => sum + encodedBodySize, 0)"""
 WAYS = "document.getElementById('ways').checkVisibility()"
 
 
@@ -357,6 +360,7 @@ def faults_on_a_phone(url):
         page.be_phone()
         page.open(url)
         page.until("page.timeline.player.chunk && page.stage.frames")
+        assert 200_000 < page.read(WEIGHT) < FIRST_VIEW
         track = "document.getElementById('replay-track').getBoundingClientRect().toJSON()"
         box = page.read(track)
         at = lambda part: (box["left"] + part * box["width"], box["top"] + box["height"] / 2)  # noqa: E731
