@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a problem of the League of Robot Runners with a planner, tick by tick."""
 
+import math
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from warehouse_fleet import Fleet
+from warehouse_fleet.delays import Delays
 from warehouse_fleet.planner_plugins import ActionPlanner
 from warehouse_fleet.problem import Problem
 from warehouse_layout import Floor
@@ -21,7 +23,8 @@ class RoundRobin:
     """Gives task k to robot k mod robots, in the order of the file."""
 
     def __init__(self, problem: Problem) -> None:
-        self.tasks, self.robots = len(problem.tasks), len(problem.agents)
+        self.tasks = math.inf if problem.repeats else len(problem.tasks)
+        self.robots = len(problem.agents)
         self.next = np.arange(self.robots)
 
     def give(
@@ -89,6 +92,7 @@ class Lifelong:
         self.supply: RoundRobin | Nearest = (
             RoundRobin(problem) if problem.round_robin else Nearest(problem)
         )
+        self.delays = Delays(problem.delays, robots) if problem.delays else None
         self.tick = 0
         self.finished = 0
         self.actions: list[NDArray[np.uint8]] = []
@@ -100,7 +104,8 @@ class Lifelong:
     def step(self, seconds: float = 0.0, attempts: int = -1) -> None:
         """Plans and drives one tick, and hands out new tasks. `seconds` and `attempts` limit the
         planner, see ActionPlanner.plan. Raises PlanRefusedError."""
-        fleet = Fleet(self.cell, self.heading, self.goal)
+        stopped = self.delays.step() if self.delays else None
+        fleet = Fleet(self.cell, self.heading, self.goal, stopped=stopped)
         begin = time.thread_time()
         actions = self.planner.plan(fleet, seconds, attempts)[:, 0]
         self.seconds.append(time.thread_time() - begin)
@@ -114,7 +119,7 @@ class Lifelong:
         self._give()
 
     def _arrive(self, robot: int) -> None:
-        task, errands = self.task[robot], self.problem.tasks[self.task[robot]]
+        task, errands = self.task[robot], self.problem.errands(self.task[robot])
         self.errand[robot] += 1
         self.events.append([self.tick, robot, int(task), int(self.errand[robot])])
         if self.errand[robot] < len(errands):
@@ -127,7 +132,7 @@ class Lifelong:
         free = np.flatnonzero(self.task == NOWHERE)
         for robot, task in self.supply.give(free, self.cell):
             self.task[robot], self.errand[robot] = task, 0
-            self.goal[robot] = self.problem.tasks[task][0]
+            self.goal[robot] = self.problem.errands(task)[0]
             self.schedule[robot].append(f"{self.tick}:{task}")
 
     def result(self) -> dict[str, Any]:
@@ -158,7 +163,7 @@ class Lifelong:
         }
 
     def _errands(self, task: int, width: int) -> list[int]:
-        return [part for cell in self.problem.tasks[task] for part in divmod(cell, width)]
+        return [part for cell in self.problem.errands(task) for part in divmod(cell, width)]
 
 
 def floor_of(problem: Problem) -> Floor:

@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from warehouse_fleet.delays import DURATIONS, EVENTS, DelayModel
+
 PASSABLE, WALLS = ".ESG", "@TOW"  # the letters of a map
 
 
@@ -31,15 +33,22 @@ class Problem:
     tasks: list[list[int]]  # the locations of each task, to be visited in order
     round_robin: bool = False  # task k belongs to robot k mod robots
     reveal: float = 1.0  # tasks revealed at a time, as a multiple of the number of robots
+    repeats: bool = False  # after the last task comes the first one again
+    delays: DelayModel | None = None
     source: str = field(default="", repr=False)  # the path of its file
+
+    def errands(self, task: int) -> list[int]:
+        """Returns the locations of a task, to be visited in order."""
+        return self.tasks[task % len(self.tasks) if self.repeats else task]
 
 
 def read(path: str | PathLike[str]) -> Problem:
     """Reads a problem from a JSON file and the files that it names; raises ProblemError."""
     path = Path(path)
-    data = _json(path)
+    data = read_json(path)
     passable = read_map(path.parent / _field(path, data, "mapFile", str))
-    agents = _numbers(path.parent / _field(path, data, "agentFile", str), one_a_line=True)
+    agent_file = "robotFile" if "robotFile" in data and "agentFile" not in data else "agentFile"
+    agents = _numbers(path.parent / _field(path, data, agent_file, str), one_a_line=True)
     tasks = _numbers(path.parent / _field(path, data, "taskFile", str), one_a_line=False)
     robots = _field(path, data, "teamSize", int, len(agents.lines))
     if not 1 <= robots <= len(agents.lines):
@@ -48,9 +57,10 @@ def read(path: str | PathLike[str]) -> Problem:
             f"{agents.path}, was expected"
         )
     strategy = _field(path, data, "taskAssignmentStrategy", str, "greedy")
-    if strategy not in ("greedy", "roundrobin"):
+    if strategy not in ("greedy", "roundrobin", "roundrobin-fixed"):
         raise ProblemError(
-            f"{path}: taskAssignmentStrategy is '{strategy}'; roundrobin or greedy was expected"
+            f"{path}: taskAssignmentStrategy is '{strategy}'; roundrobin, roundrobin-fixed or "
+            "greedy was expected"
         )
     reveal = _field(path, data, "numTasksReveal", (int, float), 1)
     if not reveal > 0:
@@ -63,10 +73,40 @@ def read(path: str | PathLike[str]) -> Problem:
         passable,
         np.array([line[0] for _, line in agents.lines], np.int32),
         [line for _, line in tasks.lines],
-        strategy == "roundrobin",
+        strategy != "greedy",
         float(reveal),
+        strategy == "roundrobin",
+        _delays(path, data),
         str(path),
     )
+
+
+def _delays(path: Path, data: dict[str, Any]) -> DelayModel | None:
+    """Returns what the problems of 2026 call delayConfig; None if there is none."""
+    if "delayConfig" not in data:
+        return None
+    config = _field(path, data, "delayConfig", dict)
+    ticks = _field(path, data, "agentCounter", int, 1)
+    least, most = (_field(path, config, name, int) for name in ("minDelay", "maxDelay"))
+    chance = _field(path, config, "pDelay", (int, float))
+    events = _field(path, config, "eventModel", str, EVENTS[0])
+    durations = _field(path, config, "durationModel", str, DURATIONS[0])
+    mean = _field(path, config, "gaussMeanRatio", (int, float), 0.5)
+    deviation = _field(path, config, "gaussStdRatio", (int, float), 0.2)
+    for name, value, is_right, expected in (
+        ("agentCounter", ticks, ticks >= 1, "1 or more"),
+        ("minDelay", least, least >= 1, "1 or more"),
+        ("maxDelay", most, most >= least, f"at least minDelay, {least},"),
+        ("pDelay", chance, 0 <= chance <= 1, "0 to 1"),
+        ("eventModel", events, events in EVENTS, " or ".join(EVENTS)),
+        ("durationModel", durations, durations in DURATIONS, " or ".join(DURATIONS)),
+        ("gaussMeanRatio", mean, 0 <= mean <= 1, "0 to 1"),
+        ("gaussStdRatio", deviation, deviation >= 0, "0 or more"),
+    ):
+        if not is_right:
+            raise ProblemError(f"{path}: {name} is {value!r}; {expected} was expected")
+    seed = _field(path, config, "seed", int, 0)
+    return DelayModel(seed, least, most, events, chance, durations, mean, deviation, ticks)
 
 
 def read_map(path: str | PathLike[str]) -> NDArray[np.bool_]:
@@ -167,7 +207,8 @@ def _text(path: str | PathLike[str]) -> str:
         raise ProblemError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
 
 
-def _json(path: Path) -> dict[str, Any]:
+def read_json(path: Path) -> dict[str, Any]:
+    """Returns the JSON object in a file; raises ProblemError."""
     try:
         data = json.loads(_text(path))
     except json.JSONDecodeError as error:
@@ -192,7 +233,8 @@ def _field(
     if value is _MISSING:
         raise ProblemError(f"{path}: there is no '{name}'")
     if isinstance(value, bool) or not isinstance(value, kind):
-        expected = "a text" if kind is str else "a whole number" if kind is int else "a number"
+        names: dict[Any, str] = {str: "a text", int: "a whole number", dict: "an object"}
+        expected = names.get(kind, "a number")
         raise ProblemError(f"{path}: {name} is {json.dumps(value)}; {expected} was expected")
     return value
 

@@ -173,8 +173,11 @@ robot does not do what it is committed to. STOPPED: a robot that is stopped move
   module.def(
       "validate",
       [](const Floor& floor, const Fleet& fleet, const Array<std::uint8_t>& actions,
-         const Rules& rules,
-         int ticks) { return validate(floor, fleet, makePlan(actions), rules, ticks); },
+         const Rules& rules, int ticks) {
+        const Plan plan = makePlan(actions);
+        const py::gil_scoped_release release;
+        return validate(floor, fleet, plan, rules, ticks);
+      },
       py::arg("floor"), py::arg("fleet"), py::arg("actions"), py::arg("rules"),
       py::arg("ticks") = -1, R"(Returns all Violations in the first ticks of a plan.
 

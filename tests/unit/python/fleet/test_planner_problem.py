@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from paths import ROOT
 
-from warehouse_fleet import generator, problem
+from warehouse_fleet import Rules, delays, generator, problem, result_check
 
 PLAN = ROOT / "src/warehouse_fleet/nodes/plan"
 STEPS = {0: (0, 1), 1: (1, 0), 2: (0, -1), 3: (-1, 0)}  # east, south, west, north: row, column
@@ -170,7 +170,7 @@ def test_comments_and_letters_of_the_competition(made):
         (".json", lambda text: text.replace('"teamSize": 5', '"teamSize": 9'),
          "small.json: teamSize is 9; 1 to 5, the robots of"),
         (".json", lambda text: text.replace("roundrobin", "random"),
-         "taskAssignmentStrategy is 'random'; roundrobin or greedy was expected"),
+         "taskAssignmentStrategy is 'random'; roundrobin, roundrobin-fixed"),
         (".json", lambda text: text.replace("small.tasks", "gone.tasks"),
          "gone.tasks: No such file or directory"),
         (".map", lambda text: text.replace("width", "breadth"), "small.map:3: a line 'width …'"),
@@ -224,3 +224,131 @@ def test_interrupted_it_writes_what_it_has(made):
     _, errors = process.communicate(timeout=60)
     assert "interrupted after" in errors and "Traceback" not in errors
     assert len(json.loads(out.read_text())["start"]) == 60
+
+
+VALIDATE = ROOT / "src/warehouse_fleet/nodes/validate"
+
+
+def with_fields(path, **fields):
+    """Adds fields to the JSON file of a problem."""
+    path.write_text(json.dumps({**json.loads(path.read_text()), **fields}))
+    return path
+
+
+@pytest.fixture(scope="module")
+def solved(floor, tmp_path_factory):
+    """The path of a problem, and of its result."""
+    rng = np.random.default_rng(1)
+    agents = generator.starts(floor, 20, rng)
+    tasks = [[task] for task in generator.tasks(floor, 800, rng)]
+    folder = tmp_path_factory.mktemp("solved")
+    path = problem.write_problem(folder, "small", floor.walls(), agents, tasks)
+    planned(path)
+    return path, path.with_name("result.json")
+
+
+def test_validates_a_result(solved):
+    command = [sys.executable, VALIDATE, *solved, "--threads", "2"]
+    done = subprocess.run(command, capture_output=True, check=False, text=True)
+    assert done.stdout.startswith(f"valid: 20 robots, {STEPS_MADE} ticks, numTaskFinished ")
+    assert done.returncode == 0
+    assert result_check.check(problem.read(solved[0]), solved[1], Rules(rings=True), 1).faults == []
+
+
+@pytest.mark.parametrize(
+    "change,expected",
+    [
+        (lambda one: one.update(numTaskFinished=1), "numTaskFinished is 1; "),
+        (lambda one: one["start"].__setitem__(3, [0, 0, "E"]), "robot 3 starts at [0, 0, 'E']; "),
+        (lambda one: one["events"][0].__setitem__(0, 0), "tick 0: errand 1 of task"),
+        (lambda one: one["actualPaths"].__setitem__(2, "F" + ",F" * (STEPS_MADE - 1)), "tick "),
+        (lambda one: one["actualPaths"].__setitem__(2, "X"), "actualPaths[2] has 'X'; F, R, C"),
+        (lambda one: one["actualPaths"].__setitem__(2, "F"), "actualPaths[2] has 1 actions; "),
+        (lambda one: one["actualPaths"].pop(), "a path for each of 20 robots was expected"),
+    ],
+)  # fmt: skip
+def test_sees_what_is_wrong_with_a_result(solved, tmp_path, change, expected):
+    path, out = solved
+    result = json.loads(out.read_text())
+    change(result)
+    changed = tmp_path / "changed.json"
+    changed.write_text(json.dumps(result))
+    try:
+        faults = result_check.check(problem.read(path), changed, Rules(rings=True)).faults
+    except problem.ProblemError as error:
+        faults = [str(error)]
+    assert expected in faults[0]
+
+
+def test_tasks_of_2023_come_again(made):
+    path = made(6, tasks=[[0]] * 6)
+    assert problem.read(path).repeats
+    assert problem.read(path).errands(8) == [0]
+    assert not problem.read(with_fields(path, taskAssignmentStrategy="roundrobin-fixed")).repeats
+
+
+DELAYS = {
+    "seed": 3, "minDelay": 2, "maxDelay": 5, "eventModel": "bernoulli", "pDelay": 0.05,
+    "durationModel": "uniform",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("events", delays.EVENTS)
+@pytest.mark.parametrize("durations", delays.DURATIONS)
+def test_delays_are_as_long_and_as_frequent_as_asked(events, durations):
+    model = delays.DelayModel(1, 2, 8, events, 0.05, durations, action_ticks=1)
+    drawn = delays.Delays(model, 500)
+    stands = np.array([drawn.step() for _ in range(200)])
+    assert 0.17 < stands.mean() < 0.22  # 5 of every 5 + 19 ticks
+    starts = (stands[1:] & ~stands[:-1]).sum()
+    assert 4.5 < stands[1:].sum() / starts < 6.5  # some begin where another ends
+
+
+def test_delayed_robots_stand(made):
+    path = made(30)
+    free = planned(path)
+    result = planned(with_fields(path, delayConfig=DELAYS, agentCounter=1))
+    out = path.with_name("result.json")
+    assert result_check.check(problem.read(path), out, Rules(rings=True)).faults == []
+    assert 0 < result["numTaskFinished"] < free["numTaskFinished"]
+
+
+@pytest.mark.parametrize(
+    "fields,expected",
+    [
+        ({"delayConfig": {**DELAYS, "maxDelay": 1}}, "maxDelay is 1; at least minDelay, 2, was"),
+        ({"delayConfig": {**DELAYS, "eventModel": "never"}}, "eventModel is 'never'; bernoulli or"),
+        ({"delayConfig": 3}, "delayConfig is 3; an object was expected"),
+        ({"delayConfig": DELAYS, "agentCounter": 0}, "agentCounter is 0; 1 or more was expected"),
+    ],
+)
+def test_wrong_delays(made, fields, expected):
+    with pytest.raises(problem.ProblemError, match=expected):
+        problem.read(with_fields(made(5), **fields))
+
+
+def test_share_of_the_best_known(made):
+    path = made(100)
+    for name in ("MR23-I-04.json", "other.json"):
+        path.with_name(name).write_text(path.read_text())
+    path.unlink()
+    done = run(path.parent, "--steps", 20)
+    lines = done.stdout.splitlines()
+    assert lines[1].split()[:3] == ["MR23-I-04", "100", "20"]
+    assert lines[2].startswith("other") and lines[2].endswith("no result is known")
+    assert lines[3].startswith("share of the best known, mean of 1: ")
+
+
+def test_tables_are_kept_in_a_file(made):
+    path = made(10)
+    spec, file = path.with_name("small.yaml"), path.with_name("small.tables")
+    spec.write_text("options: {whole_up_to: 0}")
+    plans = [
+        planned(path, "--planner", spec, "--tables", file, "--threads", threads, "--attempts", 9)
+        for threads in (1, 2)
+    ]
+    assert plans[0]["actualPaths"] == plans[1]["actualPaths"]
+    file.write_text("something else")
+    done = run(path, "--steps", 5, "--planner", spec, "--tables", file)
+    assert done.returncode == 1
+    assert f"plan: {file}: 'something else'; 'distance tables, version 1: " in done.stderr
