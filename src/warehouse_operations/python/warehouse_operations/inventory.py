@@ -78,6 +78,7 @@ class Inventory:
         self._heirs: dict[int, str] = {}
         # Bins with room for a bundle of any size, by SKU.
         self.roomy: dict[str, int] = defaultdict(int)
+        self.room_changed: set[str] = set()  # SKUs whose number of those has changed
         self._roomy: set[int] = set()
         self._available: dict[str, int] = defaultdict(int)
         self._incoming: dict[str, int] = defaultdict(int)
@@ -206,9 +207,7 @@ class Inventory:
             self.move(one, one.sku, -one.quantity, Reason.GONE)
         self.capacity -= one.capacity
         self._kept_for[one.sku] -= 1
-        if one.bin_id in self._roomy:
-            self._roomy.discard(one.bin_id)
-            self.roomy[one.sku] -= 1
+        self._forget_room(one)
         self.empty.pop(one.bin_id, None)
         del self.bins[one.bin_id]
         self.of_unit[one.unit].remove(one)
@@ -229,9 +228,8 @@ class Inventory:
 
     def _rename(self, one: Bin, sku: str) -> None:
         """Assigns another SKU to an empty bin."""
-        if one.sku != sku and one.bin_id in self._roomy:
-            self._roomy.discard(one.bin_id)
-            self.roomy[one.sku] -= 1
+        if one.sku != sku:
+            self._forget_room(one)
         if one.sku != sku and not self._heirs.pop(one.bin_id, ""):
             self._keep_for(one, sku)
         one.sku = sku
@@ -245,6 +243,15 @@ class Inventory:
             self.empty[one.bin_id] = one
         else:
             self.empty.pop(one.bin_id, None)
-        if (one.room >= ROOMY) != (one.bin_id in self._roomy):
-            self.roomy[one.sku] += 1 if one.room >= ROOMY else -1
-            self._roomy ^= {one.bin_id}
+        if one.room < ROOMY:
+            self._forget_room(one)
+        elif one.bin_id not in self._roomy:
+            self._roomy.add(one.bin_id)
+            self.roomy[one.sku] += 1
+            self.room_changed.add(one.sku)
+
+    def _forget_room(self, one: Bin) -> None:
+        if one.bin_id in self._roomy:
+            self._roomy.discard(one.bin_id)
+            self.roomy[one.sku] -= 1
+            self.room_changed.add(one.sku)

@@ -27,6 +27,7 @@ class Replenishing:
         self.bundles: dict[int, Bundle] = {}  # those without a bin yet, by id
         self.ordered = 0  # pieces in them
         self.ordered_of: dict[str, int] = {}  # pieces in them, by SKU
+        self.changed: set[str] = set()  # SKUs of which that has changed
         self._count = 0
         self._look = True
 
@@ -110,6 +111,7 @@ class Replenishing:
     def _ordered(self, sku: str, quantity: int) -> None:
         self.ordered += quantity
         self.ordered_of[sku] = self.ordered_of.get(sku, 0) + quantity
+        self.changed.add(sku)
 
     # At the station.
 

@@ -33,6 +33,8 @@ class View:
         self._turnover_rank: dict[int, float] = {}
         self._ranked_at = -np.inf
         self._popularity_rank = _ranks_of(shift.assortment)
+        self._sku_index = {sku: i for i, sku in enumerate(shift.assortment.skus)}
+        self._refill_weights = np.zeros(len(self._sku_index))
 
     @property
     def now(self) -> float:
@@ -97,13 +99,13 @@ class View:
 
     def sku_to_refill(self) -> str | None:
         """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""
-        weights = np.array(
-            [
-                max(self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8, 0)
-                for sku in self.assortment.skus
-            ]
-        )
-        sums = np.cumsum(weights)
+        changed = self.inventory.room_changed | self._shift.replenishing.changed
+        self.inventory.room_changed.clear()
+        self._shift.replenishing.changed.clear()
+        for sku in changed & self._sku_index.keys():
+            room = self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8
+            self._refill_weights[self._sku_index[sku]] = max(room, 0)
+        sums = np.cumsum(self._refill_weights)
         if not sums[-1] > 0:
             return None
         at = np.searchsorted(sums, self.rng.random() * sums[-1], side="right")

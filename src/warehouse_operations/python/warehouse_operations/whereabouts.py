@@ -34,8 +34,9 @@ class Whereabouts:
         """Returns the time [s] from a unit's place to a station's service cell; inf while it is
         carried."""
         cell = self.cells.get(unit)
-        table = self._travel.loaded_to(self._service[station])
-        return float(table.seconds[cell]) if cell is not None else float("inf")
+        if cell is None:
+            return float("inf")
+        return self._travel.seconds_from(cell, self._service[station])
 
     def apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
         """Returns the metres along the axes between a cell and others, (n,)."""
