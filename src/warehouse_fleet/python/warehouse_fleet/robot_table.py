@@ -2,7 +2,7 @@
 """What robots report, and what is known of each: arrays with one element for each robot."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -35,7 +35,7 @@ REPORT = np.dtype(
 
 
 # Reports by column: an array of REPORT, or its columns by name.
-Reports = np.ndarray | Mapping[str, np.ndarray]
+Reports: TypeAlias = "np.ndarray | Mapping[str, np.ndarray]"
 
 
 def columns_of(fleet: Any) -> dict[str, np.ndarray]:

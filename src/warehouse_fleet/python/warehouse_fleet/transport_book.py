@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The records of transports: what was asked for, how far each is, and which events that caused."""
 
+import bisect
 import collections
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -56,7 +57,7 @@ class Step(IntEnum):
 OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING, STORING, DROPPING = Step
 
 
-@dataclass
+@dataclass(eq=False)
 class Transport:
     """One transport; cells are the floor's, times simulated [s]."""
 
@@ -151,8 +152,12 @@ class TransportBook:
 
     def enqueue(self, transport: Transport) -> None:
         """Adds a transport to those without a robot."""
-        self.open.append(transport)
-        self.sort_open()
+        bisect.insort(self.open, transport, key=_urgency)
+
+    def _dequeue(self, transport: Transport) -> None:
+        at = bisect.bisect_left(self.open, _urgency(transport), key=_urgency)
+        if at < len(self.open) and self.open[at] is transport:
+            del self.open[at]
 
     def sort_open(self) -> None:
         """Sorts the transports without a robot by priority, then by number."""
@@ -160,7 +165,7 @@ class TransportBook:
 
     def assign(self, transport: Transport, robot: int, time: float) -> None:
         """Gives an open transport to a robot, which fetches the unit."""
-        self.open.remove(transport)
+        self._dequeue(transport)
         self.hand_over(transport, robot)
         self.go_on(transport, FETCHING, time)
         self.fetched[transport.station] += 1
@@ -211,8 +216,8 @@ class TransportBook:
         """Removes a transport that is over."""
         if transport.step in (FETCHING, READY):
             self.fetched[transport.station] -= 1
-        if transport.robot == NOWHERE and transport in self.open:
-            self.open.remove(transport)
+        if transport.robot == NOWHERE:
+            self._dequeue(transport)
         self._leave_robot(transport)
         if self.of_unit.get(transport.shelf) is transport:
             del self.of_unit[transport.shelf]

@@ -74,7 +74,9 @@ class Transports:
         self.park: Callable[[int], int | None] = lambda _robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
-        self._queue_of = np.full(plan.passable.size, NOWHERE, np.int32)  # a station's index, by cell
+        self._queue_of = np.full(
+            plan.passable.size, NOWHERE, np.int32
+        )  # a station's index, by cell
         for i, one in enumerate(plan.stations):
             self._queue_of[one.queue] = i
         self.left_out: frozenset[str] = frozenset()  # stations that no robot can reach

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.robot_table import NOWHERE
 
 if TYPE_CHECKING:

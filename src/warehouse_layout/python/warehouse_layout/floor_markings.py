@@ -105,9 +105,10 @@ def models_of(plan: FloorPlan) -> Iterator[tuple[str, str]]:
     part: list[tuple[str, list[Rectangle]]] = []
     room, numbers = MOST_MARKS, count(1)
     for label, cells in _painted(plan):
-        is_lane = label.count("/") == 2  # whose cells belong together
+        is_lane = label.count("/") == 2
         for piece in [cells] if is_lane else _pieces(cells):
-            if len(piece) > room:
+            # All parts of a lane are of one model.
+            if len(piece) > room and not (is_lane and part and not label.endswith(QUEUE)):
                 yield (name := f"{NAME}{next(numbers)}"), _model(name, plan, part)
                 part, room = [], MOST_MARKS
             part.append((label, piece))

@@ -54,12 +54,14 @@ class Replenishing:
             return
         self._look = False
         limit = -(-self.shift.units_per_station // 2)  # their units have more work with them
-        stations = [s for s in self.stations if s.is_open and _coming(s) < limit]
-        while self.bundles and stations:
-            station = min(stations, key=_coming)
+        coming = {s: n for s in self.stations if s.is_open and (n := _coming(s)) < limit}
+        while self.bundles and coming:
+            station = min(coming, key=coming.__getitem__)
             if not self._fetch(station):
                 return
-            stations = [s for s in stations if _coming(s) < limit]
+            coming[station] += 1
+            if coming[station] >= limit:
+                del coming[station]
 
     def _fetch(self, station: WorkStation) -> bool:
         for bundle in islice(self.bundles.values(), LOOK_AHEAD):

@@ -16,7 +16,9 @@ from warehouse_layout.floor_plan import FloorPlan
 
 HEADINGS = 4
 TABLES = 400  # kept at most, the least recently used is dropped
-PLACE_TABLES = 4000  # likewise, of storage places alone: a thousand on a floor of fifty thousand cells
+PLACE_TABLES = (
+    4000  # likewise, of storage places alone: a thousand on a floor of fifty thousand cells
+)
 
 
 class Table:
@@ -65,13 +67,14 @@ class Travel:
         metres = self._of_storage(int(cell), True, lambda table: table.metres)
         return metres[self._place[places]]
 
-    def seconds_from(self, start: int, cell: int) -> float:
-        """Returns how long a loaded robot takes to a cell from another, most often a storage place
-        [s]."""
-        place = int(self._place[start])
-        if place < 0:
-            return float(self.loaded_to(cell).seconds[start])
-        return float(self._of_storage(cell, False, lambda table: table.seconds)[place])
+    def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
+        """Returns how long a loaded robot takes to a cell from others, most often storage places,
+        (n,) [s]; anything where there is none."""
+        places = self._place[starts]
+        seconds = self._of_storage(cell, False, lambda table: table.seconds)[places]
+        if (off := (places < 0) & (starts >= 0)).any():
+            seconds[off] = self.loaded_to(cell).seconds[starts[off]]
+        return seconds
 
     def _of_storage(
         self, cell: int, forward: bool, column: Callable[[Table], np.ndarray]

@@ -82,7 +82,10 @@ class View:
         A line of more than a bin may hold is begun with a bin's worth: room must be made for more.
         """
         available = self.inventory.available
-        return all(available(ln.sku) >= min(ln.missing, CAPACITY) for ln in order.lines)
+        for line in order.lines:
+            if available(line.sku) < min(line.missing, CAPACITY):
+                return False
+        return True
 
     def stock_of(self, sku: str) -> int:
         """Returns how many pieces of a SKU are expected, or in bins and promised to no order."""
@@ -90,8 +93,12 @@ class View:
 
     def work(self, unit: int) -> int:
         """Returns how many free pieces on a unit the orders of the backlog ask for."""
-        demand = self.backlog.demand
-        return sum(min(b.available, demand.get(b.sku, 0)) for b in self.inventory.of_unit[unit])
+        demand, pieces = self.backlog.demand, 0
+        for one in self.inventory.of_unit[unit]:
+            wanted = demand.get(one.sku)
+            if wanted:
+                pieces += min(one.quantity - one.reserved, wanted)
+        return pieces
 
     def room(self, unit: int) -> int:
         """Returns how many pieces can be put into a unit's bins."""
@@ -124,6 +131,10 @@ class View:
     def seconds_to(self, station: str, unit: int) -> float:
         """Returns how long a unit takes to a station without traffic [s]; inf if it is carried."""
         return self.floor.seconds_to(station, unit)
+
+    def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
+        """Returns the same of units, (n,) [s]."""
+        return self.floor.seconds_to_all(station, units)
 
     def cell(self, unit: int) -> int | None:
         """Returns the cell where a unit stands; None while it is carried."""

@@ -64,8 +64,14 @@ def test_more_stations_are_refused(counts, words):
         ({"items": -2, "shelves": 4}, "items is -2.*negative"),
         ({"shelves": -3, "robots": 4}, "shelves is -3.*negative"),
         ({"robots": LIMITS["robots"] + 1}, "robots is 20001; the limit is 20000: larger fleets"),
-        ({"shelves": LIMITS["shelves"] + 1}, "shelves is 100001; the limit is 100000: larger floors"),
-        ({"items": LIMITS["items"] + 1, "shelves": 9}, "items is 500001; the limit is 500000: more were never"),
+        (
+            {"shelves": LIMITS["shelves"] + 1},
+            "shelves is 100001; the limit is 100000: larger floors",
+        ),
+        (
+            {"items": LIMITS["items"] + 1, "shelves": 9},
+            "items is 500001; the limit is 500000: more were never",
+        ),
         ({"items": 1, "robots": 1}, "1 items, but no shelves"),
         ({"items": 2 * CAPACITY + 1, "shelves": 2}, "don't fit on 2 shelves.*so 3 shelves"),
     ],
