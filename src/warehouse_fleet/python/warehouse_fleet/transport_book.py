@@ -103,10 +103,12 @@ class TransportBook:
     Numbers begin after `last`.
 
     Arrays by robot, (n,): `step_of` (the Step of its transport; NOWHERE: it has none), `place_of`
-    (the storage cell that is kept for its unit), `station_of` (an index into `stations`). `open`:
-    those without a robot, the most urgent first. `ready`: those at step READY, in the order
-    in which they came to it. `released`: those at step WAITING that may leave. `inbound` counts lifted units by the station they go to or are at,
-    `fetched` those whose robot is on its way to the unit.
+    (the storage cell that is kept for its unit), `station_of` (an index into `stations`).
+
+    `open`: those without a robot, the most urgent first. `ready`: those at step READY, in the order
+    in which they came to it. `released`: those at step WAITING that may leave. `inbound` counts
+    lifted units by the station they go to or are at, `fetched` those whose robot is on its way to
+    the unit.
     """
 
     def __init__(self, robots: int, last: int = 0, stations: Iterable[str] = ()) -> None:

@@ -138,7 +138,8 @@ def include(kind: str, number: int, x: float, y: float, z: float = 0.0, yaw: flo
 
 def documents(parts: Iterable[Part]) -> Iterator[str]:
     """Yields SDF texts with all the Parts, none longer than the world reads."""
-    batch, size = [], 0
+    batch: list[Part] = []
+    size = 0
     for part in parts:
         if batch and size + len(part.xml) > MOST_CHARACTERS:
             yield document(batch)

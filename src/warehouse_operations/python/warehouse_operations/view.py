@@ -82,10 +82,7 @@ class View:
         A line of more than a bin may hold is begun with a bin's worth: room must be made for more.
         """
         available = self.inventory.available
-        for line in order.lines:
-            if available(line.sku) < min(line.missing, CAPACITY):
-                return False
-        return True
+        return all(available(ln.sku) >= min(ln.missing, CAPACITY) for ln in order.lines)
 
     def stock_of(self, sku: str) -> int:
         """Returns how many pieces of a SKU are expected, or in bins and promised to no order."""
