@@ -39,9 +39,12 @@ autodoc_class_signature = "mixed"
 
 def plain(app, what, name, obj, options, lines):
     """Turns a docstring, which is prose with `names` and indented blocks, into reStructuredText."""
-    out, block = [], False
+    out, block, listed = [], False, False
     for line in lines:
-        indented = line.startswith("   ") or (block and not line.strip())
+        if line.startswith("  ") and not block and listed:
+            line = line.strip()  # of an item, which goes on
+        listed = line.startswith("- ") or (listed and bool(line.strip()))
+        indented = line.startswith(" ") or (block and not line.strip())
         if indented and not block:
             out += ["", "::", ""]
         elif block and not indented:
