@@ -15,12 +15,14 @@ from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.message_enums import EventKind
 from warehouse_fleet.people import PeopleLog, people_in
-from warehouse_fleet.robot_table import reports_of
+from warehouse_fleet.robot_table import columns_of
 from warehouse_fleet.towing import TowOrder
 from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 
 UPDATE = 0.1  # between two ticks [s]
+FELL, PICKED_UP = int(EventKind.FELL), int(EventKind.PICKED_UP)
+COLLISION, REFUSED = int(EventKind.COLLISION), int(EventKind.REFUSED)
 
 
 def square(yaw: float) -> float:
@@ -33,8 +35,8 @@ class FleetDriver:
 
     The same world, seed and requests give the same run. Events of the world go to `events` as well,
     if that is a list. Robots that are lost, or broken in others' way, are towed `tow_after` [s]
-    later; None: when tow() is called. `collisions` counts, `refusals` are texts, `fallen` the items
-    on the floor; `failures` and `people` sum up what those cost.
+    later; None: when tow() is called. `threads`: see PlanLoop. `collisions` counts, `refusals` are
+    texts, `fallen` the items on the floor; `failures` and `people` sum up what those cost.
     """
 
     def __init__(
@@ -44,12 +46,19 @@ class FleetDriver:
         planner: Any = None,
         kinematics: Kinematics | None = None,
         tow_after: float | None = None,
+        threads: int = 0,
     ) -> None:
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.controller = FleetController(
-            self.plan, world.fleet.kiva_id, kinematics, seed, planner, tow_after=tow_after
+            self.plan,
+            world.fleet.kiva_id,
+            kinematics,
+            seed,
+            planner,
+            tow_after=tow_after,
+            threads=threads,
         )
         self.traffic, self.transports = self.controller.traffic, self.controller.transports
         self.robots = self.controller.robots
@@ -86,7 +95,7 @@ class FleetDriver:
     def _observe(self, refused: list[str]) -> Observation:
         time, reports, people = (
             self.world.time,
-            reports_of(heard(self.world)),
+            columns_of(heard(self.world)),
             people_in(self.world),
         )
         self.failures.update(time, reports["failures"])
@@ -136,10 +145,13 @@ class FleetDriver:
             return []
         kinds = events["kind"]
         self.failures.note(kinds)
-        if np.isin(kinds, (EventKind.FELL, EventKind.PICKED_UP)).any():
+        counts = np.bincount(kinds, minlength=len(EventKind)).tolist()
+        if counts[FELL] or counts[PICKED_UP]:
             self.fallen = self.world.fallen_items["item_id"]
-        self.collisions += int(np.count_nonzero(kinds == EventKind.COLLISION))
-        refused = events[kinds == EventKind.REFUSED]
+        self.collisions += counts[COLLISION]
+        if not counts[REFUSED]:
+            return []
+        refused = events[kinds == REFUSED]
         self.refusals += [f"{event['model']}: {event['text']}" for event in refused]
         return [event["model"] for event in refused]
 
