@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from warehouse_fleet.league_plan import LeaguePlan
 from warehouse_fleet.problem import ProblemError
-from warehouse_fleet.ring_breaking import NOBODY, Move, RingBreaker, rings_of
+from warehouse_fleet.ring_breaking import NO_ROBOT, Move, RingBreaker, rings_of
 
 
 @dataclass
@@ -66,7 +66,7 @@ def _break_rings(
     """Takes the rings out of `moving`, (robots, ticks); returns how many there were, and the moves
     instead of them, a list a tick."""
     breaker, rings = RingBreaker(plan.passable), 0
-    at = np.full(plan.passable.size, NOBODY)
+    at = np.full(plan.passable.size, NO_ROBOT)
     robots = np.arange(len(locations))
     instead: list[list[Move]] = []
     for tick in range(plan.ticks):
@@ -81,7 +81,7 @@ def _break_rings(
             at[after[ring]] = ring
             moving[ring, tick] = False
             rings += 1
-        at[before] = NOBODY
+        at[before] = NO_ROBOT
     return rings, instead
 
 

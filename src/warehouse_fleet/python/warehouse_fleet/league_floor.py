@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lays out the floor of a League plan as a warehouse: robots at their starts, obstacles as walls."""
+"""Lays out a League plan's floor as a warehouse: robots at their starts, obstacles as walls."""
 
 from dataclasses import replace
 

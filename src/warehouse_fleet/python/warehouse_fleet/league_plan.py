@@ -5,22 +5,21 @@ A location is row * width + column. Rows count downwards, headings quarter turns
 clockwise.
 """
 
+import json
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from warehouse_fleet._core import Fleet, Rules, validate
 from warehouse_fleet.problem import Problem, ProblemError, read, read_map
-from warehouse_fleet.problem import _field as field_of  # noqa: PLC2701
-from warehouse_fleet.problem import _json as json_of  # noqa: PLC2701
 from warehouse_layout import Floor
 
-LETTERS = "WFRC"  # by Action
-COMPASS = "ESWN"  # by heading
+ACTIONS = {"W": 0, "F": 1, "R": 2, "C": 3}  # rows count downwards, so R is Action's positive turn
+HEADINGS = {"E": 0, "S": 1, "W": 2, "N": 3}
 
 
 @dataclass
@@ -54,106 +53,123 @@ def read_plan(path: str | PathLike[str], floor: str | PathLike[str], ticks: int 
 
     ticks: so many of the plan, from its begin; 0: all.
     """
-    data = json_of(Path(path))
-    problem, passable = _floor_of(Path(floor))
-    actions = _actions(path, data)[:, : ticks or None]
-    start, heading = _starts(path, data, passable.shape, len(actions), problem)
-    plan = LeaguePlan(passable, start, heading, actions, str(path))
-    _check(plan)
+    floor = Path(floor)
+    problem = None if floor.suffix == ".map" else read(floor)
+    passable = read_map(floor) if problem is None else problem.passable
+    result = _Result(Path(path))
+    actions = result.actions()
+    start, heading = result.starts(len(actions), passable, problem)
+    plan = LeaguePlan(passable, start, heading, actions[:, : ticks or None], str(path))
+    _check_conflicts(plan)
     return plan
 
 
-def _floor_of(path: Path) -> tuple[Problem | None, NDArray[np.bool_]]:
-    if path.suffix == ".map":
-        return None, read_map(path)
-    problem = read(path)
-    return problem, problem.passable
+class _Result:
+    """The fields of a result's file; each method raises ProblemError."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._data = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError) as error:
+            self._fail(getattr(error, "strerror", None) or str(error))
+        except json.JSONDecodeError as error:
+            raise ProblemError(f"{path}:{error.lineno}: {error.msg}; JSON was expected") from error
+        if not isinstance(self._data, dict):
+            self._fail("a JSON object was expected")
+
+    def _fail(self, text: str) -> NoReturn:
+        raise ProblemError(f"{self._path}: {text}")
+
+    def _list(self, name: str) -> list[Any]:
+        if name not in self._data:
+            self._fail(f"there is no '{name}'; a result of a planner was expected")
+        value = self._data[name]
+        if not isinstance(value, list) or not value:
+            self._fail(f"{name} is {_short(value)}; a list with an entry a robot was expected")
+        return value
+
+    def actions(self) -> NDArray[np.uint8]:
+        """Returns the actions (robots, ticks); robots whose part is shorter wait at its end."""
+        texts = self._list("actualPaths")
+        robots = self._data.get("teamSize", len(texts))
+        if robots != len(texts):
+            self._fail(f"teamSize is {_short(robots)}; actualPaths has {len(texts)} robots")
+        rows = [self._row(robot, text) for robot, text in enumerate(texts)]
+        actions = np.zeros((len(rows), max(map(len, rows))), np.uint8)
+        for robot, row in enumerate(rows):
+            actions[robot, : len(row)] = row
+        if not actions.size:
+            self._fail("actualPaths has no ticks; texts such as 'F,R,C,W' were expected")
+        return actions
+
+    def _row(self, robot: int, text: Any) -> list[int]:
+        """Returns the actions of a text such as "F,R,W"."""
+        where = f"actualPaths[{robot}]"
+        if not isinstance(text, str):
+            self._fail(f"{where} is {_short(text)}; a text such as 'F,R,C,W' was expected")
+        letters = text.split(",") if text else []
+        for tick, letter in enumerate(letters):
+            if letter not in ACTIONS:
+                self._fail(f"{where}: {_short(letter)} at tick {tick}; F, R, C or W was expected")
+        return [ACTIONS[letter] for letter in letters]
+
+    def starts(
+        self, robots: int, passable: NDArray[np.bool_], problem: Problem | None
+    ) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+        """Returns locations and headings at the start; they must be those of the problem."""
+        entries = self._list("start")
+        if len(entries) != robots:
+            self._fail(f"start has {len(entries)} robots; actualPaths has {robots}")
+        start, heading = zip(*(self._start(i, one, passable) for i, one in enumerate(entries)))
+        first: dict[int, int] = {}
+        for robot, location in enumerate(start):
+            if first.setdefault(location, robot) != robot:
+                self._fail(f"start[{robot}] is where start[{first[location]}] is")
+        if problem is not None:
+            self._check_agents(start, problem)
+        return np.array(start, np.int32), np.array(heading, np.uint8)
+
+    def _check_agents(self, start: tuple[int, ...], problem: Problem) -> None:
+        agents = problem.agents.tolist()
+        if len(agents) != len(start):
+            self._fail(f"start has {len(start)} robots; {problem.source} has {len(agents)}")
+        for robot, (here, there) in enumerate(zip(start, agents)):
+            if here != there:
+                columns = problem.passable.shape[1]
+                self._fail(
+                    f"start[{robot}] is row {here // columns}, column {here % columns}; in "
+                    f"{problem.source} it is row {there // columns}, column {there % columns}"
+                )
+
+    def _start(self, robot: int, entry: Any, passable: NDArray[np.bool_]) -> tuple[int, int]:
+        """Returns the location and the heading of an entry [row, column, letter]."""
+        rows, columns = passable.shape
+        match entry:
+            case [int(row), int(column), "E" | "S" | "W" | "N" as letter] if (
+                0 <= row < rows and 0 <= column < columns
+            ):
+                is_free = passable[row, column]
+            case _:
+                self._fail(
+                    f"start[{robot}] is {_short(entry)}; [row, column, E, S, W or N] on a map of "
+                    f"{rows} rows and {columns} columns was expected"
+                )
+        if not is_free:
+            self._fail(f"start[{robot}] is {_short(entry)}, which is a wall of the map")
+        return row * columns + column, HEADINGS[letter]
 
 
-def _actions(path: str | PathLike[str], data: dict[str, Any]) -> NDArray[np.uint8]:
-    """Returns the actions (robots, ticks); robots whose part is shorter wait at its end."""
-    paths = field_of(Path(path), data, "actualPaths", list)
-    rows = [_row(path, robot, text) for robot, text in enumerate(paths)]
-    if not rows:
-        raise ProblemError(f"{path}: actualPaths is empty; a text for each robot was expected")
-    actions = np.zeros((len(rows), max(map(len, rows))), np.uint8)
-    for robot, row in enumerate(rows):
-        actions[robot, : len(row)] = row
-    return actions
+def _short(value: Any) -> str:
+    """Returns a value as JSON, cut where it is long."""
+    text = json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
 
 
-def _row(path: str | PathLike[str], robot: int, text: Any) -> NDArray[np.uint8]:
-    """Returns the actions of a text such as "F,R,W"."""
-    where = f"{path}: actualPaths[{robot}]"
-    if not isinstance(text, str):
-        raise ProblemError(f"{where} is {text!r:.40}; a text as 'F,R,C,W' was expected")
-    letters = text.split(",") if text else []
-    wrong = next((i for i, one in enumerate(letters) if one not in LETTERS or not one), None)
-    if wrong is not None:
-        raise ProblemError(
-            f"{where}: '{letters[wrong]:.20}' at tick {wrong}; one of F, R, C, W was expected"
-        )
-    return np.array([LETTERS.index(one) for one in letters], np.uint8)
-
-
-def _starts(
-    path: str | PathLike[str],
-    data: dict[str, Any],
-    shape: tuple[int, ...],
-    robots: int,
-    problem: Problem | None,
-) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
-    """Returns locations and headings at the start: the plan's, else those of its problem."""
-    size = field_of(Path(path), data, "teamSize", int, robots)
-    if size != robots:
-        raise ProblemError(f"{path}: teamSize is {size}; actualPaths has {robots} robots")
-    if "start" not in data and problem is not None:
-        if len(problem.agents) != robots:
-            raise ProblemError(
-                f"{path}: actualPaths has {robots} robots; "
-                f"{problem.source} has {len(problem.agents)}"
-            )
-        return problem.agents, np.zeros(robots, np.uint8)
-    entries = field_of(Path(path), data, "start", list)
-    if len(entries) != robots:
-        raise ProblemError(f"{path}: start has {len(entries)} robots; actualPaths has {robots}")
-    found = [_start(path, robot, entry, shape) for robot, entry in enumerate(entries)]
-    locations, headings = zip(*found)
-    if problem is not None and not np.array_equal(problem.agents[:robots], locations):
-        robot = int(np.flatnonzero(np.not_equal(problem.agents[:robots], locations[: len(problem.agents)]))[0])
-        raise ProblemError(f"{path}: start[{robot}] is {entries[robot]}; {problem.source} has another")
-    return np.array(locations, np.int32), np.array(headings, np.uint8)
-
-
-def _start(
-    path: str | PathLike[str], robot: int, entry: Any, shape: tuple[int, ...]
-) -> tuple[int, int]:
-    """Returns the location and the heading of an entry [row, column, letter]."""
-    is_right = (
-        isinstance(entry, list)
-        and len(entry) == 3
-        and all(type(value) is int and 0 <= value < most for value, most in zip(entry, shape))
-        and isinstance(entry[2], str)
-        and entry[2] in COMPASS
-        and len(entry[2]) == 1
-    )
-    if not is_right:
-        raise ProblemError(
-            f"{path}: start[{robot}] is {entry!r:.60}; [row, column, E, S, W or N] on a map of "
-            f"{shape[0]} rows and {shape[1]} columns was expected"
-        )
-    return entry[0] * shape[1] + entry[1], COMPASS.index(entry[2])
-
-
-def _check(plan: LeaguePlan) -> None:
-    """Raises ProblemError where robots would be in walls, in one cell, or swap cells."""
-    walls = np.flatnonzero(~plan.passable.flat[plan.start])
-    if walls.size:
-        robot = int(walls[0])
-        row, column = divmod(int(plan.start[robot]), plan.passable.shape[1])
-        raise ProblemError(f"{plan.source}: start[{robot}]: row {row}, column {column} is a wall")
-    floor = Floor(plan.passable)
+def _check_conflicts(plan: LeaguePlan) -> None:
+    """Raises ProblemError where robots would be in walls, in one cell, or exchange their cells."""
     fleet = Fleet(plan.start, plan.heading, plan.start)
-    found = validate(floor, fleet, plan.actions, Rules(rings=True), -1)
+    floor = Floor(plan.passable)
+    found = validate(floor, fleet, plan.actions, Rules(rings=True))
     if found:
-        raise ProblemError(f"{plan.source}: actualPaths: {found[0].describe(floor, [])}")
+        raise ProblemError(f"{plan.source}: actualPaths: {found[0].describe(floor)}")

@@ -13,16 +13,16 @@ Robots that stand on the detour make room before, and go back in the end.
 
 import heapq
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-NOBODY = NOWHERE = -1
+NO_ROBOT = NOWHERE = -1
 OCCUPIED = 6  # what a robot on a detour, which has to make room, costs [cells]
 FAR = 2_000  # cells that are looked at for one way
 
-Cells = NDArray[np.integer[Any]]
+Cells: TypeAlias = NDArray[np.integer[Any]]
 
 
 class Move(NamedTuple):
@@ -36,12 +36,12 @@ class Move(NamedTuple):
 def rings_of(before: Cells, after: Cells, at: Cells) -> list[list[int]]:
     """Returns the rings of a tick: robots of which each enters the cell of the next, in a circle.
 
-    before, after: (robots,) cells. at: (cells,) who stands there before the tick, or NOBODY.
+    before, after: (robots,) cells. at: (cells,) who stands there before the tick, or NO_ROBOT.
     """
     count = len(before)
     moves, found = before != after, at[after]
     leader = np.full(count + 1, count)  # whose cell it enters; `count`: no robot's
-    leader[:count] = np.where(moves & (found != NOBODY) & moves[found], found, count)
+    leader[:count] = np.where(moves & (found != NO_ROBOT) & moves[found], found, count)
     jump = leader
     for _ in range(count.bit_length()):  # then who is in no ring has come to the end of its queue
         jump = jump[jump]
@@ -93,14 +93,14 @@ class RingBreaker:
         """Returns moves that free the cells of a detour, none into `kept`; None: there are none."""
         now, moves = at.copy(), []
         for cell in detour:
-            if now[cell] == NOBODY:
+            if now[cell] == NO_ROBOT:
                 continue
-            _, way = self._way(cell, lambda one: now[one] == NOBODY, kept, now)
+            _, way = self._way(cell, lambda one: now[one] == NO_ROBOT, kept, now)
             if not way:
                 return None
             for start, end in reversed(list(zip([cell, *way], way))):
                 moves.append(Move(int(now[start]), start, end))
-                now[end], now[start] = now[start], NOBODY
+                now[end], now[start] = now[start], NO_ROBOT
         return moves
 
     def _way(
@@ -114,7 +114,7 @@ class RingBreaker:
             if cell != start and is_end(cell):
                 return cost, _way_back(cell, before)
             for beside in self._beside(cell):
-                total = cost + 1 + OCCUPIED * int(at[beside] != NOBODY)
+                total = cost + 1 + OCCUPIED * int(at[beside] != NO_ROBOT)
                 if beside not in barred and total < costs.get(beside, total + 1):
                     costs[beside], before[beside] = total, cell
                     heapq.heappush(queue, (total, beside))

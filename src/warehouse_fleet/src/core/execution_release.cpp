@@ -11,8 +11,8 @@
 namespace fleet {
 namespace {
 
-constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
-constexpr double kClosedFor = 3;     // for which an obstacle is taken to stay [s]
+constexpr double kTurnsSoon = 0.35;    // from a corner, where what comes after it is released [m]
+constexpr double kClosedFor = 3;       // for which an obstacle is taken to stay [s]
 constexpr std::size_t kForesight = 8;  // cells of the plan that a robot is told beyond its own
 
 }  // namespace

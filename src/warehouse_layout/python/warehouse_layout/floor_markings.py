@@ -94,9 +94,9 @@ def _kind(label: str) -> str:
 
 
 def sdf(plan: FloorPlan, name: str = f"{NAME}1") -> str:
-    """Returns the SDF text of the model that marks a FloorPlan on the floor."""
+    """Returns the SDF text of the model that marks a FloorPlan on the floor; "" for no marks."""
     links = "".join(_link(label, plan, cells) for label, cells in _painted(plan))
-    return f'<model name="{name}"><static>true</static>{links}</model>'
+    return f'<model name="{name}"><static>true</static>{links}</model>' if links else ""
 
 
 def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:

@@ -83,9 +83,10 @@ def of_layout(layout: Layout) -> list[Part]:
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
     marks = f"{MARKINGS}1"
+    painted = floor_markings.sdf(layout.plan, marks) if layout.plan else ""
     return [
         *(floor if layout.has_own_floor else []),
-        *([Part(marks, floor_markings.sdf(layout.plan, marks))] if layout.plan else []),
+        *([Part(marks, painted)] if painted else []),
         *([Part(f"{WALLS}1", _walls(layout.walls))] if len(layout.walls) else []),
         *_belts(layout),
         *_numbered("storage_unit", layout.units),

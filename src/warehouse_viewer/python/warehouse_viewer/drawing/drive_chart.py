@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The figure of a plan that was driven with bodies: how it goes on, and what robots do meanwhile."""
+"""The figure of a plan that was driven with bodies: how it goes on, and what robots do."""
 
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from warehouse_operations.document import canvas
 
 SIZE = (1040, 360)  # [px]
 MARGINS = (60, 20, 36, 44)
-KEY = 250  # [px] beside the right half
+KEY = 275  # [px] beside the right half
 COLOURS = {
     Cause.DRIVING: "#2a9d63",
     Cause.ACCELERATION: "#9bd3b0",
