@@ -24,25 +24,28 @@ class DriveLog:
     """Notes how a drive goes on, every PERIOD; to be called after each step of the driver.
 
     `curve`: rows of time [s], the mean tick of the plan that robots have come to, and the number of
-    robots for each Cause in between.
+    robots for each Cause since the row before.
     """
 
     def __init__(self, driver: PlanDriver) -> None:
         self._driver = driver
-        self._seconds = driver.seconds.sum(axis=1)
-        self._due = self._noted = driver.time
+        self._seconds, self._noted = driver.seconds.sum(axis=1), driver.time
         self.curve: list[list[float]] = []
+        self.note()
 
     def __call__(self) -> None:
-        """Adds a point to the curve if that is due."""
+        """Adds a row to the curve if that is due."""
+        if self._driver.time >= self._noted + PERIOD - 1e-9:
+            self.note()
+
+    def note(self) -> None:
+        """Adds a row to the curve."""
         driver = self._driver
-        if driver.time < self._due - 1e-9:
-            return
         seconds, elapsed = driver.seconds.sum(axis=1), driver.time - self._noted
-        robots = (seconds - self._seconds) / elapsed if elapsed else 0 * seconds
-        tick = float(driver.tick.mean())
-        self.curve.append([round(value, 2) for value in (driver.time, tick, *robots.tolist())])
-        self._seconds, self._noted, self._due = seconds, driver.time, driver.time + PERIOD
+        robots = (seconds - self._seconds) / max(elapsed, 1e-9)
+        row = driver.time, float(driver.tick.mean()), *robots.tolist()
+        self.curve.append([round(value, 2) for value in row])
+        self._seconds, self._noted = seconds, driver.time
 
 
 def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:

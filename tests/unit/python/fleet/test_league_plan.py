@@ -111,5 +111,5 @@ def test_a_ring_comes_before_its_tick_move_by_move(files):
 def test_a_ring_without_room_is_refused(files, tmp_path):
     plan, floor = files(**RING)
     floor.write_text("type octile\nheight 2\nwidth 4\nmap\n@@..\n@@..\n")
-    with pytest.raises(problem.ProblemError, match=r"at tick 1 4 robots move around in a ring, 0 a"):
+    with pytest.raises(problem.ProblemError, match="at tick 1 4 robots move around in a ring"):
         order_of(read_plan(plan, floor, ticks=2))

@@ -3,17 +3,16 @@
 
 import numpy as np
 import pytest
-from kiva_plugin_cpp import World
 
-from warehouse_fleet import drive_report, generator
+from kiva_plugin_cpp import World
+from warehouse_fleet import Rules, drive_report, generator
 from warehouse_fleet.drive_order import order_of
 from warehouse_fleet.league_floor import layout_of
 from warehouse_fleet.league_plan import ACTIONS, HEADINGS, LeaguePlan
 from warehouse_fleet.lifelong import Lifelong, floor_of
 from warehouse_fleet.plan_driver import Cause, PlanDriver, upright
 from warehouse_fleet.planner_plugins import make_planner
-from warehouse_fleet.problem import Problem, ProblemError
-from warehouse_fleet import Rules  # isort: skip
+from warehouse_fleet.problem import Problem
 
 
 def plan_of(floor, starts, paths):
@@ -112,7 +111,8 @@ def test_fifty_robots_reach_their_ends_without_a_contact(small, seed, rings):
     tasks = [[int(task)] for task in generator.tasks(small, 1000, rng)]
     problem = Problem(small.walls(), agents.astype(np.int32), tasks, round_robin=True)
     spec = {"options": {"goals_are_stops": False}}
-    run = Lifelong(problem, make_planner(floor_of(problem), Rules(rings=rings), seed, spec, ticks=1))
+    planner = make_planner(floor_of(problem), Rules(rings=rings), seed, spec, ticks=1)
+    run = Lifelong(problem, planner)
     for _ in range(60):
         run.step(attempts=50)
     actions = np.array(run.actions, np.uint8).T

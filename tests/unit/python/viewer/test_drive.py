@@ -36,9 +36,7 @@ def command(*args):
 
 
 def run(*args):
-    return subprocess.run(
-        command(*args), capture_output=True, check=False, text=True, timeout=120
-    )
+    return subprocess.run(command(*args), capture_output=True, check=False, text=True, timeout=120)
 
 
 def test_a_drive_is_reported_and_recorded(plan, tmp_path):
