@@ -70,9 +70,9 @@ class Execution {
   /// something else meanwhile it stays with that until the next plan.
   void adopt(const Plan& plan);
 
-  /// Has all robots drive these steps from where they stand, an element a robot: a plan made
-  /// before, in which nothing is replaced. Ticks ascend, and no cell is entered at the tick at
-  /// which robots follow each other in a ring.
+  /// Has all robots drive these steps from where they stand, an element a robot: a whole plan,
+  /// which nothing replaces. Ticks ascend. Robots that follow each other in a ring at one tick
+  /// would wait for each other.
   void drive(std::vector<std::deque<Step>> plans);
 
   /// Releases to each robot what it needs in order not to brake, as far as it may have it.
