@@ -17,7 +17,7 @@ def boxes(walls: np.ndarray, spacing: float) -> np.ndarray:
     storage unit can be turned in the cell beside them; boxes overlap where they join.
     """
     whole = rectangles(walls)
-    joints = [*_runs(walls), *(_turned(run) for run in _runs(walls.T))]
+    joints = [*_runs(walls), *(_turned(run) for run in _runs(walls.T)), *_blocks(walls)]
     found = {*whole, *_across(joints, whole, walls.shape)}
     low, high = np.reshape(sorted(found), (-1, 2, 2)).astype(float).transpose(1, 0, 2)
     size = (high - low + 1) * spacing - 2 * max(TURNING - spacing / 2, 0.0)
@@ -25,13 +25,13 @@ def boxes(walls: np.ndarray, spacing: float) -> np.ndarray:
 
 
 def _across(
-    runs: Iterable[Rectangle], whole: list[Rectangle], shape: tuple[int, ...]
+    joints: Iterable[Rectangle], whole: list[Rectangle], shape: tuple[int, ...]
 ) -> Iterable[Rectangle]:
-    """Yields the runs that join rectangles, which cover all walls: not those within one."""
+    """Yields what joins rectangles, which cover all walls: not what lies within one."""
     part = np.zeros(shape, np.int32)
     for i, (x, y, last_x, last_y) in enumerate(whole):
         part[y : last_y + 1, x : last_x + 1] = i
-    for x, y, last_x, last_y in runs:
+    for x, y, last_x, last_y in joints:
         if (part[y : last_y + 1, x : last_x + 1] != part[y, x]).any():
             yield x, y, last_x, last_y
 
@@ -42,6 +42,13 @@ def _runs(walls: np.ndarray) -> Iterable[Rectangle]:
     for (row, first), (_, after) in zip(np.argwhere(edges == 1), np.argwhere(edges == -1)):
         if after - first > 1:
             yield int(first), int(row), int(after) - 1, int(row)
+
+
+def _blocks(walls: np.ndarray) -> Iterable[Rectangle]:
+    """Yields rectangles with all squares of four cells: runs would leave holes in their middles."""
+    pairs = walls[1:] & walls[:-1]
+    for x, y, last_x, last_y in rectangles(pairs[:, 1:] & pairs[:, :-1]):
+        yield x, y, last_x + 1, last_y + 1
 
 
 def _turned(rectangle: Rectangle) -> Rectangle:

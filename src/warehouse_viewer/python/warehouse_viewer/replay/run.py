@@ -37,6 +37,11 @@ class RunRecorder:
         self._due = world.time
 
     @property
+    def objects(self) -> Any:
+        """What is there, as RunFeed has it."""
+        return self._feed.objects
+
+    @property
     def is_due(self) -> bool:
         """Whether it is time for take()."""
         return bool(self._world.time >= self._due)

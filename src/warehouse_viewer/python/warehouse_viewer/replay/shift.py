@@ -2,11 +2,14 @@
 """Records a shift that is simulated in this process: --record of simulate."""
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+from warehouse_fleet.coordinator_messages import state_message
 from warehouse_fleet.waiting import Waiting
 from warehouse_operations.operations import Operations
 from warehouse_operations.stations import WorkStation
+from warehouse_viewer.api import catalogue
 from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.run import RunRecorder
@@ -43,7 +46,13 @@ class ShiftRecorder:
         fleet: Any = ops.fleet
         fleet.events = []
         about = {"name": ops.site.name, "from": "simulate"}
-        return RunRecorder(self._folder, about, fleet.world, lambda: figures(ops))
+        run = RunRecorder(
+            self._folder,
+            about,
+            fleet.world,
+            lambda: figures(ops) | {"fleet": coordinator(fleet, run.objects)},
+        )
+        return run
 
 
 def waiting(fleet: Any) -> list[int]:
@@ -68,6 +77,13 @@ def figures(ops: Operations) -> dict[str, Any]:
         },
         "stations": [station(one, shift.now) for one in shift.stations],
     }
+
+
+def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
+    """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
+    RunFeed.objects."""
+    watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects)
+    return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 
 def station(one: WorkStation, now: float) -> dict[str, Any]:
