@@ -239,6 +239,15 @@ robot.)")
           "holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); },
           py::arg("cell"), "Returns the robot that holds a cell, -1 for none.")
       .def(
+          "holders",
+          [](const Run& run, const Array<Cell>& cells) {
+            py::array_t<int> robots(cells.size());
+            std::transform(cells.data(), cells.data() + cells.size(), robots.mutable_data(),
+                           [&](Cell cell) { return run.execution.holder(cell); });
+            return robots;
+          },
+          py::arg("cells"), "Returns the robot that holds each cell (n,), -1 for none: (n,) int32.")
+      .def(
           "released", [](const Run& run, int robot) { return run.execution.released(robot); },
           py::arg("robot"), "Returns the cells ahead that a robot holds, the nearest first.")
       .def(
