@@ -113,7 +113,8 @@ def models_of(plan: FloorPlan) -> Iterator[tuple[str, str]]:
                 part, room = [], MOST_MARKS
             part.append((label, piece))
             room -= len(piece)
-    yield (name := f"{NAME}{next(numbers)}"), _model(name, plan, part)
+    if part:
+        yield (name := f"{NAME}{next(numbers)}"), _model(name, plan, part)
 
 
 def _pieces(cells: list[Rectangle]) -> Iterator[list[Rectangle]]:
