@@ -34,7 +34,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@echo "watch it: http://localhost:8080 and http://localhost:8080/operations   its figures: rostopic echo /warehouse/kpis"
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
-vda5050: build  ## a broker, robots as vehicles, and a master that lets one fetch a unit (VDA 5050)
+vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch a unit (VDA 5050)
 	@scripts/vda5050 $(ARGS)
 
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
