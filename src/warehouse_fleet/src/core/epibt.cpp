@@ -2,6 +2,8 @@
 #include "warehouse_fleet/epibt.h"
 
 #include <time.h>
+#include <cstdio>
+#include <cstdlib>
 
 #include <algorithm>
 #include <memory>
@@ -9,7 +11,9 @@
 #include <random>
 
 #include "candidates.h"
+#include "chain_search.h"
 #include "closures.h"
+#include "dead_ends.h"
 #include "distance_tables.h"
 #include "guidance.h"
 #include "making_way.h"
@@ -17,6 +21,7 @@
 #include "push_search.h"
 #include "reservations.h"
 #include "spacing.h"
+#include "yielding.h"
 
 namespace fleet {
 namespace {
@@ -58,6 +63,7 @@ class Epibt : public Planner {
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
   void improve(const Budget& budget, double deadline);
+  bool isStuck(int robot) const;
   void answer(const Fleet& fleet, Plan& plan);
 
   EpibtOptions options_;
@@ -68,6 +74,8 @@ class Epibt : public Planner {
   std::unique_ptr<Reservations> reserved_;
   std::unique_ptr<Spacing> spacing_;
   std::unique_ptr<MakingWay> way_;
+  std::unique_ptr<Yielding> yielding_;
+  std::unique_ptr<DeadEnds> dead_ends_;
   Rules rules_;
   const Floor* floor_ = nullptr;
   std::mt19937_64 random_;
@@ -77,6 +85,7 @@ class Epibt : public Planner {
   std::vector<Wish> wishes_;
   Priorities priorities_;
   std::unique_ptr<PushSearch> search_;
+  std::unique_ptr<ChainSearch> chains_;
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
@@ -93,8 +102,11 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
+  dead_ends_ = std::make_unique<DeadEnds>(floor);
+  yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
                                          options_.revisits);
+  chains_ = std::make_unique<ChainSearch>(floor, rules, options_.horizon, wishes_, *candidates_, *reserved_, *search_);
   rules_ = rules;
 }
 
@@ -104,6 +116,8 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   updateFleet(fleet);
   closures_->update(fleet);
   wish(fleet);
+  yielding_->choose(waiting_, *candidates_, wishes_);
+  if (!getenv("NODEAD")) dead_ends_->empty(*tables_, *candidates_, wishes_);
   way_->direct(fleet, *candidates_, wishes_);
   inherit(fleet);
   priorities_.assign(wishes_, waiting_, *candidates_, *way_);
@@ -111,11 +125,21 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   search_->beginPass();
   for (const int robot : priorities_.order()) {
     if (search_->isSettled(robot)) continue;
+    const Wish& wish = wishes_[robot];
+    if (getenv("SKIP") && wish.yields) continue;
     search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
+    const bool pursues = wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
+    if (pursues && !getenv("NOCHAIN") && isStuck(robot)) {bool ok=chains_->advance(robot, priorities_); if(getenv("DBG")&&now_==atoi(getenv("DBG"))) printf("robot %d at (%d,%d) h%d goal (%d,%d) rank %d dist %d waiting %d urgent %d table %d advance %d\n",robot,floor_->x(wish.state.cell),floor_->y(wish.state.cell),wish.state.heading,floor_->x(wish.goal),floor_->y(wish.goal),priorities_.rank(robot),candidates_->distance(wish,wish.state),waiting_[robot],wish.is_urgent,wish.table!=nullptr,ok);}
   }
   improve(budget, deadline);
   answer(fleet, plan);
   ++now_;
+}
+
+bool Epibt::isStuck(int robot) const {
+  const Wish& wish = wishes_[robot];
+  const Path& path = reserved_->path(robot);
+  return path.cost >= candidates_->standing(wish).cost;
 }
 
 /// Learns from what has become of the last plan.

@@ -20,6 +20,7 @@ class MakingWay {
   /// Tells who presses and who makes way where to go: overwrites their goals in `wishes`.
   /// `candidates` knows how far it is, and keeps their next cells for them: a robot that drives
   /// past would else always be there before one that must turn first.
+  /// Nobody presses where some yield: there all make way anyway.
   void direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes);
 
   /// Whether a robot was told where to go; those come first of all.
