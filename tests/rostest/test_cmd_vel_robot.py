@@ -176,7 +176,7 @@ class CmdVelRobot(unittest.TestCase):
         cls.broker.close()
 
     def start(self, odometry, *further):
-        """The example's program, as doc/vda5050.md has it."""
+        """The example's program, as doc/how-to/vda5050.md has it."""
         command = ["setpriv", "--pdeathsig", "TERM", str(VEHICLE)]
         topics = [f"odom:={odometry}", "cmd_vel:=/bot/cmd_vel"]
         floor = [f"_broker:=localhost:{self.broker.port}", "_columns:=8", "_rows:=8", "_serial:=7"]

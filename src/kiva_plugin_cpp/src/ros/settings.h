@@ -28,7 +28,7 @@ namespace kiva_ros {
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
 ///   ~realism                 sections of the real world, each with its numbers, as in a YAML file
-///                            (doc/realism.md); not set: what the robots' files say
+///                            (doc/explanation/realism.md); not set: what the robots' files say
 ///   ~threads                 on which a large fleet is stepped, looks ahead and scans; default 0:
 ///                            the machine's cores but one. The result is the same
 ///   ~lockstep                true: time advances by ~step alone; default false

@@ -2,8 +2,8 @@
 """Checks, draws, converts and makes layout files of warehouses.
 
 A layout file, NAME.layout.yaml, is a drawing of the floor with a character a cell, and what stands
-on it: see doc/layouts.md. Cells are named [column, row]: columns from the left, rows from the
-bottom, both from 0.
+on it: see doc/reference/layouts.md. Cells are named [column, row]: columns from the left, rows
+from the bottom, both from 0.
 """
 
 import argparse

@@ -18,7 +18,8 @@ LONG = float(os.environ.get("CHARGING_MINUTES", "0"))
 MINUTES = LONG or 8
 SMALL = {"capacity": 80, "initial_least": 0.3, "initial_most": 0.8}  # [Wh], 0…1
 # Of what is delivered without: all robots are at work, and stand at places to charge at for a tenth
-# of their time, at first on what the batteries began with; doc/realism.md. The ways are the rest.
+# of their time, at first on what the batteries began with (doc/explanation/realism.md).
+# The ways are the rest.
 KEPT = 0.85 if LONG else 0.9
 
 

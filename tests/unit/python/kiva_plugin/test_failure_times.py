@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gaps between failures and times of repair have the distributions that doc/realism.md says."""
+"""Gaps between failures and times of repair are distributed as doc/explanation/realism.md says."""
 
 import numpy as np
 import pytest

@@ -53,7 +53,7 @@ def page(chromium, address):
 
 
 def draw_first(page):
-    """The layout of doc/editor.md: two aisles, two stations, six robots."""
+    """The layout of doc/how-to/editor.md: two aisles, two stations, six robots."""
     keys(page, "r.")
     drag(page, (0, 0), (15, 10))
     keys(page, "s")

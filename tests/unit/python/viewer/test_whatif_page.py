@@ -58,7 +58,7 @@ def button(page, name, text):
 
 
 def test_two_layouts_are_compared(page):
-    """The steps that doc/whatif.md counts; short shifts, so that the test is."""
+    """The steps that doc/how-to/whatif.md counts; short shifts, so that the test is."""
     page.driver.find_element("css selector", "#second-layout [value=small]").click()
     write(page, "second-robots", "2")
     write(page, "intro-minutes", "2")

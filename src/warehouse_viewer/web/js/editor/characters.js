@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The characters of a layout file, as doc/editor.md lists them.
+// The characters of a layout file, as doc/how-to/editor.md lists them.
 
 export const NOTHING = ' ', FLOOR = '.', PLACE = 's';
 export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next letter that is free
