@@ -21,7 +21,9 @@ struct EpibtOptions {
   int pushes = 400;    ///< how many robots may be moved aside to find one robot's operation
   int exchanges = 40;  ///< the same in the search for something better
   int patience = 30;   ///< ticks in a cell after which others make way for a robot
-  double pursuing = 1;  ///< robots that pursue their goals at a time, of the passable cells
+  /// How many robots may pursue their goals at a time, over the passable cells. Where there are
+  /// more, the others yield: they go where they are pushed until it is their turn.
+  double pursuing = 0.5;
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept

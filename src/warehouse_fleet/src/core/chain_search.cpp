@@ -12,23 +12,40 @@ constexpr int kMostTurns = 2;  // quarters to any heading
 }  // namespace
 
 ChainSearch::ChainSearch(const Floor& floor, const Rules& rules, int horizon,
-                         const std::vector<Wish>& wishes, const Candidates& candidates,
-                         Reservations& reserved, PushSearch& pushes)
+                         const std::vector<Wish>& wishes, const Priorities& priorities,
+                         const Candidates& candidates, Reservations& reserved, PushSearch& pushes)
     : floor_(floor),
       rules_(rules),
       horizon_(horizon),
       wishes_(wishes),
+      priorities_(priorities),
       candidates_(candidates),
       reserved_(reserved),
       pushes_(pushes),
       from_(floor.size()),
       searched_(floor.size()) {}
 
-bool ChainSearch::advance(int robot, const Priorities& priorities) {
+bool ChainSearch::isStuck(int robot) const {
+  const Wish& wish = wishes_[robot];
+  if (wish.goal == kNowhere || wish.goal == wish.state.cell) return false;
+  return reserved_.path(robot).cost >= candidates_.standing(wish).cost;
+}
+
+bool ChainSearch::advance(int robot) {
   const Wish& wish = wishes_[robot];
   if (wish.stopped || wish.committed > 0 || !isClear(wish.state.cell, robot)) return false;
-  priorities_ = &priorities;
   robot_ = robot;
+  for (const int heading : waysNearer(wish)) {
+    const Cell to = candidates_.next(wish, wish.state.cell, heading);
+    for (int moving = turns(robot, heading); moving <= kMostTurns && moving < horizon_; ++moving) {
+      if (find(to, moving) && place(moving)) return true;
+    }
+  }
+  return false;
+}
+
+/// Returns the headings in which a robot gets nearer to its goal, the nearest first.
+std::vector<int> ChainSearch::waysNearer(const Wish& wish) const {
   std::vector<std::pair<int, int>> ways;
   const int here = candidates_.distance(wish, wish.state);
   for (int heading = 0; heading < kHeadings; ++heading) {
@@ -38,18 +55,14 @@ bool ChainSearch::advance(int robot, const Priorities& priorities) {
     if (far < here) ways.emplace_back(far, heading);
   }
   std::sort(ways.begin(), ways.end());
-  for (const auto& [far, heading] : ways) {
-    const Cell to = candidates_.next(wish, wish.state.cell, heading);
-    for (int moving = turns(robot, heading); moving <= kMostTurns && moving < horizon_; ++moving) {
-      if (find(robot, to, moving) && place(moving)) return true;
-    }
-  }
-  return false;
+  std::vector<int> headings;
+  for (const auto& [far, heading] : ways) headings.push_back(heading);
+  return headings;
 }
 
 /// Finds a chain from the robot over `first` whose robots move after `moving` ticks.
-bool ChainSearch::find(int robot, Cell first, int moving) {
-  const Cell begin = wishes_[robot].state.cell;
+bool ChainSearch::find(Cell first, int moving) {
+  const Cell begin = wishes_[robot_].state.cell;
   ++search_;
   searched_[begin] = searched_[first] = search_;
   from_[first] = begin;
@@ -75,7 +88,7 @@ bool ChainSearch::passes(Cell cell, int moving) {
   const int robot = reserved_.who(cell, 0);
   const Wish& wish = wishes_[robot];
   const bool gives_way = !wish.stopped && wish.committed == 0 && !pushes_.isSettled(robot) &&
-                         priorities_->rank(robot) > priorities_->rank(robot_);
+                         priorities_.rank(robot) > priorities_.rank(robot_);
   if (!gives_way) return false;
   const Cell begin = wishes_[robot_].state.cell;
   for (int heading = 0; heading < kHeadings; ++heading) {
@@ -112,7 +125,8 @@ bool ChainSearch::place(int moving) {
   for (; placed < kept.size() && is_free; ++placed) {
     const int robot = kept[placed].first;
     const Path path = moved(robot, chain_[placed], moving);
-    is_free = reserved_.conflict(robot, path) == Reservations::kNobody;
+    is_free = candidates_.canDrive(path, wishes_[robot]) &&
+              reserved_.conflict(robot, path) == Reservations::kNobody;
     if (is_free) reserved_.place(robot, path);
   }
   if (!is_free) {

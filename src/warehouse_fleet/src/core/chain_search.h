@@ -16,14 +16,19 @@ class ChainSearch {
  public:
   /// All references must outlive it.
   ChainSearch(const Floor& floor, const Rules& rules, int horizon, const std::vector<Wish>& wishes,
-              const Candidates& candidates, Reservations& reserved, PushSearch& pushes);
+              const Priorities& priorities, const Candidates& candidates, Reservations& reserved,
+              PushSearch& pushes);
+
+  /// Tells whether its path leads a robot no nearer to its goal.
+  bool isStuck(int robot) const;
 
   /// Moves a robot a cell nearer to its goal, and robots of lower rank that are not settled out of
   /// its way; settles them all. Returns false and leaves all paths as they were if it can't.
-  bool advance(int robot, const Priorities& priorities);
+  bool advance(int robot);
 
  private:
-  bool find(int robot, Cell first, int moving);
+  std::vector<int> waysNearer(const Wish& wish) const;
+  bool find(Cell first, int moving);
   bool passes(Cell cell, int moving);
   bool isClear(Cell cell, int robot) const;
   bool place(int moving);
@@ -34,11 +39,11 @@ class ChainSearch {
   const Rules rules_;
   const int horizon_;
   const std::vector<Wish>& wishes_;
+  const Priorities& priorities_;
   const Candidates& candidates_;
   Reservations& reserved_;
   PushSearch& pushes_;
-  const Priorities* priorities_ = nullptr;
-  int robot_ = 0;
+  int robot_ = 0;              ///< that is to get nearer
   std::vector<Cell> from_;     ///< by cell: the cell before it in the chain
   std::vector<int> searched_;  ///< by cell: the search that came to it last
   int search_ = 0;

@@ -2,10 +2,9 @@
 #include "warehouse_fleet/epibt.h"
 
 #include <time.h>
-#include <cstdio>
-#include <cstdlib>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -52,6 +51,10 @@ class Epibt : public Planner {
     inRange("depth", options_.depth, 1, kMaxDepth);
     inRange("horizon", options_.horizon, options_.depth, kMaxHorizon);
     inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
+    if (!(options_.pursuing > 0)) {
+      throw FloorError("pursuing " + std::to_string(options_.pursuing) +
+                       "; more than 0 was expected");
+    }
   }
 
   void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
@@ -62,8 +65,8 @@ class Epibt : public Planner {
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
+  void replan(bool is_crowded);
   void improve(const Budget& budget, double deadline);
-  bool isStuck(int robot) const;
   void answer(const Fleet& fleet, Plan& plan);
 
   EpibtOptions options_;
@@ -102,11 +105,12 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
-  dead_ends_ = std::make_unique<DeadEnds>(floor);
-  yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
                                          options_.revisits);
-  chains_ = std::make_unique<ChainSearch>(floor, rules, options_.horizon, wishes_, *candidates_, *reserved_, *search_);
+  yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
+  dead_ends_ = std::make_unique<DeadEnds>(floor);
+  chains_ = std::make_unique<ChainSearch>(floor, rules, options_.horizon, wishes_, priorities_,
+                                          *candidates_, *reserved_, *search_);
   rules_ = rules;
 }
 
@@ -116,30 +120,15 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   updateFleet(fleet);
   closures_->update(fleet);
   wish(fleet);
-  yielding_->choose(waiting_, *candidates_, wishes_);
-  if (!getenv("NODEAD")) dead_ends_->empty(*tables_, *candidates_, wishes_);
-  way_->direct(fleet, *candidates_, wishes_);
+  const bool is_crowded = yielding_->choose(waiting_, *candidates_, wishes_);
+  if (is_crowded) dead_ends_->empty(*tables_, *candidates_, wishes_);
+  way_->direct(fleet, !is_crowded, *candidates_, wishes_);
   inherit(fleet);
   priorities_.assign(wishes_, waiting_, *candidates_, *way_);
-  search_->begin(fleet.size());
-  search_->beginPass();
-  for (const int robot : priorities_.order()) {
-    if (search_->isSettled(robot)) continue;
-    const Wish& wish = wishes_[robot];
-    if (getenv("SKIP") && wish.yields) continue;
-    search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
-    const bool pursues = wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
-    if (pursues && !getenv("NOCHAIN") && isStuck(robot)) {bool ok=chains_->advance(robot, priorities_); if(getenv("DBG")&&now_==atoi(getenv("DBG"))) printf("robot %d at (%d,%d) h%d goal (%d,%d) rank %d dist %d waiting %d urgent %d table %d advance %d\n",robot,floor_->x(wish.state.cell),floor_->y(wish.state.cell),wish.state.heading,floor_->x(wish.goal),floor_->y(wish.goal),priorities_.rank(robot),candidates_->distance(wish,wish.state),waiting_[robot],wish.is_urgent,wish.table!=nullptr,ok);}
-  }
+  replan(is_crowded);
   improve(budget, deadline);
   answer(fleet, plan);
   ++now_;
-}
-
-bool Epibt::isStuck(int robot) const {
-  const Wish& wish = wishes_[robot];
-  const Path& path = reserved_->path(robot);
-  return path.cost >= candidates_->standing(wish).cost;
 }
 
 /// Learns from what has become of the last plan.
@@ -252,9 +241,23 @@ void Epibt::resume(const std::vector<Path>& rests) {
   } while (waiting.size() < still.size());
 }
 
+/// Looks for a better operation for each robot, by rank. On a crowded floor robots that yield keep
+/// what they have, and those that get no nearer by pushing do so by a chain.
+void Epibt::replan(bool is_crowded) {
+  search_->begin(static_cast<int>(wishes_.size()));
+  search_->beginPass();
+  for (const int robot : priorities_.order()) {
+    if (search_->isSettled(robot) || wishes_[robot].yields) continue;
+    search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
+    if (is_crowded && chains_->isStuck(robot)) chains_->advance(robot);
+  }
+}
+
 /// A large-neighbourhood search: moves robots aside where all together gain by it.
 void Epibt::improve(const Budget& budget, double deadline) {
-  std::vector<int> order = priorities_.order();
+  std::vector<int> order;
+  std::copy_if(priorities_.order().begin(), priorities_.order().end(), std::back_inserter(order),
+               [this](int robot) { return !wishes_[robot].yields; });
   if (order.empty()) return;
   constexpr int kBetweenLooks = 8;
   const bool is_timed = budget.seconds > 0;

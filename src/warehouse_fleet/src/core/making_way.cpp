@@ -20,13 +20,27 @@ bool drivesOn(const Wish& wish) {
 
 }  // namespace
 
-void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes) {
+void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidates,
+                       std::vector<Wish>& wishes) {
   watch(candidates, wishes);
-  if (std::any_of(wishes.begin(), wishes.end(), [](const Wish& wish) { return wish.yields; })) {
-    return;
+  if (may_press) {
+    for (const int robot : pressing()) {
+      if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
+    }
   }
-  std::vector<int> pressing;
   for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Cell told = progress_[robot].told;
+    if (told == kNowhere) continue;
+    wishes[robot].goal = told;
+    wishes[robot].table = nullptr;
+    candidates.keep(told);
+  }
+}
+
+/// Returns the robots that press in this step, those first that have come no nearer for longest.
+std::vector<int> MakingWay::pressing() const {
+  std::vector<int> pressing;
+  for (int robot = 0; robot < static_cast<int>(progress_.size()); ++robot) {
     const Progress& progress = progress_[robot];
     const bool presses = progress.still > patience_ || progress.stalled > kStalled;
     if (presses && progress.told == kNowhere) pressing.push_back(robot);
@@ -36,16 +50,7 @@ void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<W
     return ours != theirs ? ours > theirs : one < other;
   });
   if (pressing.size() > kPressing) pressing.resize(kPressing);
-  for (const int robot : pressing) {
-    if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
-  }
-  for (int robot = 0; robot < fleet.size(); ++robot) {
-    const Cell told = progress_[robot].told;
-    if (told == kNowhere) continue;
-    wishes[robot].goal = told;
-    wishes[robot].table = nullptr;
-    candidates.keep(told);
-  }
+  return pressing;
 }
 
 /// Who stands, and whose next cell is still to be reached.

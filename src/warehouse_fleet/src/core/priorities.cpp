@@ -16,7 +16,8 @@ void nearestFirst(const std::vector<Wish>& wishes, const MakingWay& way,
                   const std::vector<int>& distance, std::vector<int>& key) {
   std::vector<int> by_distance;
   for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {
-    if (!way.isTold(robot) && !wishes[robot].yields && !wishes[robot].is_urgent) by_distance.push_back(robot);
+    const bool is_told = way.isTold(robot) || wishes[robot].is_urgent;
+    if (!is_told && !wishes[robot].yields) by_distance.push_back(robot);
   }
   std::vector<int> by_key = by_distance;
   const auto sort = [&](std::vector<int>& robots, const std::vector<int>& value) {

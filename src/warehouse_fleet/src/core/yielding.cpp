@@ -2,46 +2,47 @@
 #include "yielding.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <utility>
 
 namespace fleet {
 namespace {
-double env(const char* name, double otherwise) {
-  const char* text = getenv(name);
-  return text ? atof(text) : otherwise;
-}
-}
+
+constexpr int kWaitingWorth = 2;  // of kTickCost, a tick: as robots are ranked
+
+}  // namespace
 
 Yielding::Yielding(const Floor& floor, double share) {
   int passable = 0;
   for (Cell cell = 0; cell < floor.size(); ++cell) passable += floor.isPassable(cell);
-  most_ = static_cast<int>(env("SHARE", share) * passable);
+  most_ = std::max(1, static_cast<int>(share * passable));
 }
 
-void Yielding::choose(const std::vector<int>& waiting, const Candidates& candidates,
+bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candidates,
                       std::vector<Wish>& wishes) {
   const int robots = static_cast<int>(wishes.size());
   pursued_.resize(robots, kNowhere);
-  static const double worth = env("WORTH", 0);
-  std::vector<std::pair<int, int>> open;
   int pursuing = 0;
+  std::vector<std::pair<int, int>> others;  // what each has to go, less what it has waited
   for (int robot = 0; robot < robots; ++robot) {
-    Wish& wish = wishes[robot];
-    if (pursued_[robot] != wish.goal) pursued_[robot] = kNowhere;
-    wish.yields = pursued_[robot] == kNowhere;
-    if (!wish.yields) {
+    const Wish& wish = wishes[robot];
+    if (wish.goal == kNowhere) continue;
+    if (pursued_[robot] == wish.goal) {
       ++pursuing;
-    } else if (wish.goal != kNowhere) {
-      open.emplace_back(candidates.distance(wish, wish.state) - int(worth * waiting[robot]), robot);
+    } else {
+      const int waited = kWaitingWorth * waiting[robot];
+      others.emplace_back(candidates.distance(wish, wish.state) - waited, robot);
     }
   }
-  const std::size_t room = std::min<std::size_t>(open.size(), std::max(0, most_ - pursuing));
-  std::partial_sort(open.begin(), open.begin() + room, open.end());
-  for (std::size_t i = 0; i < room; ++i) {
-    Wish& wish = wishes[open[i].second];
-    wish.yields = false;
-    pursued_[open[i].second] = wish.goal;
-  }
+  const auto room = std::min<std::ptrdiff_t>(others.size(), std::max(0, most_ - pursuing));
+  std::partial_sort(others.begin(), others.begin() + room, others.end());
+  std::for_each(others.begin(), others.begin() + room, [&](const auto& other) {
+    pursued_[other.second] = wishes[other.second].goal;
+  });
+  std::for_each(others.begin() + room, others.end(), [&](const auto& other) {
+    pursued_[other.second] = kNowhere;
+    wishes[other.second].yields = true;
+  });
+  return room < static_cast<std::ptrdiff_t>(others.size());
 }
 
 }  // namespace fleet

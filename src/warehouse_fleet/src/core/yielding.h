@@ -6,7 +6,6 @@
 // to the same end).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "candidates.h"
@@ -15,17 +14,18 @@ namespace fleet {
 
 class Yielding {
  public:
-  /// `share` of the passable cells may be taken by robots that pursue their goals.
+  /// `share`: how many robots may pursue their goals at a time, over the passable cells.
   Yielding(const Floor& floor, double share);
 
-  /// Sets `yields` of each wish. A robot that pursues its goal goes on until it is there; the place
-  /// it leaves is given to the robot with least to go, less what it has waited.
-  void choose(const std::vector<int>& waiting, const Candidates& candidates,
+  /// Sets `yields` of the wishes and returns whether any robot yields. A robot that pursues its goal
+  /// goes on until it is there; the place it leaves is given to the robot with least to go, less
+  /// what it has waited (`waiting`, ticks by robot).
+  bool choose(const std::vector<int>& waiting, const Candidates& candidates,
               std::vector<Wish>& wishes);
 
  private:
-  int most_;                         ///< robots that pursue their goals
-  std::vector<Cell> pursued_;        ///< by robot: the goal that it pursues, or kNowhere
+  int most_;                   ///< robots that pursue their goals at a time
+  std::vector<Cell> pursued_;  ///< by robot: the goal that it pursues; kNowhere
 };
 
 }  // namespace fleet

@@ -196,6 +196,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("pushes", options.pushes);
   set("exchanges", options.exchanges);
   set("patience", options.patience);
+  set("pursuing", options.pursuing);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
   set("table_work", options.table_work);
@@ -226,8 +227,8 @@ number of attempts. Other threads of Python run meanwhile. FloorError without a 
 
 It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
 by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5), horizon (ticks of a
-plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], goals_are_stops,
-table_bytes, table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
+plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], pursuing (share
+of the passable cells), goals_are_stops, table_bytes, table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
 memory [ticks]. TypeError for another option.)");
   module.def(
       "load_planner",
