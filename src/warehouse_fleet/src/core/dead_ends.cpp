@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dead_ends.h"
 
+#include <cstdlib>
+
 namespace fleet {
 namespace {
 
-constexpr int kNear = 8;  // ticks to go, beside the dead end itself, from where others come out
+constexpr int kNear = 6;  // cells from the entrance to a robot for which others come out
 
 std::vector<Cell> beside(const Floor& floor, Cell cell) {
   std::vector<Cell> cells;
@@ -88,16 +90,18 @@ void DeadEnds::serve(int robot, DistanceTables& tables, Candidates& candidates,
     way.push_back(cell);
     if (standing_[cell] >= 0) inner = standing_[cell];
   }
-  const int near = kTickCost * (kNear + static_cast<int>(way.size()));
-  if (candidates.distance(wish, wish.state) > near) return;
+  const Cell gate = entrance(wish.goal);
+  const int cells = std::abs(floor_.x(gate) - floor_.x(wish.state.cell)) +
+                    std::abs(floor_.y(gate) - floor_.y(wish.state.cell));
+  if (cells > kNear) return;
   for (const Cell cell : way) candidates.keep(cell);
   wish.is_urgent = wish.enters_kept = true;
   if (inner < 0) return;
   wish.yields = true;
   wish.is_urgent = false;
   Wish& other = wishes[inner];
-  if (other.stopped || outside_[entrance(way[0])] == kNowhere) return;
-  other.goal = outside_[entrance(way[0])];
+  if (other.stopped || outside_[gate] == kNowhere) return;
+  other.goal = outside_[gate];
   other.table = tables.find(other.deck, other.goal, false);
   other.yields = false;
   other.is_urgent = other.enters_kept = true;

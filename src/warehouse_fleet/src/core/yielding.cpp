@@ -22,11 +22,14 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
   const int robots = static_cast<int>(wishes.size());
   pursued_.resize(robots, kNowhere);
   int pursuing = 0;
+  std::vector<int> arrived;
   std::vector<std::pair<int, int>> others;  // what each has to go, less what it has waited
   for (int robot = 0; robot < robots; ++robot) {
     const Wish& wish = wishes[robot];
     if (wish.goal == kNowhere) continue;
-    if (pursued_[robot] == wish.goal) {
+    if (wish.goal == wish.state.cell) {
+      arrived.push_back(robot);
+    } else if (pursued_[robot] == wish.goal) {
       ++pursuing;
     } else {
       const int waited = kWaitingWorth * waiting[robot];
@@ -42,7 +45,9 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
     pursued_[other.second] = kNowhere;
     wishes[other.second].yields = true;
   });
-  return room < static_cast<std::ptrdiff_t>(others.size());
+  const bool is_crowded = room < static_cast<std::ptrdiff_t>(others.size());
+  for (const int robot : arrived) wishes[robot].yields = is_crowded;
+  return is_crowded;
 }
 
 }  // namespace fleet
