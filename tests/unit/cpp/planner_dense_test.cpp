@@ -149,7 +149,9 @@ TEST(FullFloor, RobotsComeOutOfADeadEndBeforeAnotherGoesIn) {
 TEST(FullFloor, RefusesAFleetOfWhichNoneMayPursueItsGoal) {
   EpibtOptions options;
   options.pursuing = 0;
-  EXPECT_THROW(makeEpibt(options), FloorError);
+  const Floor floor(drawn({"..."}));
+  const auto planner = makeEpibt(options);
+  EXPECT_THROW(planner->start(floor, {}, 1), FloorError);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@
 namespace fleet {
 
 struct EpibtOptions {
-  int depth = 4;    ///< ticks of an operation, 1 to 5
+  /// Ticks of an operation, 1 to 5; 0: 4, or 5 where the first step has time for it.
+  int depth = 0;
   int horizon = 0;  ///< ticks of a plan, up to 7: what is committed, and an operation; 0: depth
   int turn_ticks =
       1;  ///< what a quarter turn costs on the way to a goal: with braking, more than a tick

@@ -47,20 +47,18 @@ struct Memory {
 class Epibt : public Planner {
  public:
   explicit Epibt(const EpibtOptions& options) : options_(options) {
-    if (options_.horizon == 0) options_.horizon = options_.depth;
-    inRange("depth", options_.depth, 1, kMaxDepth);
-    inRange("horizon", options_.horizon, options_.depth, kMaxHorizon);
-    inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
-    if (!(options_.pursuing > 0)) {
-      throw FloorError("pursuing " + std::to_string(options_.pursuing) +
-                       "; more than 0 was expected");
+    inRange("depth", options_.depth, 0, kMaxDepth);
+    if (options_.horizon != 0) {
+      inRange("horizon", options_.horizon, std::max(1, options_.depth), kMaxHorizon);
     }
+    inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
   }
 
   void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
   void plan(const Fleet& fleet, const Budget& budget, Plan& plan) override;
 
  private:
+  void beginSearch(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
@@ -98,25 +96,34 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
       floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
                              options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
-  const Edges& edges = closures_->edges();
-  tables_ =
-      std::make_unique<DistanceTables>(floor, edges, options_.turn_ticks, options_.table_bytes);
-  candidates_ = std::make_unique<Candidates>(floor, edges, options_.depth, options_.horizon);
-  reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
-  spacing_ = std::make_unique<Spacing>(options_.horizon);
+  tables_ = std::make_unique<DistanceTables>(floor, closures_->edges(), options_.turn_ticks,
+                                             options_.table_bytes);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
-  search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
-                                         options_.revisits);
   yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   dead_ends_ = std::make_unique<DeadEnds>(floor);
-  chains_ = std::make_unique<ChainSearch>(floor, rules, options_.horizon, wishes_, priorities_,
-                                          *candidates_, *reserved_, *search_);
   rules_ = rules;
+}
+
+/// Chooses how far the first step's time lets operations reach, if no option says so.
+void Epibt::beginSearch(const Fleet& fleet, const Budget& budget) {
+  constexpr double kDeep = 0.25e-3;  // [s] a robot: a longer operation costs 20 us
+  if (options_.depth == 0) options_.depth = budget.seconds > kDeep * fleet.size() ? 5 : 4;
+  if (options_.horizon == 0) options_.horizon = options_.depth;
+  options_.depth = std::min(options_.depth, options_.horizon);
+  const int horizon = options_.horizon;
+  candidates_ = std::make_unique<Candidates>(*floor_, closures_->edges(), options_.depth, horizon);
+  reserved_ = std::make_unique<Reservations>(*floor_, rules_, horizon);
+  spacing_ = std::make_unique<Spacing>(horizon);
+  search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
+                                         options_.revisits);
+  chains_ = std::make_unique<ChainSearch>(*floor_, rules_, horizon, wishes_, priorities_,
+                                          *candidates_, *reserved_, *search_);
 }
 
 void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   const double deadline = threadSeconds() + budget.seconds;
   check(*floor_, fleet);
+  if (search_ == nullptr) beginSearch(fleet, budget);
   updateFleet(fleet);
   closures_->update(fleet);
   wish(fleet);

@@ -2,6 +2,7 @@
 #include "yielding.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace fleet {
@@ -12,6 +13,9 @@ constexpr int kWaitingWorth = 2;  // of kTickCost, a tick: as robots are ranked
 }  // namespace
 
 Yielding::Yielding(const Floor& floor, double share) {
+  if (!(share > 0)) {
+    throw FloorError("pursuing " + std::to_string(share) + "; more than 0 was expected");
+  }
   int passable = 0;
   for (Cell cell = 0; cell < floor.size(); ++cell) passable += floor.isPassable(cell);
   most_ = std::max(1, static_cast<int>(share * passable));

@@ -14,7 +14,8 @@ namespace fleet {
 
 class Yielding {
  public:
-  /// `share`: how many robots may pursue their goals at a time, over the passable cells.
+  /// `share`: how many robots may pursue their goals at a time, over the passable cells. Throws
+  /// FloorError if it is not more than 0.
   Yielding(const Floor& floor, double share);
 
   /// Sets `yields` of the wishes and returns whether any robot yields. A robot that pursues its goal

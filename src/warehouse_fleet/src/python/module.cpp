@@ -226,7 +226,8 @@ number of attempts. Other threads of Python run meanwhile. FloorError without a 
              py::arg("seed") = 1, R"(Returns the planner of this package, started on a floor.
 
 It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
-by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5), horizon (ticks of a
+by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5;
+0: 4, or 5 where the first step has time for it), horizon (ticks of a
 plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], pursuing (share
 of the passable cells), goals_are_stops, table_bytes, table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
 memory [ticks]. TypeError for another option.)");
