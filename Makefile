@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench wheel lint tidy format install clean
+.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -34,7 +34,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@echo "watch it: http://localhost:8080 and http://localhost:8080/operations   its figures: rostopic echo /warehouse/kpis"
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
-vda5050: build  ## a broker, robots as vehicles, and a master that lets one fetch a unit (VDA 5050)
+vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch a unit (VDA 5050)
 	@scripts/vda5050 $(ARGS)
 
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
@@ -92,6 +92,13 @@ packages:  # without those that only tests and lint need
 
 deps:  ## install the Debian packages that are missing
 	@scripts/deps
+
+docs: build  ## build the documentation into build/docs; a running viewer serves it at /docs/
+	@scripts/deps docs
+	@$(DEVEL) scripts/docs $(ARGS)
+
+docs-test: docs  ## run the examples of the documentation, and list its links to other places
+	@$(DEVEL) scripts/docs_examples $(ARGS)
 
 bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)

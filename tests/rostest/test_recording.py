@@ -15,17 +15,19 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist, Vector3
 from node_test import PATIENCE, call, wait_until
-from warehouse_test import Commander, delete, model_file, pose, sim_time, spawn
+from warehouse_test import Collector, Commander, delete, model_file, pose, sim_time, spawn
 from world_node import Node
 
 from gazebo_msgs.srv import SpawnModel
+from warehouse_msgs.msg import FleetState
 from warehouse_msgs.srv import Checkpoint
 
 ROVER = (Path(__file__).parent.parent / "worlds" / "rover.urdf").read_text()
 
 
 class Recording(unittest.TestCase):
-    """One recording for all: two robots that meet, one that comes later, a box, a checkpoint."""
+    """One recording for all: two robots that meet, one that comes later and is then the shadow of
+    one elsewhere, a box, a checkpoint."""
 
     @classmethod
     def setUpClass(cls):
@@ -39,6 +41,7 @@ class Recording(unittest.TestCase):
             commander.do("/rot", kiva_id=9, direction=1)
             commander.do("/movx", kiva_id=1, distance=-1)
             delete("box")
+            cls.show_elsewhere(9, [(-3.0, 9.0), (-2.5, 9.1), (-2.0, 9.2)])
             call("/warehouse/checkpoint", Checkpoint, "here")
             commander.do("/rot", kiva_id=2, direction=-1)
             call("/warehouse/restore", Checkpoint, "here")
@@ -49,6 +52,16 @@ class Recording(unittest.TestCase):
             node.send(signal.SIGINT)
             code, said = node.end()
             assert code == 0, said
+
+    @classmethod
+    def show_elsewhere(cls, kiva, places):
+        """Tells where a robot is of which the world has the shadow, place after place."""
+        publisher = rospy.Publisher("/warehouse/shadows", FleetState, queue_size=1)
+        wait_until(publisher.get_num_connections, "the world to take shadows")
+        fleet = Collector("/warehouse/fleet", FleetState)
+        for x, y in places:
+            publisher.publish(FleetState(kiva_id=[kiva], x=[x], y=[y], yaw=[0.0]))
+            fleet.first(lambda m: (m.x[2], m.y[2]) == (x, y), PATIENCE)  # noqa: B023
 
     @classmethod
     def tearDownClass(cls):
@@ -74,6 +87,7 @@ class Recording(unittest.TestCase):
         with rosbag.Bag(self.bag) as bag:
             topics = bag.get_type_and_topic_info().topics
             self.assertEqual(topics["/movx"].message_count, 2)
+            self.assertEqual(topics["/warehouse/shadows"].message_count, 3)
             self.assertEqual(topics["/rot"].msg_type, "warehouse_msgs/Rotate")
             self.assertEqual(topics["/warehouse/state_hash"].msg_type, "std_msgs/String")
             (_, last, _) = list(bag.read_messages(["/tf"]))[-1]

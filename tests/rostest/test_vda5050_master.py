@@ -19,14 +19,14 @@ from warehouse_test import Collector
 
 from warehouse_client.warehouse import Warehouse
 from warehouse_fleet.message_enums import FailureKind
-from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent
+from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent, Vda5050
 from warehouse_msgs.srv import SetRobotMode, Transport
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.mqtt.broker import OwnBroker
 from warehouse_vda5050.mqtt.loop import MqttLoop
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
-from warehouse_vda5050.ros.master import grid_of
+from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.topics import Identity, Topics
 from warehouse_vda5050.vehicle import Vehicle
 
@@ -97,7 +97,7 @@ class Master(unittest.TestCase):
         wait_until(lambda: warehouse.is_known, "the warehouse")
         cls.plan = warehouse.plan()
         cls.broker = OwnBroker()
-        cls.behind = Behind(MetricRobot(grid_of(cls.plan), cls.free_place()), cls.broker.port)
+        cls.behind = Behind(MetricRobot(grid_of(read_map()), cls.free_place()), cls.broker.port)
         cls.behind.start()
         cls.start_master()
 
@@ -140,6 +140,9 @@ class Master(unittest.TestCase):
         wait_until(self.row, "the vehicle's shadow", PATIENCE)
         x, y = self.behind.robot.grid.position(self.behind.robot.cell)
         wait_until(lambda: (self.row()["x"], self.row()["y"]) == (x, y), "its place")
+        told = latched("/warehouse/vda5050", Vda5050, lambda m: bytes(m.connection) == b"\0")
+        self.assertEqual((told.direction, told.kiva_id), (Vda5050.MASTER, (NUMBER,)))
+        self.assertEqual((told.manufacturer, told.serial), (["acme"], ["7"]))
 
     def test_2_the_coordinator_has_it_carry_a_unit(self):
         self.state.first(lambda state: state.automatic == 5, PATIENCE)

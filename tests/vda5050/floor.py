@@ -5,13 +5,12 @@ trip for each of several robots that is in no other's way."""
 import json
 
 import rospy
-from nav_msgs.srv import GetMap
 
 from warehouse_client.routes import Grid as RouteGrid
 from warehouse_client.routes import NoRouteError, route
 from warehouse_msgs.msg import WarehouseState
 from warehouse_vda5050.fetch_trip import Extent, wait_for_warehouse
-from warehouse_vda5050.world_link import grid_of
+from warehouse_vda5050.ros.floor import grid_of, read_map
 
 
 def cells_of(state: WarehouseState, grid):
@@ -84,7 +83,7 @@ def steps_aside(grid, robots):
 def main() -> None:
     rospy.init_node("floor", anonymous=True)
     state = wait_for_warehouse()
-    grid = grid_of(rospy.ServiceProxy("/warehouse/map", GetMap)().map)
+    grid = grid_of(read_map())
     robots, units = cells_of(state, grid)
     chosen = []
     for trip in trips(state, grid, robots, units):

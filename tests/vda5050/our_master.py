@@ -28,7 +28,7 @@ from warehouse_layout.stations import PICK
 from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent
 from warehouse_msgs.srv import ReleaseTransport, Transport
 from warehouse_vda5050.mqtt.broker import OwnBroker
-from warehouse_vda5050.ros.master import grid_of
+from warehouse_vda5050.ros.floor import grid_of, read_map
 
 HERE = Path(__file__).resolve().parent
 ENVIRONMENTS = Path(sys.argv[1])
@@ -85,7 +85,7 @@ class Floor:
         self.state.first(lambda state: state.automatic > 0, PATIENCE)
         wait_until(lambda: self.warehouse.is_known, "the warehouse")
         self.plan = self.warehouse.plan()
-        self.grid = grid_of(self.plan)
+        self.grid = grid_of(read_map())
 
     def free_places(self):
         """Returns parking cells (column, row) on which no robot stands."""
@@ -192,6 +192,8 @@ def main():
         master = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *launch], stdout=sys.stderr)
         stack.callback(master.wait)
         stack.callback(master.terminate)
+        told = [sys.executable, HERE / "witness.py", str(broker.port), "master"]
+        witness = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *told])
         floor = Floor(broker.port)
         stack.callback(floor.close)
         for number, cell in zip(NAMES, floor.free_places()):
@@ -202,6 +204,8 @@ def main():
         for number in NAMES:
             comes_back(floor, number)
         assert floor.contacts() == [], floor.contacts()
+        witness.terminate()
+        assert witness.wait() == 0, "a message of the master does not fit the schemas"
         say(f"no contact, {len(floor.fleet.messages)} states of the fleet")
 
 

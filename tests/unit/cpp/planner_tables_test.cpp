@@ -10,7 +10,7 @@
 namespace fleet::test {
 namespace {
 
-constexpr int kGoals = 10, kAge = 3, kWidth = 20;
+constexpr int kGoals = 10, kAge = 3, kWidth = 20, kStates = kWidth * kHeadings;
 
 class Tables : public testing::Test {
  protected:
@@ -18,20 +18,23 @@ class Tables : public testing::Test {
 
   /// A step in which all are asked for: how far each is from the far end, in ticks.
   std::vector<int> step(int urgent = -1) {
-    tables_.begin(++now_, 0, kGoals);
+    tables_.begin(++now_, 0, kGoals * kStates);
+    for (int goal = 0; goal < kGoals; ++goal) tables_.need(Deck::kUnder, goal);
+    tables_.make();
     std::vector<int> ticks;
     for (int goal = 0; goal < kGoals; ++goal) {
-      const DistanceTable* table = tables_.find(Deck::kUnder, goal, goal == urgent);
+      const DistanceTable* table = tables_.find(Deck::kUnder, 0, goal, goal == urgent);
       ticks.push_back(table->at(kWidth - 1, 2) / kTickCost);
     }
-    tables_.renew(kAge, 1);
+    tables_.renew(kAge, kStates);
     return ticks;
   }
 
   const Floor floor_{drawn({std::string(kWidth, '.')})};
   std::vector<std::uint8_t> costs_ = std::vector<std::uint8_t>(kWidth * kHeadings, kTickCost);
   Edges edges_{{}, &costs_, {}};
-  DistanceTables tables_{floor_, edges_, 1, std::size_t{1} << 20};
+  const Threads threads_{1};
+  DistanceTables tables_{floor_, edges_, {1, std::size_t{1} << 20, kWidth}, threads_};
   int now_ = 0;
 };
 

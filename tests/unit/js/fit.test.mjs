@@ -27,6 +27,10 @@ for (const [name, bounds, half] of [
       const reach = [0, 1].map((i) => Math.max(...at.map((p) => Math.abs(p[i]))));
       assert.ok(Math.max(...reach) < 1 + 1e-9, `out of the picture: ${reach}`);
       assert.ok(Math.max(...reach) > 1 - 1e-9, `smaller than it could be: ${reach}`);
+      for (const i of [0, 1]) {
+        const along = at.map((p) => p[i]);
+        assert.ok(Math.abs(Math.max(...along) + Math.min(...along)) < 1e-9, `out of the middle: ${along}`);
+      }
     });
   }
 }

@@ -7,6 +7,7 @@ import { Renewal, STILL } from '../../../src/warehouse_viewer/web/js/backdrop.js
 import { FAR, NEAR, StandingCrowd, View } from '../../../src/warehouse_viewer/web/js/crowd.js';
 import { scaleFor } from '../../../src/warehouse_viewer/web/js/fit.js';
 import { boundsOf, hull, merge } from '../../../src/warehouse_viewer/web/js/looks.js';
+import { apart } from '../../../src/warehouse_viewer/web/js/labelled.js';
 import { chevrons } from '../../../src/warehouse_viewer/web/js/paint.js';
 import { nextFrom } from '../../../src/warehouse_viewer/web/js/scene_keys.js';
 import { boardsOf, shelfGeometry, shelfPicture, variantOf, VARIANTS } from '../../../src/warehouse_viewer/web/js/shelves.js';
@@ -77,6 +78,15 @@ test('what stands on a square of the floor is drawn again only when something th
   assert.ok(crowd.parts.slice(1).every(({ copies }) => copies[1].mesh.visible));
 });
 
+test('a square of the floor is seen as large as its nearest edge, whatever stands there', () => {
+  const view = viewFrom(21); // 500 px a metre at 1 m, 1 m above the floor
+  for (const reach of [8 * Math.SQRT2, 8 * Math.SQRT2 + 1]) {
+    assert.ok(Math.abs(view.scaleOfSquare(8, 8, 8, reach) - 500 / 20) < 1e-6); // beneath it
+    assert.ok(Math.abs(view.scaleOfSquare(23, 8, 8, reach) - 500 / 25) < 1e-6); // 15 m aside
+    assert.equal(view.scaleOfSquare(80, 0, 8, reach), 0); // out of sight
+  }
+});
+
 test('what was put down moves on until the backdrop takes it in, and is nowhere missing', () => {
   const { crowd, place, counts } = standing();
   const shows = (moved, settles) => {
@@ -134,6 +144,17 @@ test('a sign tells who queues, and from when on a person is wanted', () => {
   assert.deepEqual(signOf(4, { open: true, waiting: 12.5 }), { kind: 'sign waiting', note: '4 · 12 s' });
   assert.deepEqual(signOf(4, { open: true, waiting: 150 }), { kind: 'sign needs-help', note: '4 · 2 min' });
   assert.deepEqual(signOf(0, { open: false, waiting: 0 }), { kind: 'sign', note: 'closed' });
+});
+
+const sign = (text, x, y, note = '', kind = 'sign') => ({ text, note, kind, pixel: [x, y] });
+const shown = (...signs) => apart(signs).map(({ text }) => text);
+
+test('of signs that would cover each other the first is shown, whatever it counts', () => {
+  assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 40, 15), sign('pick3', 40, 30)), ['pick1', 'pick3']);
+  assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 90, 0)), ['pick1', 'pick2']);
+  assert.deepEqual(shown(sign('pick1', 0, 0, '12'), sign('pick2', 90, 0, '3')), ['pick1', 'pick2']);
+  assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 90, 0, 'closed · 3 min')), ['pick1']);
+  assert.deepEqual(shown(sign('pick1', 0, 0), sign('pick2', 40, 15, '4 · 2 min', 'sign needs-help')), ['pick2']);
 });
 
 test('arrow keys go to the next robot as they are seen', () => {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What makes a day a real one: how far robots, sensors, radio and people differ from the ideal.
-// Every section is off unless it is asked for; doc/explanation/realism.md gives models, defaults and
-// sources.
+// Every section is off unless it is asked for; doc/explanation/realism.md gives models, defaults
+// and sources.
 //
 // A section lists its numbers once, in fields(): name, value, least, most. From that list they are
 // read, checked, compared and saved in checkpoints.

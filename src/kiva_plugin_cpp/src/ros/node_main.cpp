@@ -109,11 +109,8 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   subscribers.onSubscribe([&simulation] { simulation.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, subscribers, snapshots);
   std::optional<CommandTopics> commands;
-  std::optional<ShadowTopic> shadows;
-  if (!replayer) {  // a replay has its own
-    commands.emplace(root, simulation);
-    shadows.emplace(root, simulation);
-  }
+  if (!replayer) commands.emplace(root, simulation);  // a replay has its own
+  ShadowTopic shadows(root, inputs);
   CallbackThread stepping(node), spawning(node), saving(root);
   StepService step_service(stepping.node(), simulation);
   SimulationServices simulation_services(node, simulation);
@@ -155,6 +152,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
       recorder->onInput([topic](rosbag::Bag& bag, const ros::Time& t) { topic->write(bag, t); });
     });
   }
+  simulation.add(shadows);  // after the recorder, whose keyframes are of the world before
 
   announce(world, settings, rtf);
   simulation.start();

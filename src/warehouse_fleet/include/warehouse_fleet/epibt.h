@@ -28,6 +28,8 @@ struct EpibtOptions {
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept
+  int whole_up_to = 8192;  ///< cells of a floor each of whose tables has all cells
+  int threads = 1;         ///< that share a step, with the same plan for any number; 0: all cores
   int table_work = 1500;   ///< states a robot that distance tables made in one step may have
   int renewal_work = 200;  ///< states a robot that tables renewed in one step may have
   int renewal_age = 20;    ///< ticks after which a table is renewed, if there is work left

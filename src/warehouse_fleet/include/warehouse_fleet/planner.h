@@ -38,6 +38,14 @@ class Planner {
   /// is committed must be kept. Called again a tick later with what has become of it; robots may
   /// have been added at the end, or all be others if their number shrinks.
   virtual void plan(const Fleet& fleet, const Budget& budget, Plan& plan) = 0;
+
+  /// Makes ahead of the first step what every plan on the floor needs, for so long by the clock at
+  /// most [s]. By default there is nothing to be made.
+  virtual void prepare(double seconds);
+  /// Writes what was prepared, or reads what was prepared for the same floor. Throws
+  /// std::runtime_error that says what is wrong.
+  virtual void save(const std::string& path) const;
+  virtual void load(const std::string& path);
 };
 
 /// The planner `class_name` in the library at `path`. Throws std::runtime_error that says what is

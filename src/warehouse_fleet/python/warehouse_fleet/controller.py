@@ -85,9 +85,12 @@ class FleetController:
         takes_over_at: float | None = None,
         latency: float = 0.25,
         lag: float = 0.1,
+        threads: int = 0,
     ) -> None:
         self.plan = plan
-        self.traffic = Traffic(plan, kiva_ids, kinematics, seed, planner, latency=latency, lag=lag)
+        self.traffic = Traffic(
+            plan, kiva_ids, kinematics, seed, planner, latency=latency, lag=lag, threads=threads
+        )
         self.robots = self.traffic.robots
         self.transports = Transports(plan, self.traffic, last)
         self._towing = None if tow_after is None else Towing(self.transports, tow_after)

@@ -49,10 +49,15 @@ class Coordinator:
     """
 
     def __init__(
-        self, demand: str = "none", exchange: float = 20.0, seed: int = 1, planner: Any = None
+        self,
+        demand: str = "none",
+        exchange: float = 20.0,
+        seed: int = 1,
+        planner: Any = None,
+        threads: int = 0,
     ) -> None:
         self._demand, self._exchange, self._seed = demand, exchange, seed
-        self._planner = planner
+        self._planner, self._threads = planner, threads
         self.lock = threading.RLock()
         self.controller: Any = None  # a FleetController, while there is a warehouse
         self.events = EventPublisher()
@@ -235,6 +240,7 @@ class Coordinator:
             takes_over_at=time,
             latency=LATENCY,
             lag=LAG,
+            threads=self._threads,
         )
         self.controller.robots.mode[:] = self._kept = reports["mode"].copy()
         self.events.begin()

@@ -2,7 +2,8 @@
 """The state of a fleet as the coordinator's messages."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from typing import Any, Protocol
 
 import numpy as np
 import rospy
@@ -14,9 +15,19 @@ from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.traffic import Releases
 from warehouse_fleet.transport_book import Step, TransportEvent
 from warehouse_fleet.waiting import DOES, Waiting
-from warehouse_fleet.warehouse_watch import WarehouseWatch
-from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, FleetFollow, WarehouseObjects
+from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, FleetFollow
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
+
+
+class Watch(Protocol):
+    """What is known of a warehouse beside its robots."""
+
+    collisions: int
+    objects: Any  # WarehouseObjects
+
+    @property
+    def by_hand(self) -> Collection[str]:
+        """The names of stations where a person works."""
 
 
 def follow_message(releases: Releases) -> FleetFollow:
@@ -39,7 +50,7 @@ def event_message(event: TransportEvent) -> TransportEventMessage:
 
 
 def state_message(
-    controller: FleetController, watch: WarehouseWatch, timeline: int, left_out: str
+    controller: FleetController, watch: Watch, timeline: int, left_out: str
 ) -> CoordinatorState:
     """Returns the state of the fleet; `left_out` says which part of the floor it can't serve."""
     robots, traffic, transports = controller.robots, controller.traffic, controller.transports
@@ -100,7 +111,7 @@ def _alarms(controller: FleetController) -> Iterable[str]:
         )
 
 
-def _fallen(objects: WarehouseObjects) -> Iterable[str]:
+def _fallen(objects: Any) -> Iterable[str]:
     for item, unit in zip(objects.fallen_item, objects.fallen_from):
         yield f"{objects.items[item]} lies on the floor, off {objects.storage_units[unit]}"
 

@@ -33,8 +33,8 @@ class FleetDriver:
 
     The same world, seed and requests give the same run. Events of the world go to `events` as well,
     if that is a list. Robots that are lost, or broken in others' way, are towed `tow_after` [s]
-    later; None: when tow() is called. `collisions` counts, `refusals` are texts, `fallen` the items
-    on the floor; `failures` and `people` sum up what those cost.
+    later; None: when tow() is called. `threads`: see PlanLoop. `collisions` counts, `refusals` are
+    texts, `fallen` the items on the floor; `failures` and `people` sum up what those cost.
     """
 
     def __init__(
@@ -44,12 +44,19 @@ class FleetDriver:
         planner: Any = None,
         kinematics: Kinematics | None = None,
         tow_after: float | None = None,
+        threads: int = 0,
     ) -> None:
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.controller = FleetController(
-            self.plan, world.fleet.kiva_id, kinematics, seed, planner, tow_after=tow_after
+            self.plan,
+            world.fleet.kiva_id,
+            kinematics,
+            seed,
+            planner,
+            tow_after=tow_after,
+            threads=threads,
         )
         self.traffic, self.transports = self.controller.traffic, self.controller.transports
         self.robots = self.controller.robots

@@ -3,6 +3,7 @@
 
 import collections
 import concurrent.futures
+import os
 import time as clock
 from typing import Any
 
@@ -27,7 +28,8 @@ class PlanLoop:
     """Begins a plan every `tick` [s] and has Execution adopt it `lag` [s] later, ready or not: so a
     run does not depend on how fast the machine is.
 
-    `planner` is a YAML file's description, see planner_plugins; None: the one of this package.
+    `planner` is a YAML file's description, see planner_plugins; None: the one of this package, on
+    so many `threads`, with the same plans for any number; 0: one less than the machine has cores.
     `refused` counts plans that were refused, `alarm` says why the last one was.
     """
 
@@ -42,12 +44,14 @@ class PlanLoop:
         seed: int,
         planner: Any = None,
         attempts: int = 0,
+        threads: int = 0,
     ) -> None:
         # Execution arbitrates turning; the planner may assume that every turn succeeds.
         rules = Rules(turning=True)
         self.planner: Planner | ValidatedPlanner
         if planner is None:
-            self.planner = epibt(floor, rules, seed, horizon=HORIZON, **GUIDANCE)
+            threads = threads or max(1, (os.cpu_count() or 1) - 1)
+            self.planner = epibt(floor, rules, seed, horizon=HORIZON, threads=threads, **GUIDANCE)
         else:
             self.planner = make_planner(floor, rules, seed, planner, robot_names)
         self.refused, self.alarm = 0, ""
@@ -55,6 +59,7 @@ class PlanLoop:
         self.tick, self._lag, self._attempts = tick, lag, attempts
         self._execution = execution
         self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
+        self._thread.submit(self.planner.prepare)
         self._plan: concurrent.futures.Future | None = None
         self._due = self._next = 0.0
 

@@ -18,6 +18,7 @@ towards it, a quarter a tick, and stays in its cell meanwhile. A YAML file names
 """
 
 import importlib
+import math
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any, Protocol
@@ -58,6 +59,10 @@ class CellPlanner(Protocol):
 class ActionPlanner(Protocol):
     """A planner that answers with actions."""
 
+    def prepare(self, seconds: float = ...) -> None:
+        """Makes what every plan needs, ahead of the first, in at most `seconds` by the clock."""
+        ...
+
     def plan(self, fleet: Fleet, seconds: float, attempts: int) -> NDArray[np.uint8]:
         """Returns the plan, (robots, ticks) of Action.
 
@@ -85,6 +90,10 @@ class ValidatedPlanner:
         self.planner, self.floor, self.rules, self.names = planner, floor, rules, names or []
         self.ticks = ticks
 
+    def prepare(self, seconds: float = math.inf) -> None:
+        """Makes what every plan needs, ahead of the first, in at most `seconds` by the clock."""
+        self.planner.prepare(seconds)
+
     def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
         """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError."""
         actions = self.planner.plan(fleet, seconds, attempts)
@@ -102,6 +111,9 @@ class PythonPlanner:
     def __init__(self, planner: CellPlanner, floor: Floor, rules: Rules, seed: int) -> None:
         self.planner, self.floor = planner, floor
         planner.start(floor, rules, seed)
+
+    def prepare(self, seconds: float = math.inf) -> None:
+        """Does nothing: there is no such method in a planner of cells."""
 
     def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
         """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError.

@@ -44,7 +44,7 @@ class Traffic:
 
     `latency` [s] passes from a report until what is released for it has reached the robot. While
     the fleet `takes_over`, all robots are obstacles: paths that another coordinator sent them are
-    not over yet. For `planner` and `lag` see PlanLoop.
+    not over yet. For `planner`, `lag` and `threads` see PlanLoop.
     """
 
     def __init__(
@@ -58,6 +58,7 @@ class Traffic:
         latency: float = 0.25,
         attempts: int = 0,
         lag: float = 0.1,
+        threads: int = 0,
     ) -> None:
         kinematics = kinematics or Kinematics()
         self.plan, self.floor = plan, plan.floor()
@@ -82,6 +83,7 @@ class Traffic:
             seed=seed,
             planner=planner,
             attempts=attempts,
+            threads=threads,
         )
         self.watchdog = Watchdog(self)
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began

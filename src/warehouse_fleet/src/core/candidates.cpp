@@ -13,7 +13,12 @@ constexpr int kFine = 16;
 }  // namespace
 
 Candidates::Candidates(const Floor& floor, const Edges& edges, int depth, int horizon)
-    : floor_(floor), edges_(edges), depth_(depth), horizon_(horizon), is_kept_(floor.size()) {
+    : floor_(floor),
+      edges_(edges),
+      depth_(depth),
+      horizon_(horizon),
+      is_kept_(floor.size()),
+      scratch_(1) {
   operations_.emplace_back();
   for (int free = 1; free <= depth; ++free) {
     operations_.push_back(std::make_unique<Operations>(free));
@@ -33,18 +38,33 @@ void Candidates::keep(Cell cell) {
 }
 
 const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
+  if (!is_known_[robot]) find(robot, wish, scratch_.front());
+  return paths_[robot];
+}
+
+void Candidates::find(const std::vector<Wish>& wishes, const Threads& threads) {
+  constexpr int kWorth = 100;        // robots that are worth a thread
+  if (threads.count() == 1) return;  // each robot's when they are asked for
+  scratch_.resize(std::max<std::size_t>(threads.count(), scratch_.size()));
+  threads.share(static_cast<int>(wishes.size()), kWorth,
+                [&](int robot, int thread) { find(robot, wishes[robot], scratch_[thread]); });
+}
+
+void Candidates::find(int robot, const Wish& wish, Scratch& scratch) {
   std::vector<Path>& paths = paths_[robot];
-  if (is_known_[robot]) return paths;
   is_known_[robot] = 1;
   paths.clear();
   if (wish.stopped || wish.committed == horizon_) {
     paths.push_back(standing(wish));
-    return paths;
+    return;
   }
-  grow(wish, paths);
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const Path& one, const Path& other) { return one.cost < other.cost; });
-  return paths;
+  grow(wish, scratch);
+  scratch.order.clear();
+  for (const Path& path : scratch.paths) {
+    scratch.order.emplace_back(path.cost, static_cast<int>(scratch.order.size()));
+  }
+  std::sort(scratch.order.begin(), scratch.order.end());
+  for (const auto& [cost, index] : scratch.order) paths.push_back(scratch.paths[index]);
 }
 
 Path Candidates::standing(const Wish& wish) const {
@@ -153,24 +173,26 @@ bool Candidates::hasRoomToTurn(const Wish& wish, const Path& path, const Actions
   return true;
 }
 
-void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
+void Candidates::grow(const Wish& wish, Scratch& scratch) const {
+  std::vector<Cell>& reached = scratch.reached;
+  scratch.paths.clear();
   Path path;
   const State start = commit(wish, path);
   const int free = std::min(depth_, horizon_ - wish.committed);
   const int end = wish.committed + free;
   const Operations& operations = *operations_[free];
-  reached_.resize(operations.nodes().size());
+  reached.resize(operations.nodes().size());
   for (std::size_t i = 0; i < operations.nodes().size(); ++i) {
     const auto& node = operations.nodes()[i];
-    const Cell from = node.parent < 0 ? start.cell : reached_[node.parent];
-    reached_[i] = from;
+    const Cell from = node.parent < 0 ? start.cell : reached[node.parent];
+    reached[i] = from;
     if (from == kNowhere || node.move == Operations::kStay) continue;
-    reached_[i] = next(wish, from, turned(start.heading, node.move));
+    reached[i] = next(wish, from, turned(start.heading, node.move));
   }
   for (const auto& leaf : operations.leaves()) {
-    if (reached_[leaf.node] == kNowhere) continue;
+    if (reached[leaf.node] == kNowhere) continue;
     for (int at = leaf.node, tick = end; at >= 0; at = operations.nodes()[at].parent, --tick) {
-      path.cells[tick] = reached_[at];
+      path.cells[tick] = reached[at];
     }
     std::fill(path.cells.begin() + end + 1, path.cells.begin() + horizon_ + 1, path.cells[end]);
     int best = -1;
@@ -185,7 +207,7 @@ void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
     path.cost += leaf.late;
     std::copy_n(leaf.actions[best].begin(), free, path.actions.begin() + wish.committed);
     std::fill(path.actions.begin() + end, path.actions.begin() + horizon_, Action::kWait);
-    paths.push_back(path);
+    scratch.paths.push_back(path);
   }
 }
 

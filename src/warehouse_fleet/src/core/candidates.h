@@ -4,10 +4,12 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "distance_tables.h"
 #include "path.h"
+#include "threads.h"
 
 namespace fleet {
 
@@ -39,6 +41,8 @@ class Candidates {
 
   /// Works them out, once a step.
   const std::vector<Path>& of(int robot, const Wish& wish);
+  /// Works out those of all robots, on all threads.
+  void find(const std::vector<Wish>& wishes, const Threads& threads);
 
   /// Returns the candidate that keeps to what is committed, and stands from then on. It is allowed
   /// if no other robot is in its way.
@@ -62,7 +66,14 @@ class Candidates {
   bool hasRoomToTurn(const Wish& wish, const Path& path, const Actions& actions) const;
   bool isDeadEnd(const Wish& wish, Cell cell, int heading) const;
   int cost(const Wish& wish, const Path& path, int heading) const;
-  void grow(const Wish& wish, std::vector<Path>& paths);
+  /// What one thread needs for it.
+  struct Scratch {
+    std::vector<Cell> reached;  ///< by node of a tree of operations
+    std::vector<Path> paths;
+    std::vector<std::pair<int, int>> order;  ///< of paths: cost, index
+  };
+  void find(int robot, const Wish& wish, Scratch& scratch);
+  void grow(const Wish& wish, Scratch& scratch) const;
 
   const Floor& floor_;
   const Edges& edges_;
@@ -72,7 +83,7 @@ class Candidates {
   std::vector<std::uint8_t> is_known_;
   std::vector<std::uint8_t> is_kept_;  ///< by cell
   std::vector<Cell> kept_;
-  std::vector<Cell> reached_;  ///< by node of a tree of operations
+  std::vector<Scratch> scratch_;  ///< one a thread
 };
 
 }  // namespace fleet

@@ -102,7 +102,9 @@ void DeadEnds::serve(int robot, DistanceTables& tables, Candidates& candidates,
   Wish& other = wishes[inner];
   if (other.stopped || outside_[gate] == kNowhere) return;
   other.goal = outside_[gate];
-  other.table = tables.find(other.deck, other.goal, false);
+  tables.need(other.deck, other.goal);
+  tables.make();
+  other.table = tables.find(other.deck, other.state.cell, other.goal, false);
   other.yields = false;
   other.is_urgent = other.enters_kept = true;
 }

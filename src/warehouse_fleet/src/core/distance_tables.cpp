@@ -2,55 +2,181 @@
 #include "distance_tables.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cstdlib>
 #include <tuple>
 #include <utility>
 
 namespace fleet {
 namespace {
 
-constexpr int kQueues = 64;
-static_assert(kMaxEdgeCost < kQueues && (kQueues & (kQueues - 1)) == 0);
-static_assert(kMaxTurnTicks * kTickCost <= 0xf, "a quarter turn must fit into four bits");
+constexpr int kLeastSide = 12, kMostSide = 32;  // of a region
+
+bool hasStorage(const Floor& floor) {
+  for (Cell cell = 0; cell < floor.size(); ++cell) {
+    if (floor.isStorage(cell)) return true;
+  }
+  return false;
+}
+
+/// The least for which half of the bytes hold the tables of all regions.
+int sideFor(const Floor& floor, std::size_t bytes) {
+  const std::size_t table = floor.size() * sizeof(std::uint32_t) * (hasStorage(floor) ? 2 : 1);
+  int side = kLeastSide;
+  while (side < kMostSide && table * (floor.size() / (side * side)) > bytes / 2) side += 4;
+  return side;
+}
+
+/// No cell of a window costs more than by way of the region's middle.
+void limit(DistanceSearch& search, const Floor& floor, const Window& window,
+           const DistanceTable& far, int detour) {
+  constexpr int kMost = kUnreachable - 1;
+  for (int y = window.top; y < window.top + window.rows; ++y) {
+    for (int x = window.left; x < window.left + window.columns; ++x) {
+      const Cell cell = y * floor.width() + x;
+      if (!far.reaches(cell)) continue;
+      for (int heading = 0; heading < kHeadings; ++heading) {
+        const int by_middle = std::min(kMost, far.at(cell, heading) + detour);
+        if (by_middle < search.cost(cell, heading)) search.set(cell, heading, by_middle);
+      }
+    }
+  }
+}
 
 }  // namespace
 
-DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, int turn_ticks,
-                               std::size_t bytes)
-    : floor_(floor),
-      edges_(edges),
-      turn_cost_(turn_ticks * kTickCost),
-      capacity_(std::max<std::size_t>(1, bytes / tableBytes())),
-      cost_(floor.size() * kHeadings),
-      queues_(kQueues) {}
-
-void DistanceTables::begin(int now, int version, int builds) {
-  now_ = now;
-  version_ = version;
-  builds_ = builds;
-  asked_.clear();
+void DistanceTable::enclose(const Floor& floor, const Window& window, const DistanceTable& far,
+                            int detour) {
+  far_ = &far;
+  detour_ = detour;
+  window_ = window;
+  width_ = floor.width();
+  inverse_ = (std::uint64_t{1} << kInverseBits) / width_ + 1;
 }
 
-const DistanceTable* DistanceTables::find(Deck deck, Cell goal, bool is_urgent) {
-  const std::int64_t key = std::int64_t{goal} << 1 | static_cast<int>(deck);
-  if (const auto known = index_.find(key); known != index_.end()) {
-    tables_.splice(tables_.begin(), tables_, known->second);
-    ask(tables_.front(), is_urgent);
-    return &tables_.front().table;
+DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, const TableOptions& options,
+                               const Threads& threads)
+    : floor_(floor), edges_(edges), options_(options), threads_(threads) {
+  if (floor.size() > options.whole_up_to) {
+    regions_ = std::make_unique<Regions>(floor, sideFor(floor, options.bytes));
   }
-  if (builds_ == 0) return nullptr;
-  if (tables_.size() < capacity_) {
-    tables_.emplace_front();
-  } else {
-    index_.erase(tables_.back().key);
-    tables_.splice(tables_.begin(), tables_, std::prev(tables_.end()));
+  for (int thread = 0; thread < threads.count(); ++thread) {
+    searches_.push_back(std::make_unique<DistanceSearch>(floor, edges, options.turn_ticks));
   }
-  tables_.front().key = key;
-  index_[key] = tables_.begin();
-  --builds_;
-  build(tables_.front());
-  ask(tables_.front(), is_urgent);
-  return &tables_.front().table;
+}
+
+void DistanceTables::begin(int now, int version, std::int64_t work) {
+  now_ = now;
+  version_ = version;
+  work_ = work;
+  has_worked_ = false;
+  asked_.clear();
+  to_make_.clear();
+}
+
+void DistanceTables::need(Deck deck, Cell goal) {
+  Entry* entry = known(keyOf(deck, goal, false));
+  if (entry == nullptr) {
+    const Cell middle = middleFor(deck, goal);
+    const Kind kind = middle == kNowhere ? Kind::kWhole : Kind::kNear;
+    Entry* far = kind == Kind::kNear ? needed(Kind::kFar, deck, middle) : nullptr;
+    if (kind == Kind::kNear && far == nullptr) return;
+    entry = create(kind, deck, goal);
+    if (entry == nullptr) return;
+    entry->far = far;
+  }
+  touch(*entry);
+  if (entry->far != nullptr) touch(*entry->far);  // which is kept for longer than what needs it
+}
+
+/// A new or known table.
+DistanceTables::Entry* DistanceTables::needed(Kind kind, Deck deck, Cell goal) {
+  Entry* entry = known(keyOf(deck, goal, kind == Kind::kFar));
+  if (entry == nullptr) entry = create(kind, deck, goal);
+  if (entry != nullptr) touch(*entry);
+  return entry;
+}
+
+void DistanceTables::touch(Entry& entry) {
+  tables_.splice(tables_.begin(), tables_, entry.self);
+  if (std::exchange(entry.needed, now_) == now_) return;
+  const bool is_stale = entry.far != nullptr && entry.far_made != entry.far->table.made_;
+  if (!entry.is_made || is_stale) to_make_.push_back(&entry);
+}
+
+DistanceTables::Entry* DistanceTables::known(std::int64_t key) const {
+  const auto known = index_.find(key);
+  return known == index_.end() ? nullptr : known->second;
+}
+
+/// The cell whose table serves a goal from far away; kNowhere if the goal needs a table of its own:
+/// tables to lanes lead through lanes, and few cells in them are goals of many robots.
+Cell DistanceTables::middleFor(Deck deck, Cell goal) const {
+  if (regions_ == nullptr || floor_.isLane(goal)) return kNowhere;
+  return regions_->middle(deck, regions_->of(goal));
+}
+
+int DistanceTables::cells(Kind kind, Cell goal) const {
+  return kind == Kind::kNear ? around(floor_, goal, reach()).size() : floor_.size();
+}
+
+DistanceTables::Entry* DistanceTables::create(Kind kind, Deck deck, Cell goal) {
+  const int cells = this->cells(kind, goal);
+  const std::size_t bytes = cells * sizeof(std::uint32_t) + sizeof(Entry);
+  if (!takesWork(std::int64_t{cells} * kHeadings) || !hasRoom(bytes)) return nullptr;
+  Entry& entry = tables_.emplace_front();
+  entry.self = tables_.begin();
+  entry.key = keyOf(deck, goal, kind == Kind::kFar);
+  entry.kind = kind;
+  entry.deck = deck;
+  entry.goal = goal;
+  entry.bytes = bytes;
+  used_ += bytes;
+  index_[entry.key] = &entry;
+  return &entry;
+}
+
+/// Whether as much may still be done in this step; at least one table may be made.
+bool DistanceTables::takesWork(std::int64_t states) {
+  if (has_worked_ && states > work_) return false;
+  has_worked_ = true;
+  work_ -= states;
+  return true;
+}
+
+/// Drops what has not been needed for the longest, but nothing that a robot needs now.
+bool DistanceTables::hasRoom(std::size_t bytes) {
+  while (!tables_.empty() && used_ + bytes > options_.bytes) {
+    const Entry& last = tables_.back();
+    if (last.needed >= 0 && last.needed >= now_ - 1) return false;
+    used_ -= last.bytes;
+    index_.erase(last.key);
+    tables_.pop_back();
+  }
+  return true;
+}
+
+void DistanceTables::make() {
+  buildAll(to_make_);
+  to_make_.clear();
+}
+
+const DistanceTable* DistanceTables::find(Deck deck, Cell from, Cell goal, bool is_urgent) {
+  Entry* entry = known(keyOf(deck, goal, false));
+  if (entry == nullptr || !entry->is_made) {
+    // From afar the region's table is as good.
+    const Cell middle = areNear(from, goal) ? kNowhere : middleFor(deck, goal);
+    entry = middle == kNowhere ? nullptr : known(keyOf(deck, middle, true));
+    if (entry == nullptr || !entry->is_made) return nullptr;
+  }
+  ask(*entry, is_urgent);
+  if (entry->far != nullptr) ask(*entry->far, is_urgent);
+  return &entry->table;
+}
+
+bool DistanceTables::areNear(Cell one, Cell other) const {
+  const int reach = regions_ == nullptr ? floor_.size() : this->reach();
+  return std::abs(floor_.x(one) - floor_.x(other)) <= reach &&
+         std::abs(floor_.y(one) - floor_.y(other)) <= reach;
 }
 
 void DistanceTables::ask(Entry& entry, bool is_urgent) {
@@ -59,76 +185,123 @@ void DistanceTables::ask(Entry& entry, bool is_urgent) {
   entry.is_urgent = is_urgent || (!is_first && entry.is_urgent);
 }
 
-void DistanceTables::renew(int max_age, int builds) {
-  const auto is_young = [&](const Entry* entry) {
-    return entry->table.version_ == version_ && now_ - entry->table.made_ < max_age;
-  };
-  asked_.erase(std::remove_if(asked_.begin(), asked_.end(), is_young), asked_.end());
+void DistanceTables::renew(int max_age, std::int64_t work) {
+  buildAll(chooseOutdated(max_age, work));
+}
+
+/// Tables around goals are renewed with the far table that they add to.
+std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, std::int64_t work) {
+  std::unordered_map<const Entry*, std::vector<Entry*>> near;
+  std::vector<Entry*> old;
+  for (Entry* entry : asked_) {
+    if (entry->far != nullptr) near[entry->far].push_back(entry);
+    const bool is_young = entry->table.version_ == version_ && now_ - entry->table.made_ < max_age;
+    if (!is_young) old.push_back(entry);
+  }
   const auto turn = [](const Entry* entry) {
     return std::make_tuple(!entry->is_urgent, entry->table.made_, entry->key);
   };
-  const auto end = asked_.begin() + std::min<std::size_t>(asked_.size(), builds);
-  std::partial_sort(asked_.begin(), end, asked_.end(),
-                    [&](const Entry* one, const Entry* other) { return turn(one) < turn(other); });
-  std::for_each(asked_.begin(), end, [this](Entry* entry) { build(*entry); });
+  std::sort(old.begin(), old.end(),
+            [&](const Entry* one, const Entry* other) { return turn(one) < turn(other); });
+  work_ = work;
+  has_worked_ = false;
+  std::vector<Entry*> chosen;
+  std::unordered_map<const Entry*, bool> is_chosen;
+  const auto choose = [&](Entry* entry) {
+    if (!std::exchange(is_chosen[entry], true)) chosen.push_back(entry);
+  };
+  for (Entry* entry : old) {
+    if (is_chosen[entry]) continue;
+    std::int64_t states = std::int64_t{cells(entry->kind, entry->goal)} * kHeadings;
+    const std::vector<Entry*>& goals = near[entry];
+    for (const Entry* goal : goals)
+      states += std::int64_t{cells(goal->kind, goal->goal)} * kHeadings;
+    if (!takesWork(states)) break;
+    choose(entry);
+    for (Entry* goal : goals) choose(goal);
+  }
+  return chosen;
 }
 
-void DistanceTables::build(Entry& entry) {
-  const Deck deck = static_cast<Deck>(entry.key & 1);
-  const Cell goal = static_cast<Cell>(entry.key >> 1);
-  std::fill(cost_.begin(), cost_.end(), kUnreachable);
-  for (int heading = 0; heading < kHeadings; ++heading) push(goal * kHeadings + heading, 0);
-  // The queues hold all costs from the present one to the dearest edge away.
-  for (int cost = 0, idle = 0; idle < kQueues; ++cost, ++idle) {
-    auto& queue = queues_[cost & (kQueues - 1)];
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      if (cost_[queue[i]] == cost) relax(deck, goal, queue[i]);
-      idle = 0;
-    }
-    queue.clear();
+/// Far tables first: those around goals add to them.
+void DistanceTables::buildAll(const std::vector<Entry*>& entries) {
+  std::vector<Entry*> first, then;
+  for (Entry* entry : entries) (entry->kind == Kind::kNear ? then : first).push_back(entry);
+  build(first);
+  build(then);
+}
+
+void DistanceTables::build(const std::vector<Entry*>& entries) {
+  threads_.share(static_cast<int>(entries.size()), 1,
+                 [&](int i, int thread) { search(*entries[i], *searches_[thread]); });
+  for (Entry* entry : entries) {
+    const std::size_t bytes = entry->table.words_.size() * sizeof(std::uint32_t) + sizeof(Entry);
+    used_ += bytes - std::exchange(entry->bytes, bytes);
   }
-  pack(entry.table);
+}
+
+void DistanceTables::search(Entry& entry, DistanceSearch& search) const {
+  if (entry.kind == Kind::kNear) searchNear(entry, search);
+  if (entry.kind != Kind::kNear) {
+    search.run(entry.deck, entry.goal, whole(floor_), entry.kind == Kind::kFar);
+    search.pack(entry.table.words_);
+  }
   entry.table.version_ = version_;
   entry.table.made_ = now_;
+  entry.is_made = true;
 }
 
-void DistanceTables::push(int state, int cost) {
-  if (cost >= cost_[state]) return;
-  cost_[state] = static_cast<std::uint16_t>(cost);
-  queues_[cost & (kQueues - 1)].push_back(state);
-}
-
-/// To the states from which one action leads to this one.
-void DistanceTables::relax(Deck deck, Cell goal, int state) {
-  const int cost = cost_[state];
-  const Cell cell = state / kHeadings;
-  const int heading = state % kHeadings;
-  if (edges_.mayTurn(deck, cell)) {
-    push(cell * kHeadings + turned(heading, 1), cost + turn_cost_);
-    push(cell * kHeadings + turned(heading, -1), cost + turn_cost_);
+/// The cells around a goal, as part of the way that leads by the region's middle or not. A goal
+/// that can't be reached from there by a short way gets a table of all cells.
+void DistanceTables::searchNear(Entry& entry, DistanceSearch& search) const {
+  const DistanceTable& far = entry.far->table;
+  const Cell middle = entry.far->goal;
+  const Window window = around(floor_, entry.goal, reach());
+  search.run(entry.deck, entry.goal, window, false);
+  int detour = 0;
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    detour = std::max(detour, search.cost(middle, heading));
   }
-  const Cell from = floor_.beside(cell, heading + 2);
-  if (from == kNowhere) return;
-  // A goal may be a storage place, which the aisles' deck does not lead into.
-  const auto& next = edges_.next[cell == goal ? 0 : static_cast<int>(deck)];
-  const int edge = from * kHeadings + heading;
-  if (next[edge] != cell || isPassingThrough(floor_, from, cell, goal)) return;
-  // Nor for a short cut to another station's lane.
-  const bool enters = floor_.isLane(cell) && !floor_.isLane(from);
-  push(edge, cost + (enters ? kMaxEdgeCost : (*edges_.costs)[edge]));
+  if (detour == kUnreachable) {
+    entry.kind = Kind::kWhole;
+    entry.far = nullptr;
+    entry.table.far_ = nullptr;
+    return;
+  }
+  if (!isClosed(entry.deck, middle)) limit(search, floor_, window, far, detour);
+  search.pack(entry.table.words_);
+  entry.table.enclose(floor_, window, far, detour);
+  entry.far_made = far.made_;
 }
 
-void DistanceTables::pack(DistanceTable& table) const {
-  table.words_.resize(floor_.size());
-  for (Cell cell = 0; cell < floor_.size(); ++cell) {
-    const std::uint16_t* cost = &cost_[cell * kHeadings];
-    const std::uint32_t least = std::min(std::min(cost[0], cost[1]), std::min(cost[2], cost[3]));
-    std::uint32_t word = least << 16;
-    for (int heading = 0; heading < kHeadings; ++heading) {
-      word |= std::min<std::uint32_t>(cost[heading] - least, 0xf) << (4 * heading);
+/// Whether no edge of those that the floor has leads there now.
+bool DistanceTables::isClosed(Deck deck, Cell cell) const {
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    const Cell from = floor_.beside(cell, heading + 2);
+    if (from == kNowhere) continue;
+    if (edges_.next[static_cast<int>(deck)][from * kHeadings + heading] == cell) return false;
+  }
+  return true;
+}
+
+void DistanceTables::prepare(const std::function<bool()>& goes_on) {
+  if (regions_ == nullptr) return;
+  const int batch = 4 * threads_.count();
+  std::vector<Entry*> entries;
+  for (const Deck deck : {Deck::kUnder, Deck::kAisles}) {
+    if (deck == Deck::kAisles && !hasStorage(floor_)) continue;
+    for (int region = 0; region < regions_->size() && goes_on(); ++region) {
+      const Cell middle = regions_->middle(deck, region);
+      if (middle == kNowhere || known(keyOf(deck, middle, true)) != nullptr) continue;
+      has_worked_ = false;
+      Entry* entry = create(Kind::kFar, deck, middle);
+      if (entry == nullptr) break;
+      entries.push_back(entry);
+      if (static_cast<int>(entries.size()) < batch) continue;
+      build(std::exchange(entries, {}));
     }
-    table.words_[cell] = word;
   }
+  build(entries);
 }
 
 }  // namespace fleet

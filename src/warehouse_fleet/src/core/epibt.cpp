@@ -4,10 +4,14 @@
 #include <time.h>
 
 #include <algorithm>
+#include <chrono>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 #include "candidates.h"
 #include "chain_search.h"
@@ -20,6 +24,7 @@
 #include "push_search.h"
 #include "reservations.h"
 #include "spacing.h"
+#include "threads.h"
 #include "yielding.h"
 
 namespace fleet {
@@ -46,7 +51,7 @@ struct Memory {
 
 class Epibt : public Planner {
  public:
-  explicit Epibt(const EpibtOptions& options) : options_(options) {
+  explicit Epibt(const EpibtOptions& options) : options_(options), threads_(options.threads) {
     inRange("depth", options_.depth, 0, kMaxDepth);
     if (options_.horizon != 0) {
       inRange("horizon", options_.horizon, std::max(1, options_.depth), kMaxHorizon);
@@ -56,11 +61,16 @@ class Epibt : public Planner {
 
   void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
   void plan(const Fleet& fleet, const Budget& budget, Plan& plan) override;
+  void prepare(double seconds) override;
+  void save(const std::string& path) const override;
+  void load(const std::string& path) override;
 
  private:
   void beginSearch(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
   void wish(const Fleet& fleet);
+  void measure();
+  std::int64_t tableWork(std::int64_t a_robot) const;
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
   void replan(bool is_crowded);
@@ -68,6 +78,7 @@ class Epibt : public Planner {
   void answer(const Fleet& fleet, Plan& plan);
 
   EpibtOptions options_;
+  const Threads threads_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Closures> closures_;
   std::unique_ptr<DistanceTables> tables_;
@@ -96,8 +107,9 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
       floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
                              options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
-  tables_ = std::make_unique<DistanceTables>(floor, closures_->edges(), options_.turn_ticks,
-                                             options_.table_bytes);
+  tables_ = std::make_unique<DistanceTables>(
+      floor, closures_->edges(), TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to},
+      threads_);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
   yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   dead_ends_ = std::make_unique<DeadEnds>(floor);
@@ -132,6 +144,7 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   way_->direct(fleet, !is_crowded, *candidates_, wishes_);
   inherit(fleet);
   priorities_.assign(wishes_, waiting_, *candidates_, *way_);
+  candidates_->find(wishes_, threads_);
   replan(is_crowded);
   improve(budget, deadline);
   answer(fleet, plan);
@@ -168,13 +181,6 @@ void Epibt::updateFleet(const Fleet& fleet) {
 }
 
 void Epibt::wish(const Fleet& fleet) {
-  const int states = floor_->size() * kHeadings;
-  constexpr int kLeastWork = 60000;
-  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
-  const auto tables = [&](int work) {
-    return std::max(1, std::max(kLeastWork, work * fleet.size()) / states);
-  };
-  tables_->begin(now_, closures_->version(), tables(options_.table_work));
   wishes_.resize(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     Wish& wish = wishes_[robot];
@@ -189,15 +195,67 @@ void Epibt::wish(const Fleet& fleet) {
     for (int tick = 0; tick < wish.committed; ++tick) {
       wish.commitment[tick] = fleet.commitment(robot, tick);
     }
-    if (wish.goal == kNowhere || wish.stopped) continue;
+  }
+  measure();
+  candidates_->begin(fleet.size());
+}
+
+/// Finds each robot the table to its goal.
+void Epibt::measure() {
+  tables_->begin(now_, closures_->version(), tableWork(options_.table_work));
+  const auto needs = [](const Wish& wish) { return wish.goal != kNowhere && !wish.stopped; };
+  for (const bool is_near : {true, false}) {
+    for (const Wish& wish : wishes_) {
+      if (needs(wish) && tables_->areNear(wish.state.cell, wish.goal) == is_near) {
+        tables_->need(wish.deck, wish.goal);
+      }
+    }
+  }
+  tables_->make();
+  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
+  for (int robot = 0; robot < static_cast<int>(wishes_.size()); ++robot) {
+    Wish& wish = wishes_[robot];
+    if (!needs(wish)) continue;
     const bool waits = way_->still(robot) >= kImpatient && !floor_->isLane(wish.state.cell);
-    wish.table = tables_->find(wish.deck, wish.goal, waits);
+    wish.table = tables_->find(wish.deck, wish.state.cell, wish.goal, waits);
     if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) continue;
-    tables_->find(wish.deck, wish.goal, true);  // perhaps there is a way by now
+    // Perhaps there is a way by now.
+    tables_->find(wish.deck, wish.state.cell, wish.goal, true);
     wish.goal = kNowhere;
   }
-  tables_->renew(options_.renewal_age, tables(options_.renewal_work));
-  candidates_->begin(fleet.size());
+  tables_->renew(options_.renewal_age, tableWork(options_.renewal_work));
+}
+
+/// Returns how many states tables that are made in one step may have.
+std::int64_t Epibt::tableWork(std::int64_t a_robot) const {
+  constexpr std::int64_t kLeast = 60000;
+  // On large floors most of a table is shared, so that less does.
+  constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 400;
+  if (tables_->hasRegions()) a_robot = std::min(a_robot, kMostARobot);
+  const auto work = std::max(kLeast, a_robot * static_cast<std::int64_t>(wishes_.size()));
+  return tables_->hasRegions() ? std::min(kMostAtOnce, work) : work;
+}
+
+void Epibt::prepare(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  tables_->prepare([&] { return std::chrono::steady_clock::now() < end; });
+}
+
+void Epibt::save(const std::string& path) const {
+  std::ofstream file(path, std::ios::binary);
+  if (file) tables_->save(file);
+  file.close();
+  if (!file) throw std::runtime_error(path + ": the tables could not be written");
+}
+
+void Epibt::load(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": no such file, or it can't be read");
+  try {
+    tables_->load(file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
 }
 
 /// Everybody begins with what is left of the last plan, if it still can be driven.

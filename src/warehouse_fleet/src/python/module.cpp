@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -199,6 +200,8 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("pursuing", options.pursuing);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
+  set("whole_up_to", options.whole_up_to);
+  set("threads", options.threads);
   set("table_work", options.table_work);
   set("renewal_work", options.renewal_work);
   set("renewal_age", options.renewal_age);
@@ -221,15 +224,33 @@ void bindPlanners(py::module_& module) {
 The plan has no conflicts and keeps to what is committed; it is asked for again a tick later. seconds:
 computing time of the calling thread for the step [s]; 0: what the first plan needs. attempts: to
 improve the plan, -1: as many as seconds allow. Equal steps give equal plans with seconds=0 and a
-number of attempts. Other threads of Python run meanwhile. FloorError without a plan.)");
+number of attempts, whatever the number of threads. Other threads of Python run meanwhile. FloorError without a plan.)")
+      .def(
+          "prepare", [](Started& started, double seconds) { started.planner->prepare(seconds); },
+          py::arg("seconds") = std::numeric_limits<double>::infinity(),
+          py::call_guard<py::gil_scoped_release>(),
+          R"(Makes what every plan on the floor needs, ahead of the first.
+
+That is the distance tables of all regions of a large floor; nothing on a small one, where plans make
+their tables in time. seconds: by the clock at most [s]; without it equal plans follow.)")
+      .def(
+          "save",
+          [](const Started& started, const std::string& path) { started.planner->save(path); },
+          py::arg("path"),
+          "Writes what was prepared into a file; raises RuntimeError if that can't be done.")
+      .def(
+          "load", [](Started& started, const std::string& path) { started.planner->load(path); },
+          py::arg("path"),
+          "Reads what was prepared for the same floor; raises RuntimeError for any other file.");
   module.def("epibt", &startEpibt, py::arg("floor"), py::arg("rules") = Rules(),
              py::arg("seed") = 1, R"(Returns the planner of this package, started on a floor.
 
 It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
-by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5;
-0: 4, or 5 where the first step has time for it), horizon (ticks of a
-plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], pursuing (share
-of the passable cells), goals_are_stops, table_bytes, table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
+by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5; 0: 4, or 5 where the
+first step has time for it), horizon (ticks of a plan, up to 7; 0: depth), turn_ticks, revisits, pushes,
+exchanges, patience [ticks], pursuing (share of the passable cells), goals_are_stops, table_bytes,
+whole_up_to [cells], threads (0: one a core), table_work, renewal_work, renewal_age [ticks], against,
+crowd, resting, at_lanes,
 memory [ticks]. TypeError for another option.)");
   module.def(
       "load_planner",

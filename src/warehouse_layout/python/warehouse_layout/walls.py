@@ -16,7 +16,8 @@ def boxes(walls: np.ndarray, spacing: float) -> np.ndarray:
     x and y are from the centre of cell (0, 0). Walls keep away from their cells' edges, so that a
     storage unit can be turned in the cell beside them; boxes overlap where they join.
     """
-    found = {*rectangles(walls), *_runs(walls), *(_turned(r) for r in _runs(walls.T))}
+    runs = (*_runs(walls), *(_turned(r) for r in _runs(walls.T)))
+    found = {*rectangles(walls), *runs, *_blocks(walls)}
     low, high = np.reshape(sorted(found), (-1, 2, 2)).astype(float).transpose(1, 0, 2)
     size = (high - low + 1) * spacing - 2 * max(TURNING - spacing / 2, 0.0)
     return np.column_stack([(low + high) / 2 * spacing, size])
@@ -28,6 +29,13 @@ def _runs(walls: np.ndarray) -> Iterable[Rectangle]:
     for (row, first), (_, after) in zip(np.argwhere(edges == 1), np.argwhere(edges == -1)):
         if after - first > 1:
             yield int(first), int(row), int(after) - 1, int(row)
+
+
+def _blocks(walls: np.ndarray) -> Iterable[Rectangle]:
+    """Yields rectangles with all squares of four cells: runs would leave holes in their middles."""
+    pairs = walls[1:] & walls[:-1]
+    for x, y, last_x, last_y in rectangles(pairs[:, 1:] & pairs[:, :-1]):
+        yield x, y, last_x + 1, last_y + 1
 
 
 def _turned(rectangle: Rectangle) -> Rectangle:

@@ -65,7 +65,8 @@ def sheet(groups: Sequence[Group]) -> str:
 def more(groups: Sequence[Group]) -> str:
     """Returns the HTML of other figures side by side, and of how they differ."""
     drawn = [_chart(groups, *one).html(SIDE) for one in COMPARED]
-    side = page.section("Other figures side by side", key_of(groups) + page.row(drawn), NOTE)
+    shown = key_of(groups) + page.row(drawn)
+    side = page.section("Other figures side by side", shown, NOTE, is_short=True)
     found = differences.verdicts(groups)
     if not found:
         return side

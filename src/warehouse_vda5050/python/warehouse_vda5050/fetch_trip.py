@@ -4,7 +4,6 @@
 from typing import Any
 
 import rospy
-from nav_msgs.srv import GetMap
 
 from warehouse_client.routes import Grid as RouteGrid
 from warehouse_client.routes import NoRouteError, route
@@ -12,8 +11,8 @@ from warehouse_msgs.msg import WarehouseState
 from warehouse_vda5050.demo_master import DemoMaster, TripError, order_of
 from warehouse_vda5050.grid import Cell, Grid
 from warehouse_vda5050.model import Action, BlockingType
+from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.topics import Identity
-from warehouse_vda5050.world_link import grid_of
 
 WAIT = 60.0  # for the warehouse to be built [s]
 
@@ -38,7 +37,7 @@ class FetchTrip:
         warehouse = wait_for_warehouse()
         vehicles = master.wait_for_vehicles()
         print(f"{len(vehicles)} vehicles at the broker", flush=True)
-        grid = grid_of(rospy.ServiceProxy("/warehouse/map", GetMap)().map)
+        grid = grid_of(read_map())
         robots = {k.kiva_id: grid.cell_at(k.pose.x, k.pose.y) for k in warehouse.kivas}
         units = {
             int(one.name.removeprefix("storage_unit")): grid.cell_at(

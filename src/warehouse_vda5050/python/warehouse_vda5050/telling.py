@@ -1,32 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse's own programs are told of its vehicles: the topic /warehouse/vda5050."""
+"""What the warehouse's own programs are told of robots at a broker: /warehouse/vda5050."""
 
+import time
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import rospy
 
 from warehouse_msgs.msg import Vda5050
+from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
+from warehouse_vda5050.model import ConnectionState, Error
 from warehouse_vda5050.vehicles import Vehicles
 
+PERIOD = 0.5  # between two looks at what has changed [s, wall]
+CONNECTIONS = {
+    None: Vda5050.OFFLINE,  # it was never there
+    ConnectionState.ONLINE: Vda5050.ONLINE,
+    ConnectionState.OFFLINE: Vda5050.OFFLINE,
+    ConnectionState.CONNECTIONBROKEN: Vda5050.CONNECTIONBROKEN,
+}
 
-class VehiclesTopic:
-    """Publishes which robots an outside master drives; latched, sent when something changed."""
 
-    def __init__(self, broker: str) -> None:
-        self._broker = broker
+class BrokerTopic:
+    """Publishes which robots are at a broker; latched, sent when something changed."""
+
+    def __init__(self) -> None:
         self._told: Any = None
+        self._next = 0.0
         self._publisher = rospy.Publisher("/warehouse/vda5050", Vda5050, latch=True, queue_size=1)
 
-    def tell(self, vehicles: Vehicles) -> None:
-        """Publishes if something changed."""
-        message = vehicles_message(vehicles, self._broker)
+    def tell(self, make_message: Callable[[], Vda5050]) -> None:
+        """Publishes what has changed; looks each PERIOD, however often it is called."""
+        now = time.monotonic()
+        if now < self._next:
+            return
+        self._next = now + PERIOD
+        message = make_message()
         if message != self._told:
             self._told = message
             self._publisher.publish(message)
 
 
 def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
-    """Returns the message of all vehicles."""
+    """Returns the message of the robots that outside masters may drive."""
     links = sorted(vehicles.links.items())
     message = Vda5050(broker=broker, direction=Vda5050.VEHICLE)
     message.connection = [
@@ -38,7 +54,29 @@ def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
         message.manufacturer.append(link.identity.manufacturer)
         message.serial.append(link.identity.serial)
         message.order.append(order.id if order and not vehicle.is_free else "")
-        errors = [f"{error.type}: {error.description}" for error in vehicle.told_errors()]
-        message.errors.append("\n".join(errors))
+        message.errors.append(_text(vehicle.told_errors()))
         message.driven.append(vehicle.is_taken)
     return message
+
+
+def masters_message(vehicles: Iterable[RemoteVehicle], broker: str, now: float) -> Vda5050:
+    """Returns the message of the vehicles that this warehouse drives. `now` is as for them [s]."""
+    message = Vda5050(broker=broker, direction=Vda5050.MASTER)
+    message.connection = []
+    for vehicle in vehicles:
+        robot, view = vehicle.robot, vehicle.view
+        message.kiva_id.append(robot.number)
+        message.manufacturer.append(robot.identity.manufacturer)
+        message.serial.append(robot.identity.serial)
+        silent = view.connection is ConnectionState.ONLINE and view.is_silent(now)
+        message.connection.append(
+            Vda5050.CONNECTIONBROKEN if silent else CONNECTIONS[view.connection]
+        )
+        message.order.append(vehicle.order_id)
+        message.errors.append(_text(view.state.errors if view.state else ()))
+        message.driven.append(not vehicle.is_idle)
+    return message
+
+
+def _text(errors: Iterable[Error]) -> str:
+    return "\n".join(f"{error.type}: {error.description}" for error in errors)

@@ -2,12 +2,11 @@
 """The node that makes robots vehicles: parameters in, one loop around all connections."""
 
 import contextlib
-import time
 
 import rospy
 
 from warehouse_vda5050.arguments import BrokerArguments, own_broker, read_arguments
-from warehouse_vda5050.telling import VehiclesTopic
+from warehouse_vda5050.telling import BrokerTopic, vehicles_message
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
 
@@ -33,7 +32,7 @@ class VehiclesNode:
         rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
         self._world = WorldLink()
         self._vehicles = Vehicles(self._world, settings, rospy.loginfo)
-        self._topic = VehiclesTopic(self._address)
+        self._topic = BrokerTopic()
 
     def stop(self, *_: object) -> None:
         """Lets run() end; a handler of signals."""
@@ -43,13 +42,10 @@ class VehiclesNode:
         """Goes on until stop(), or until the node is shut down; then gives all robots back."""
         with self._stack:
             self._stack.callback(self._vehicles.close)
-            told = 0.0
             while not (self._stopping or rospy.is_shutdown()):
                 self._vehicles.loop.poll(PERIOD)
                 self._update()
-                if time.monotonic() - told > 0.5:
-                    told = time.monotonic()
-                    self._topic.tell(self._vehicles)
+                self._topic.tell(lambda: vehicles_message(self._vehicles, self._address))
 
     def _update(self) -> None:
         world = self._world

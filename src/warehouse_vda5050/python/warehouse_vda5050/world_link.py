@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 import rospy
-from nav_msgs.srv import GetMap
 
 from warehouse_client.commands import COMMANDS
 from warehouse_client.unit_messages import unit_ids, unit_poses
-from warehouse_layout.floor_plan import FloorError, FloorPlan, is_taken, occupancy_of
+from warehouse_layout.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import (
     Event,
     FleetFollow,
@@ -27,6 +26,7 @@ from warehouse_msgs.msg import (
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.simulated_driver import Sighting
 
 WAIT = 10.0  # for the scenery of the floor [s]
@@ -138,7 +138,7 @@ class WorldLink:
         if floor_of == self._floor_of and self.grid is not None:
             return False
         try:
-            told = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+            told = read_map()
         except rospy.ServiceException:
             return False  # the world comes or goes; there is another time
         before, self.grid = self.grid, grid_of(told)
@@ -179,15 +179,6 @@ class WorldLink:
         except (rospy.ServiceException, rospy.ROSException):
             return ""
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
-
-
-def grid_of(told: Any) -> Grid:
-    """Returns the Grid of a nav_msgs/OccupancyGrid."""
-    corner, spacing = told.info.origin.position, told.info.resolution
-    rows, columns = np.nonzero(is_taken(occupancy_of(told)))
-    blocked = frozenset(zip(columns.tolist(), rows.tolist()))
-    x, y = corner.x + spacing / 2, corner.y + spacing / 2
-    return Grid(x, y, spacing, told.info.width, told.info.height, blocked)
 
 
 def _chargers(told: Any) -> frozenset[tuple[int, int]]:

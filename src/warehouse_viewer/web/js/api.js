@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The HTTP API; see /docs.
+// The HTTP API; see /api/docs.
 
 /** Each returns the answer's body, and throws an Error with the reason; `refused` if it was the
  *  warehouse's. */

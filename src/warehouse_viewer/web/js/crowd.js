@@ -13,6 +13,7 @@ const SMALL = 7; // [px] a metre, below which things are tiny
 const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
 const CHEAP_IN_SOFTWARE = 10000; // the same of what moves, where the processor draws
 const TILE = 16; // edge of a square of the floor whose things are drawn together [m]
+const MIDDLE = 1; // of what stands on the floor, above it [m]
 const MOVING = 'moving'; // where things are that are under way, one by one
 
 export class Crowd {
@@ -194,8 +195,7 @@ class Part {
 class Tile extends Part {
   constructor(crowd, x, y) {
     super(crowd, []);
-    const { centre: [, , z], radius } = crowd;
-    Object.assign(this, { x, y, z, level: 0, reach: TILE * Math.SQRT1_2 + radius });
+    Object.assign(this, { x, y, level: 0, reach: TILE * Math.SQRT1_2 + crowd.radius });
   }
 
   get layer() {
@@ -204,8 +204,8 @@ class Tile extends Part {
 
   fill(view, moved) {
     if (!(moved || this.stale)) return;
-    const { crowd, x, y, z, reach } = this;
-    const level = crowd.levelAt(view.scaleAt(x, y, z, reach, reach));
+    const { crowd, x, y, reach } = this;
+    const level = crowd.levelAt(view.scaleOfSquare(x, y, TILE / 2, reach));
     for (const copies of this.copies) if (copies) copies.mesh.visible = level > 0 && copies.drawn > 0;
     if (level === 0 || (level === this.level && !this.stale)) return;
     this.level = level;
@@ -244,5 +244,14 @@ export class View {
     }
     if (this.isParallel) return this.focal;
     return this.focal / Math.max(0.1, Math.hypot(x - eye[0], y - eye[1], z - eye[2]) - nearer);
+  }
+
+  /** The same of the nearest point of a square of half an edge `half` around [x, y], whose things reach
+   *  `radius` around its middle: storage units there, and what lies on them, are seen alike. */
+  scaleOfSquare(x, y, half, radius) {
+    const scale = this.scaleAt(x, y, MIDDLE, radius);
+    if (this.isParallel || scale === 0) return scale;
+    const beside = (at, from) => Math.max(0, Math.abs(from - at) - half);
+    return this.focal / Math.max(0.1, Math.hypot(beside(x, this.eye[0]), beside(y, this.eye[1]), this.eye[2] - MIDDLE));
   }
 }

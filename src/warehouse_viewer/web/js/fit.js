@@ -24,14 +24,28 @@ export function positionFor(points, { right, up, ahead }, half) {
   const edges = [right, up].map((axis, i) => {
     const at = points.map((p) => dot(p, axis));
     return {
+      at,
       low: Math.max(...at.map((x, j) => x - half[i] * depth[j])),
       high: Math.min(...at.map((x, j) => x + half[i] * depth[j])),
       k: half[i],
     };
   });
   const z = Math.min(...edges.map(({ low, high, k }) => (high - low) / (2 * k)));
-  const [x, y] = edges.map(({ low, high }) => (low + high) / 2);
+  const far = depth.map((d) => d - z);
+  const [x, y] = edges.map(({ at }) => middleOf(at, far));
   return [0, 1, 2].map((i) => x * right[i] + y * up[i] + z * ahead[i]);
+}
+
+/** Where along an axis a camera has as much room on one side of all points as on the other: `at` is where
+ *  they are along the axis, `far` how far ahead. */
+function middleOf(at, far) {
+  let [low, high] = [Math.min(...at), Math.max(...at)];
+  for (let halvings = 0; halvings < 50; ++halvings) {
+    const middle = (low + high) / 2;
+    const [left, right] = [-1, 1].map((side) => Math.max(...at.map((x, j) => side * (x - middle) / far[j])));
+    [low, high] = right > left ? [middle, high] : [low, middle];
+  }
+  return (low + high) / 2;
 }
 
 /** The corners of a box on the floor: bounds [min x, max x, min y, max y] and height [m]. */
@@ -42,13 +56,15 @@ export function cornersOf([x0, x1, y0, y1], height) {
 /** Looking along y, or along x where all is seen larger so: {position, target, heading}, the target on
  *  the floor in the middle of the picture. */
 export function seeAll(bounds, height, tilt, half) {
+  const [x0, x1, y0, y1] = bounds, middle = [(x0 + x1) / 2, (y0 + y1) / 2, 0];
   const views = [Math.PI / 2, 0].map((heading) => {
     const axes = axesOf(tilt, heading);
     const position = positionFor(cornersOf(bounds, height), axes, half);
     const way = position[2] / -axes.ahead[2];
-    return { position, target: position.map((at, i) => at + way * axes.ahead[i]), way, heading };
+    const far = dot(middle, axes.ahead) - dot(position, axes.ahead);
+    return { position, target: position.map((at, i) => at + way * axes.ahead[i]), way, far, heading };
   });
-  return views[1].way < 0.8 * views[0].way ? views[1] : views[0];
+  return views[1].far < 0.8 * views[0].far ? views[1] : views[0];
 }
 
 /** Pixels a metre at which a floor that is seen from above, `heading` up, just fits into `free` [px,

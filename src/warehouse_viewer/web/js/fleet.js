@@ -3,7 +3,7 @@
 
 import { $, make } from './dom.js';
 import { EventKind, RobotMode } from './message_enums.js';
-import { counted, countedEvents } from './words.js';
+import { counted, countedEvents, countedWork } from './words.js';
 
 const MOST_WAITING = 50; // rows
 
@@ -11,7 +11,7 @@ const MOST_WAITING = 50; // rows
 export function factsOf({ robots, work, transports, executed_over_planned: executed, ...told }) {
   return [
     ['robots', counted(robots)],
-    ['at work', counted(work)],
+    ['at work', countedWork(work)],
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
     ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],

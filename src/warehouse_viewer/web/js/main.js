@@ -172,11 +172,12 @@ class Page {
     this.showExtras();
   }
 
-  takeFleet(fleet) {
+  /** `past`: the stations as they were, where that is not now. */
+  takeFleet(fleet, past = null) {
     const came = Boolean(fleet) !== this.fleet.runs;
     this.isNews = true;
     this.fleet.take(fleet);
-    this.signs?.take(fleet);
+    this.signs?.take(fleet, past);
     if (!came) return;
     if (!fleet) this.takeWays(new Map());
     this.list.search($('search').value);

@@ -6,7 +6,7 @@ import { Trails } from './trails.js';
 import { Ways } from './ways.js';
 import { within } from './world.js';
 
-const ACCENT = { dark: 0x56b4e9, light: 0x0072b2 };
+const ACCENT = { dark: 0x6cacff, light: 0x1257c4 }; // as design.css has it
 const FAR = 5; // a ray without a return is drawn so long [m]
 const RING = 0.1; // between a thing and its mark [m]
 

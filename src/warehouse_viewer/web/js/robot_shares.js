@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many robots do what for the coordinator, and which of them wait.
+// How many robots do what at a glance, what work that is, and which of them wait.
 
 import { $, make } from './dom.js';
 import { lasting } from './time.js';
-import { spaced } from './words.js';
+import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from './words.js';
 
-/** The activity that each kind of work counts as: its colour. */
-const LOOKS = { fetching: 'moving', bringing: 'moving', storing: 'moving', lifting: 'working', dropping: 'working', waiting: 'working',
-  ready: 'waiting', idle: 'resting', manual: 'needs-help', out_of_service: 'needs-help' };
-/** Work of which the name says too little. */
-const TEXTS = { waiting: 'at a station', ready: 'ready beneath a unit' };
 const MOST_WAITS = 6;
 
-const text = (name) => TEXTS[name] ?? spaced(name);
+/** [{text, look, count}] of the activities that some robots have, what needs a person first. */
+export function sharesOf(activities) {
+  return ACTIVITY_NAMES.map((name, i) => (
+    { text: ACTIVITY[i], look: ACTIVITY_CLASS[i], count: activities[name.toLowerCase()] })).filter(({ count }) => count).reverse();
+}
 
 export class RobotShares {
   /** `fleet` as the server tells it; null without a coordinator. */
   show(fleet) {
     $('fleet').textContent = fleet ? '' : 'no coordinator runs';
     if (!fleet) return;
-    const { manual, out_of_service } = fleet.robots;
-    const doing = { ...fleet.work, manual, out_of_service };
-    const shown = Object.keys(LOOKS).filter((name) => doing[name]);
-    $('robots').replaceChildren(...shown.map((name) => {
-      const bar = make('div', { className: LOOKS[name], title: `${doing[name]} ${text(name)}` });
-      bar.style.flex = doing[name];
+    const shares = sharesOf(fleet.activities ?? {});
+    $('robots').replaceChildren(...shares.map(({ text, look, count }) => {
+      const bar = make('div', { className: look, title: `${count} ${text}` });
+      bar.style.flex = count;
       return bar;
     }));
-    $('robots-legend').replaceChildren(...shown.map((name) => (
-      make('li', {}, make('i', { className: `key ${LOOKS[name]}` }), make('b', { textContent: doing[name] }), ` ${text(name)}`))));
-    const { transports } = fleet;
+    $('robots-legend').replaceChildren(...shares.map(({ text, look, count }) => (
+      make('li', {}, make('i', { className: `key ${look}` }), make('b', { textContent: count }), ` ${text}`))));
+    const { work, robots: { manual, out_of_service: out }, transports } = fleet;
+    $('work').textContent = [countedWork(work), counted({ manual, out_of_service: out }, '')].filter(Boolean).join(', ');
     $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; a plan takes ${fleet.plan_p50.toFixed(1)} ms`;
     this.showWaits(fleet);
   }

@@ -4,7 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { STILL } from './backdrop.js';
 import { Changes } from './changes.js';
-import { namedStations } from './labelled.js';
+import { apart, namedStations } from './labelled.js';
 
 const TALL = 2.4, THICK = 0.06; // of a post [m]
 const SOON = 10, LONG = 60; // of waiting for a person: it is told, and it is too long [s]
@@ -37,22 +37,34 @@ export class Signs {
     this.stage.renew();
   }
 
-  /** What the server tells of the fleet; null: none runs, and nothing more is known of stations. */
-  take(fleet) {
+  /** What the server tells of the fleet; null: none runs, and nothing more is known of stations. Those
+   *  of now are asked for; `past`: those that were then. */
+  take(fleet, past = null) {
     this.queues = fleet?.queues ?? {};
-    if (Boolean(fleet) === Boolean(this.changes)) return;
-    this.changes?.close();
-    this.stations.clear();
-    this.changes = fleet && new Changes(['stations'], {
-      shift: ({ runs }) => runs || this.stations.clear(),
-      stations: ({ stations }) => { this.stations = new Map(stations.map((one) => [one.name, one])); },
-    });
+    this.follow(Boolean(fleet) && !past);
+    if (past) this.showStations(past);
   }
 
-  /** [{text, kind, at, note}] for the Labels; the note is beside the text. */
+  follow(wanted) {
+    if (wanted === Boolean(this.changes)) return;
+    this.changes?.close();
+    this.stations.clear();
+    this.changes = wanted ? new Changes(['stations'], {
+      shift: ({ runs }) => runs || this.stations.clear(),
+      stations: ({ stations }) => this.showStations(stations),
+    }) : null;
+  }
+
+  showStations(stations) {
+    this.stations = new Map(stations.map((one) => [one.name, one]));
+  }
+
+  /** [{text, kind, at, note}] for the Labels, of stations whose signs have room; the note is beside the text. */
   labels(view) {
-    return namedStations(this.world.scene.stations, view).map(({ name, x, y }) => ({
-      text: name, at: [x, y, view.isParallel ? 0 : TALL], ...signOf(this.queues[name], this.stations.get(name)) }));
+    return apart(namedStations(this.world.scene.stations, view).map(({ name, x, y }) => {
+      const at = [x, y, view.isParallel ? 0 : TALL];
+      return { text: name, at, pixel: this.stage.pixelOf(...at), ...signOf(this.queues[name], this.stations.get(name)) };
+    }));
   }
 }
 

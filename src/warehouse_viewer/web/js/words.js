@@ -40,6 +40,12 @@ export const FAILURE = byNumber({
 });
 /** What the coordinator has robots do, in the order of a transport; `idle` robots have no transport. */
 export const WORK = ['fetching', 'ready', 'lifting', 'bringing', 'waiting', 'storing', 'dropping', 'idle'];
+/** Those of which the name says too little, or what an activity is called. */
+const WORK_TEXTS = { waiting: 'at a station', ready: 'ready beneath a unit', idle: 'without work' };
+/** {name of work: count} as '2 fetching, 1 at a station'. */
+export function countedWork(work) {
+  return counted(Object.fromEntries(WORK.map((name) => [WORK_TEXTS[name] ?? name, work[name]])));
+}
 /** Which side commands a robot. */
 export const MODE = {
   [RobotMode.AUTOMATIC]: 'automatic',
@@ -58,7 +64,7 @@ export const ORDER_STATES = {
 };
 
 /** A name of several words, as in out_of_service. */
-export function spaced(name) {
+function spaced(name) {
   return name.replaceAll('_', ' ');
 }
 

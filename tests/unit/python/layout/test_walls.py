@@ -31,3 +31,9 @@ def test_walls_that_join_have_no_gap():
     boxes = walls.boxes(drawn("##", "#.", "#."), 1.0)
     assert all(covers(boxes, 0, y) for y in np.arange(0, 2, 0.05))
     assert all(covers(boxes, x, 2) for x in np.arange(0, 1, 0.05))
+
+
+def test_a_pillar_at_a_wall_is_solid():
+    boxes = walls.boxes(drawn(".##.", "####", "####"), 1.0)
+    for x, y in np.mgrid[1:2:0.1, 0:2:0.1].reshape(2, -1).T:
+        assert covers(boxes, x, y), (x, y)

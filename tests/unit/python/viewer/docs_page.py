@@ -32,7 +32,7 @@ def docs():
         while not server.started:
             assert time.monotonic() < end, "the server does not start"
             time.sleep(0.02)
-        yield f"http://127.0.0.1:{listener.getsockname()[1]}/docs"
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}/api/docs"
     finally:
         server.should_exit = True
         thread.join(PATIENCE)

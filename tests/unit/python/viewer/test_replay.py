@@ -110,10 +110,13 @@ def test_a_new_alarm_is_a_mark_once():
     alarms = []
     store = MemoryStore()
     run = Run(store, lambda: {"fleet": {"alarms": list(alarms)}}).go(0, 10)
-    alarms.append("pick1 waits")
-    run.go(10, 50).recorder.close()
+    alarms.append("pick1 has waited for a person for 15 s")
+    run.go(10, 30)
+    alarms[:] = ["pick1 has waited for a person for 35 s", "kiva3 does not move"]
+    run.go(30, 50).recorder.close()
     assert [(m.kind, m.time, m.text) for c in store.chunks for m in c.marks] == [
-        ("ALARM", 10.0, "pick1 waits")
+        ("ALARM", 10.0, "pick1 has waited for a person for 15 s"),
+        ("ALARM", 30.0, "kiva3 does not move"),
     ]
 
 
@@ -340,6 +343,15 @@ def test_a_shift_is_simulated_recorded_and_served(tmp_path):
         for one in m["events"]
     }
     assert "ACCEPTED" in kinds
+    figures = [m for _, m in told(FileRecording(tmp_path / NAME), first.number) if "fleet" in m]
+    assert set(figures[-1]["fleet"]["queues"]) == {one["name"] for one in figures[-1]["stations"]}
+    assert sum(figures[-1]["fleet"]["work"].values()) == figures[-1]["fleet"]["robots"]["automatic"]
+
+
+FIRST_VIEW = 300_000  # of the page until something is to be seen, compressed [bytes]
+WEIGHT = """performance.getEntries().filter(({ name }) => !name.includes('/recording/'))
+  .reduce((sum, { encodedBodySize = 0 }) => sum + encodedBodySize, 0)"""
+WAYS = "document.getElementById('ways').checkVisibility()"
 
 
 def faults_on_a_phone(url):
@@ -348,12 +360,16 @@ def faults_on_a_phone(url):
         page.be_phone()
         page.open(url)
         page.until("page.timeline.player.chunk && page.stage.frames")
+        assert 200_000 < page.read(WEIGHT) < FIRST_VIEW
         track = "document.getElementById('replay-track').getBoundingClientRect().toJSON()"
         box = page.read(track)
         at = lambda part: (box["left"] + part * box["width"], box["top"] + box["height"] / 2)  # noqa: E731
         page.swipe([at(0.1), at(0.4), at(0.75)])
         page.until("Math.abs(page.timeline.player.time - 45) < 1")
         page.until("document.getElementById('time').textContent.startsWith('0:45')")
+        # What the coordinator knew then: queues at the stations, and nothing that is of now.
+        assert page.read("page.signs.queues.pick1") >= 1 and not page.read("page.signs.changes")
+        assert page.read("page.fleet.runs") and not page.read(WAYS)
         return page.complaints() + (axe.findings(page) if axe.is_there() else [])
 
 

@@ -28,7 +28,7 @@ from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import AwayError
 from warehouse_viewer.watch.station_watch import StationWatch
 
-DASHBOARD = ROOT / "doc" / "grafana.json"
+DASHBOARD = ROOT / "doc" / "how-to" / "grafana.json"
 
 
 def test_a_reader_gets_the_newest_of_each_key_once():

@@ -27,8 +27,9 @@
 // To add one: a class derived from GazeboPlugin in files of its own, whose load() calls enter(),
 // reads every parameter that the plugin of gazebo_ros has (skip() those without a use here) and
 // throws kiva::DescriptionError where one is faulty, which leaves the plugin out with a warning;
-// a line below; a row in README.md. force.cpp is the smallest that acts, p3d.cpp one that measures.
-// What it remembers that decides what its model does belongs in save() and restore().
+// a line below; a row in doc/reference/gazebo.md. force.cpp is the smallest that acts, p3d.cpp one
+// that measures. What it remembers that decides what its model does belongs in save() and
+// restore().
 
 namespace kiva_ros {
 namespace {

@@ -6,6 +6,7 @@
 //   /follow /cancel /stop        is written as one /follow for each
 //   /warehouse/state_hash        of every simulated second, of every second, and of the end
 //   whatever a plugin hears      /cmd_vel for instance, as it took effect
+//   /warehouse/shadows           where robots are that are elsewhere, as it took effect
 //   /tf                          where the robots are, twice a second: for RViz
 //   /warehouse/keyframe          std_msgs/UInt8MultiArray: a checkpoint, at the beginning and
 //                                whenever models came, went or were moved from outside

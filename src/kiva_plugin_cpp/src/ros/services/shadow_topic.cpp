@@ -6,7 +6,6 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kShadowQueue = 10;
 constexpr double kWarnAgain = 10;  // [s], wall
 
 /// Returns an element of one of a message's arrays, which may be empty.
@@ -48,14 +47,12 @@ void moveAll(kiva::World& world, const warehouse_msgs::FleetState& m) {
 
 }  // namespace
 
-ShadowTopic::ShadowTopic(ros::NodeHandle& root, SimulationThread& simulation)
-    : simulation_(simulation),
-      subscriber_(root.subscribe<warehouse_msgs::FleetState>("/warehouse/shadows", kShadowQueue,
-                                                             &ShadowTopic::take, this,
-                                                             ros::TransportHints().tcpNoDelay())) {}
+ShadowTopic::ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs)
+    : input_(inputs.subscribe<warehouse_msgs::FleetState>(root, "/warehouse/shadows")) {}
 
-void ShadowTopic::take(const Message& message) {
-  simulation_.post([message](kiva::World& world) { moveAll(world, *message); });
+bool ShadowTopic::beforeStep(kiva::World& world) {
+  if (const warehouse_msgs::FleetState* told = input_.take()) moveAll(world, *told);
+  return true;
 }
 
 }  // namespace kiva_ros

@@ -4,22 +4,22 @@
 #include <ros/ros.h>
 #include <warehouse_msgs/FleetState.h>
 
-#include "ros/simulation/simulation_thread.h"
+#include "ros/gazebo_plugins/plugin_inputs.h"
+#include "ros/simulation/step_hook.h"
 
 namespace kiva_ros {
 
 /// Takes in `/warehouse/shadows`: where robots are that are elsewhere, and what they do. Each of
-/// them is the shadow of one in the world from then on.
-class ShadowTopic {
+/// them is the shadow of one in the world from then on. What was told last takes effect at the
+/// beginning of a step, after that of `inputs`, so that a recording knows the step.
+class ShadowTopic : public StepHook {
  public:
-  ShadowTopic(ros::NodeHandle& root, SimulationThread& simulation);
+  ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs);
+
+  bool beforeStep(kiva::World& world) override;
 
  private:
-  using Message = boost::shared_ptr<const warehouse_msgs::FleetState>;
-  void take(const Message& message);
-
-  SimulationThread& simulation_;
-  ros::Subscriber subscriber_;
+  PluginInput<warehouse_msgs::FleetState> input_;
 };
 
 }  // namespace kiva_ros

@@ -123,6 +123,11 @@ class RemoteVehicle:
         return self._journey is None and not self._cancelling
 
     @property
+    def order_id(self) -> str:
+        """The order that its command is carried out by, '' without one."""
+        return self._journey.order_id if self._journey else ""
+
+    @property
     def lifts(self) -> bool:
         """Whether its command is to take up or put down a unit."""
         return self._lift is not None

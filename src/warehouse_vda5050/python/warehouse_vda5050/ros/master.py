@@ -17,8 +17,7 @@ from warehouse_client.warehouse import Warehouse
 from warehouse_fleet.message_enums import EventKind as Kind
 from warehouse_fleet.message_enums import FailureKind, Mode
 from warehouse_layout import models
-from warehouse_layout.floor_plan import FloorError, FloorPlan
-from warehouse_msgs.msg import Event, FleetState, Scenery
+from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Command
@@ -28,6 +27,8 @@ from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow
 from warehouse_vda5050.model import Connection, InstantActions, Order, State
 from warehouse_vda5050.ros.commands import CommandTopics
+from warehouse_vda5050.ros.floor import grid_of, read_map
+from warehouse_vda5050.telling import BrokerTopic, masters_message
 from warehouse_vda5050.topics import Identity
 
 PERIOD = 0.1  # of shadows [s, wall]
@@ -39,11 +40,14 @@ class Master:
     """Hosts a RemoteFleet: what vehicles tell comes by take(), `send` carries what they are told.
 
     run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
-    a word that no run before had, `poll` waits at most some seconds for messages of vehicles.
+    a word that no run before had, `broker` its broker's address as people are told it, `poll` waits
+    at most some seconds for messages of vehicles.
     """
 
-    def __init__(self, robots: Iterable[RemoteRobot], warehouse: Warehouse, run: str) -> None:
-        self._robots, self._run = list(robots), run
+    def __init__(
+        self, robots: Iterable[RemoteRobot], warehouse: Warehouse, run: str, broker: str
+    ) -> None:
+        self._robots, self._run, self._broker = list(robots), run, broker
         self._warehouse = warehouse
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
@@ -53,6 +57,7 @@ class Master:
         self._modes: dict[int, bool] = {}
         self._shadows = rospy.Publisher("/warehouse/shadows", FleetState, queue_size=10)
         self._events = rospy.Publisher("/warehouse/events", Event, queue_size=1000)
+        self._at_broker = BrokerTopic()
         self._set_mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
@@ -75,6 +80,7 @@ class Master:
                 self._follow_floor(fleet)
                 self._show(fleet)
             self._publish_events(fleet.take_events())
+            self._at_broker.tell(lambda: self._told(fleet))
         self._show_silence(fleet)
 
     # --- in
@@ -96,7 +102,7 @@ class Master:
         while not rospy.is_shutdown() and not self._warehouse.is_known:
             rospy.loginfo_once("waits for the warehouse")
             time.sleep(PERIOD)
-        return grid_of(self._warehouse.plan())
+        return grid_of(read_map())
 
     def _follow_floor(self, fleet: RemoteFleet) -> None:
         """Reads the floor's cells again once another scenery is told."""
@@ -104,12 +110,15 @@ class Master:
         if scenery is self._scenery:
             return
         try:
-            fleet.set_grid(grid_of(self._warehouse.plan()))
-        except (rospy.ServiceException, FloorError):
+            fleet.set_grid(grid_of(read_map()))
+        except rospy.ServiceException:
             return  # the warehouse is being built or ends; there is another time
         self._scenery = scenery
 
     # --- out
+
+    def _told(self, fleet: RemoteFleet) -> Vda5050:
+        return masters_message(fleet.vehicles, self._broker, time.monotonic())
 
     def _show(self, fleet: RemoteFleet) -> None:
         shadows = fleet.shadows(time.monotonic())
@@ -169,12 +178,6 @@ class Master:
             message.other = f"storage_unit{event.unit}" if event.unit else ""
             message.text = event.text
             self._events.publish(message)
-
-
-def grid_of(plan: FloorPlan) -> Grid:
-    """Returns the cells of a FloorPlan as nodes."""
-    rows, columns = plan.shape
-    return Grid(float(plan.origin[0]), float(plan.origin[1]), plan.spacing, columns, rows)
 
 
 def message_of(shadows: list[Shadow]) -> FleetState:

@@ -34,9 +34,10 @@ from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
+from warehouse_viewer.server import documentation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
+from warehouse_viewer.server.site import API, DOCS, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
 from warehouse_viewer.server.station_pages import StationPages
 from warehouse_viewer.watch.monitor import Monitor
@@ -129,12 +130,12 @@ class Viewer:
 
     def _add_files(self, app):
         operations = OPERATIONS._replace(counted="/api/v1/alarms")
-        pages = Site(FLOOR, operations, LAYOUT, WHATIF, API, folder=self._web)
+        pages = Site(FLOOR, operations, LAYOUT, WHATIF, API, DOCS, folder=self._web)
         history = self.history.routes() if self.history else []
         screens = StationPages(self._totes, self._web).routes()
         editor = Editor(builds=True, compares=True).routes()
         whatif = whatif_routes(Workshop(places.of_viewer()))
-        others = editor, whatif, history, screens, pages.routes()
+        others = editor, whatif, history, screens, pages.routes(), documentation.routes()
         app.router.routes.extend(route for routes in others for route in routes)
 
     async def _totes(self, name: str) -> int | None:

@@ -21,6 +21,7 @@ from warehouse_msgs.msg import (
 )
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
+    RobotsByActivity,
     RobotsByMode,
     RobotsByWork,
     TransportCounts,
@@ -29,7 +30,7 @@ from warehouse_viewer.api.schemas.fleet import (
 )
 from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
 from warehouse_viewer.api.schemas.pydantic_versions import as_json, names_of
-from warehouse_viewer.page.activities import Activity, activity, shown_status
+from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
 
 
 def robots(fleet: FleetState, waiting: Collection[int] = ()) -> list[Robot]:
@@ -56,13 +57,15 @@ def robots(fleet: FleetState, waiting: Collection[int] = ()) -> list[Robot]:
     ]
 
 
-def coordinator(state: CoordinatorState) -> Coordinator:
-    """Returns a CoordinatorState as the API describes it."""
+def coordinator(state: CoordinatorState, fleet: FleetState | None = None) -> Coordinator:
+    """Returns a CoordinatorState as the API describes it, with the activities of a fleet if there
+    is one."""
     waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
     return Coordinator(
         time=state.header.stamp.to_sec(),
         robots={name: getattr(state, name) for name in names_of(RobotsByMode)},
         work={name: getattr(state, name) for name in names_of(RobotsByWork)},
+        activities=activities(fleet, wait_too_long(state)) if fleet else None,
         transports={name: getattr(state, name) for name in names_of(TransportCounts)},
         manual=list(state.manual_kiva),
         out_of_service=list(state.out_of_service_kiva),
@@ -76,6 +79,12 @@ def coordinator(state: CoordinatorState) -> Coordinator:
         watchdog=state.watchdog,
         alarms=list(state.alarms),
     )
+
+
+def activities(fleet: FleetState, waiting: Collection[int] = ()) -> RobotsByActivity:
+    """Returns how many robots do what at a glance; `waiting` as for robots()."""
+    counts = np.bincount(activity(fleet, waiting), minlength=len(Activity)).tolist()
+    return RobotsByActivity(**{one.name.lower(): counts[one] for one in Activity})
 
 
 def at_broker(told: Vda5050) -> list[Vda5050Robot]:
@@ -98,9 +107,9 @@ def at_broker(told: Vda5050) -> list[Vda5050Robot]:
     ]
 
 
-def plain_coordinator(state: CoordinatorState) -> dict[str, Any]:
-    """Returns a CoordinatorState as JSON has it."""
-    return json.loads(as_json(coordinator(state)))
+def plain_coordinator(state: CoordinatorState, fleet: FleetState | None = None) -> dict[str, Any]:
+    """Returns a CoordinatorState as JSON has it; `fleet` as for coordinator()."""
+    return json.loads(as_json(coordinator(state, fleet)))
 
 
 def things(kind: str, objects: WarehouseObjects, states: UnitStates) -> Tracked:

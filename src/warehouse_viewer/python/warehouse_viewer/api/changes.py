@@ -212,7 +212,8 @@ class _Reader:
         state = self._backend.feed.coordinator
         if state is not self._coordinator:
             self._coordinator = state
-            told = catalogue.plain_coordinator(state) if state else None
+            fleet = self._backend.feed["fleet"]
+            told = catalogue.plain_coordinator(state, fleet) if state else None
             await self._send("coordinator", coordinator=told)
 
     async def _send(self, kind, **fields):

@@ -2,6 +2,7 @@
 """Records what a Model shows, with events and figures: a reader like a page, twice a second."""
 
 import math
+import re
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
@@ -32,6 +33,7 @@ TROUBLES = {
     )
 }
 ALARM = "ALARM"
+LASTS = re.compile(r" for \d.*")  # how long an alarm holds so far: no other alarm
 
 
 class Store(Protocol):
@@ -161,9 +163,10 @@ class Recorder:
 
     def _new_alarms(self, figures: dict[str, Any]) -> list[Mark]:
         """Returns a Mark for each alarm that was not there before."""
-        alarms = set((figures.get("fleet") or {}).get("alarms", ()))
-        new, self._alarms = sorted(alarms - self._alarms), alarms
-        return [Mark(self._stamp, ALARM, "", text) for text in new]
+        told = (figures.get("fleet") or {}).get("alarms", ())
+        alarms = {LASTS.sub("", text): text for text in told}
+        new, self._alarms = sorted(alarms.keys() - self._alarms), set(alarms)
+        return [Mark(self._stamp, ALARM, "", alarms[name]) for name in new]
 
 
 def _marks(events: Sequence[dict[str, Any]]) -> list[Mark]:

@@ -2,12 +2,15 @@
 """Records a shift that is simulated in this process: --record of simulate."""
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
+from warehouse_fleet.coordinator_messages import state_message
 from warehouse_operations.operations import Operations
 from warehouse_operations.stations import WorkStation
+from warehouse_viewer.api import catalogue
 from warehouse_viewer.message_enums import EventKind
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
@@ -63,9 +66,12 @@ class ShiftRecorder:
         self._feed, self._model = ShiftFeed(fleet), Model()
         self._writer = FileWriter(self._path, {"name": ops.site.name, "from": "simulate"})
         self._recorder = Recorder(
-            self._writer, self._model, self._journal, lambda: figures(ops), lambda: None
+            self._writer, self._model, self._journal, lambda: self._figures(ops), lambda: None
         )
         return self._recorder
+
+    def _figures(self, ops: Operations) -> dict[str, Any]:
+        return figures(ops) | {"fleet": coordinator(ops.fleet, self._feed.objects)}
 
     def _take_events(self, fleet: Any) -> None:
         for event in _concatenated(fleet.events):
@@ -87,6 +93,13 @@ def figures(ops: Operations) -> dict[str, Any]:
         },
         "stations": [station(one, shift.now) for one in shift.stations],
     }
+
+
+def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
+    """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
+    ShiftFeed.objects."""
+    watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects)
+    return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 
 def station(one: WorkStation, now: float) -> dict[str, Any]:

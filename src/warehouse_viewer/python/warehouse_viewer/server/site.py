@@ -18,6 +18,7 @@ class Page(NamedTuple):
     """A page: where it is, what the way to it is called, and its file in the folder web.
 
     `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
+    Without a file it is served by others, and only the way to it is shown.
     """
 
     path: str
@@ -30,7 +31,8 @@ FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")
 WHATIF = Page("/whatif", "What-if", "whatif.html")
-API = Page("/docs", "API", "docs.html")
+API = Page("/api/docs", "API", "docs.html")
+DOCS = Page("/docs/", "Docs", "")
 
 
 class Site:
@@ -42,7 +44,7 @@ class Site:
     def routes(self) -> list[BaseRoute]:
         """Returns the routes of the pages and their files, to be added to an application."""
         return [
-            *(Route(page.path, self._endpoint(page.file)) for page in self._pages),
+            *(Route(one.path, self._endpoint(one.file)) for one in self._pages if one.file),
             Route("/pages", self._list),
             Route("/fonts/inter.woff2", font.serve),
             Mount("/web", self._files),

@@ -129,6 +129,7 @@ export class Timeline {
 
   freeze(reason) {
     document.body.classList.toggle('replaying', Boolean(reason));
+    document.body.classList.toggle('recorded', reason === RECORDED);
     freeze(reason);
     const { bar } = this.page;
     if (reason) bar.link('paused', this.recording.live ? 'past' : 'recording');
@@ -156,8 +157,8 @@ export class Timeline {
     if (isNews && !$('timeline').hidden) this.draw();
   }
 
-  takeFigures({ kpis, fleet }) {
-    this.page.takeFleet(fleet ?? null);
+  takeFigures({ kpis, fleet, stations }) {
+    this.page.takeFleet(fleet ?? null, stations ?? []);
     this.kpis = kpis;
     this.drawFigures();
   }

@@ -28,7 +28,7 @@ TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
 @router.get("/coordinator", response_model=Coordinator, responses=problems(404))
 async def get_coordinator(backend: ApiBackend = BACKEND) -> Any:
     """The fleet at a glance."""
-    return catalogue.coordinator(await backend.coordinator())
+    return catalogue.coordinator(await backend.coordinator(), backend.feed["fleet"])
 
 
 @router.get("/vda5050", response_model=list[Vda5050Robot], responses=problems())

@@ -122,6 +122,16 @@ class RobotsByWork(BaseModel):
     dropping: int
 
 
+class RobotsByActivity(BaseModel):
+    """Numbers of robots by what they do at a glance, as lists, floor and figures tell it."""
+
+    needs_help: int
+    waiting: int
+    working: int
+    moving: int
+    resting: int
+
+
 class TransportCounts(BaseModel):
     """Numbers of transports by state."""
 
@@ -147,6 +157,9 @@ class Coordinator(BaseModel):
     time: float = Field(description="[s], simulated")
     robots: RobotsByMode
     work: RobotsByWork
+    activities: RobotsByActivity | None = Field(
+        None, description="of all robots; null where their reports are not at hand"
+    )
     transports: TransportCounts
     manual: list[int] = Field(description="robots that a person commands")
     out_of_service: list[int]

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Kinds of events, and the sentences in which the code refuses something."""
+
+import ast
+import re
+from pathlib import Path
+
+from reference.markdown import code, page, prose, table
+from reference.pages import ROOT
+
+# Messages whose constants are states, kinds or outcomes.
+CONSTANT = re.compile(r"^u?int\d+ (\w+)\s*=\s*(\d+)\s*(?:#\s*(.*))?$", re.M)
+RAISED = re.compile(
+    r"(?:\bthrow [\w:]+\(|\brefuse\(|\bfail\(|warn\(|ROS_(?:ERROR|FATAL|WARN)\w*\()"
+)
+PLACEHOLDER = re.compile(r"%[-+.\d]*(?:[a-z]|l[a-z])(?![a-z])")  # of printf
+ERRORS = re.compile(r"(Error|Exception|Refusal|Refused|refused|refuse|error)$")
+
+
+def kinds() -> dict[str, list[tuple[str, str, str]]]:
+    """Returns {message or service: (constant, number, comment)}."""
+    files = sorted(ROOT.glob("src/warehouse_msgs/msg/*.msg")) + sorted(
+        ROOT.glob("src/warehouse_msgs/srv/*.srv")
+    )
+    return {one.stem: found for one in files if (found := CONSTANT.findall(one.read_text()))}
+
+
+def refusals() -> dict[str, list[tuple[str, str]]]:
+    """Returns {package: (sentence, place)}, with … for what only running code knows."""
+    out: dict[str, list[tuple[str, str]]] = {}
+    for package in sorted(ROOT.glob("src/*/package.xml")):
+        found = []
+        for file in sorted(package.parent.rglob("*")):
+            place = str(file.relative_to(package.parent))
+            if file.suffix in (".cpp", ".h") and "examples" not in file.parts:
+                found += [(one, place) for one in of_cpp(file.read_text())]
+            elif is_python(file):
+                found += [(one, place) for one in of_python(file.read_text())]
+        if found:
+            out[package.parent.name] = list(dict.fromkeys(found))
+    return out
+
+
+def is_python(file: Path) -> bool:
+    """Returns whether a file is Python code of a package."""
+    return (
+        file.is_file()
+        and "__pycache__" not in file.parts
+        and (file.suffix == ".py" or file.parent.name == "nodes")
+    )
+
+
+def of_cpp(text: str) -> list[str]:
+    """Returns the sentences that C++ code throws, refuses or warns with."""
+    out = []
+    for begun in RAISED.finditer(text):
+        inside = _arguments(text, begun.end())
+        parts = re.findall(r'"((?:[^"\\]|\\.)*)"', re.sub(r'"\s*\n\s*"', "", inside))
+        sentence = "…".join(part.replace('\\"', '"').replace("\\n", " ") for part in parts)
+        sentence = PLACEHOLDER.sub("…", sentence)
+        if is_sentence(sentence):
+            out.append(sentence.strip())
+    return out
+
+
+def is_sentence(text: str) -> bool:
+    """Returns whether a literal says something by itself."""
+    return len(re.findall(r"[a-z]{2,}", text)) > 1
+
+
+def _arguments(text, begin):
+    """What stands within parentheses that were opened just before `begin`."""
+    depth, at = 1, begin
+    while depth and at < len(text):
+        depth += {"(": 1, ")": -1}.get(text[at], 0)
+        at += 1
+    return text[begin : at - 1]
+
+
+def of_python(text: str) -> list[str]:
+    """Returns the sentences that Python code raises, refuses or ends with."""
+    out = []
+    for node in ast.walk(ast.parse(text)):
+        call = node.exc if isinstance(node, ast.Raise) else node
+        if not isinstance(call, ast.Call) or not call.args:
+            continue
+        name = (
+            call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
+        )
+        if (
+            isinstance(node, ast.Raise)
+            or ERRORS.search(name)
+            or name in ("exit", "logwarn", "logerr", "warn")
+        ):
+            out += [sentence for one in call.args if is_sentence(sentence := _sentence(one))]
+    return list(dict.fromkeys(out))
+
+
+def _sentence(node):
+    """A literal's text, with … for what is computed."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if isinstance(node, ast.JoinedStr):
+        return "".join(one.value if isinstance(one, ast.Constant) else "…" for one in node.values)
+    if isinstance(node, ast.BinOp):
+        return _sentence(node.left) + _sentence(node.right)
+    return ""
+
+
+def written() -> str:
+    """Returns the page of events and refusals."""
+    parts = []
+    for name, found in kinds().items():
+        folder = (
+            "messages" if (ROOT / f"src/warehouse_msgs/msg/{name}.msg").exists() else "services"
+        )
+        rows = [(code(one), number, prose(comment)) for one, number, comment in found]
+        parts.append(
+            f"### [{name}]({folder}.md#warehouse_msgs{name.lower()})\n\n"
+            + table(["name", "number", ""], rows)
+        )
+    sentences = [
+        f"### {package}\n\n"
+        + table(["sentence", "in"], [(prose(one), code(place)) for one, place in found])
+        for package, found in refusals().items()
+    ]
+    return page(
+        "Events and refusals",
+        "## Kinds, states and outcomes",
+        *parts,
+        "## Refusals and warnings\n\nThe sentences with which something is refused, "
+        "with … for what only a running program knows. Most name what was expected; "
+        "[troubleshooting](../how-to/troubleshooting.md) says what to do about the "
+        "most frequent ones.",
+        *sentences,
+    )

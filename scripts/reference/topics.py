@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Topics, services and actions by name, with their types. What they carry stands in their files.
+
+A test compares the names with those in the code, and `make docs-test` names and types with those of
+a warehouse that runs.
+"""
+
+from typing import NamedTuple
+
+from reference.markdown import code, page, prose, table
+from reference.pages import ROOT
+
+TABLE = ROOT / "scripts/reference/names.txt"
+
+
+class Name(NamedTuple):
+    """A name of the ROS graph."""
+
+    name: str
+    type: str
+    node: str
+    note: str = ""
+
+
+def names(section: str) -> list[Name]:
+    """Returns the lines of a section of names.txt: published, taken, services, actions, gazebo."""
+    text = TABLE.read_text().partition(f"[{section}]\n")[2].partition("\n[")[0]
+    return [Name(*(part.strip() for part in line.split("|"))) for line in text.split("\n") if line]
+
+
+def services() -> list[Name]:
+    """Returns all services."""
+    return names("services") + names("gazebo")
+
+
+def about(type_name: str) -> str:
+    """Returns the first sentence of a type's comment, "" where it is of another package."""
+    package, name = type_name.split("/")
+    name = name.removesuffix("Action") if package == "warehouse_msgs" else name
+    for folder in ("msg", "srv", "action"):
+        file = ROOT / "src" / package / folder / f"{name}.{folder}"
+        if file.exists():
+            lines = [
+                line.lstrip("# ") for line in file.read_text().splitlines() if "SPDX" not in line
+            ]
+            text = " ".join(_leading(file, lines))
+            return text.split(". ")[0].rstrip(".:")
+    return ""
+
+
+def _leading(file, lines):
+    """The lines of the first comment."""
+    raw = [line for line in file.read_text().splitlines() if "SPDX" not in line]
+    for line, words in zip(raw, lines):
+        if not line.startswith("#"):
+            return
+        yield words
+
+
+def rows(found: list[Name], with_notes: bool = True) -> list[tuple[str, ...]]:
+    """Returns the rows of a table."""
+    kinds = {"msg": "messages", "srv": "services", "action": "actions"}
+
+    def linked(one):
+        package, name = one.type.split("/")
+        for folder, where in kinds.items():
+            bare = name.removesuffix("Action") if folder == "action" else name
+            if (ROOT / "src" / package / folder / f"{bare}.{folder}").exists():
+                anchor = f"{package}/{bare}".lower().replace("/", "")
+                return f"[{one.type}]({where}.md#{anchor})"
+        return code(one.type)
+
+    return [
+        (
+            code(one.name),
+            linked(one),
+            one.node,
+            ". ".join(part for part in (one.note, prose(about(one.type))) if part),
+        )
+        for one in found
+    ]
+
+
+INTRODUCTION = (
+    "Robots stand on grid points, 1 m apart unless a world says otherwise. SI units, radians, x "
+    "forward, y left, z up, frame `world`. A robot with plugins of gazebo_ros has topics of its "
+    "own: [plugins](plugins.md)."
+)
+COMMANDS = (
+    "Each command is answered by ACCEPTED or REFUSED, and each accepted one ends in DONE "
+    "or BLOCKED; [commands of robots](robots.md) has the rules."
+)
+GOALS = "With feedback and a result. A cancelled goal ends with the command that is under way."
+
+
+def written() -> str:
+    """Returns the page of names."""
+
+    def section(title, found, about=""):
+        head = [title.split()[0].rstrip("s").lower(), "type", "node", ""]
+        return f"## {title}\n\n{about}\n\n{table(head, rows(found))}"
+
+    return page(
+        "Topics, services and actions",
+        INTRODUCTION,
+        section("Topics to read", names("published")),
+        section("Commands", names("taken"), COMMANDS),
+        section("Services", services()),
+        section("Actions", names("actions"), GOALS),
+    )

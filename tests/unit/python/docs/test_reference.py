@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The generated reference lacks nothing that the code has."""
+
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from paths import ROOT
+
+sys.path.append(str(ROOT / "scripts"))
+
+from reference import (
+    PAGES,
+    apis,
+    commands,
+    events,
+    http,
+    launching,
+    messages,
+    numbers,
+    policies,
+    topics,
+)
+
+SOURCES = [
+    *ROOT.glob("src/*/nodes/*"),
+    *ROOT.glob("src/*/python/**/*.py"),
+    *ROOT.glob("src/kiva_plugin_cpp/src/ros/**/*.cpp"),
+]
+# No topic and no service: parameters, files, and beginnings of names.
+OTHERS = {
+    "/warehouse",
+    "/warehouse/checkpoints",
+    "/warehouse/keyframe",
+    "/warehouse/sizes",
+    "/warehouse/building",
+    "/gazebo",
+    "/gazebo/autosave",
+}
+
+
+def test_each_page_is_led_to():
+    led = set()
+    for index in (ROOT / "doc/reference").rglob("index.md"):
+        for block in re.findall(r"```\{toctree\}(.*?)```", index.read_text(), re.S):
+            names = [line for line in block.split() if not line.startswith(":")]
+            folder = index.parent.relative_to(ROOT / "doc/reference")
+            led |= {str(folder / name) for name in names}
+    assert {page.removesuffix(".md") for page in PAGES} <= led
+
+
+@pytest.mark.parametrize("title", messages.FOLDERS)
+def test_each_message_service_and_action_says_what_it_is(title):
+    written = messages.written(title)
+    for file in (ROOT / "src").glob(f"*/{messages.FOLDERS[title]}/*.{messages.FOLDERS[title]}"):
+        heading = f"## {file.parts[-3]}/{file.stem}"
+        assert heading in written
+        about = written.partition(heading)[2].partition("```")[0]
+        assert about.strip() or "gazebo_msgs" in heading, f"{heading} has no comment"
+
+
+def named():
+    """Names of the ROS graph that stand in the code."""
+    found = set()
+    for source in SOURCES:
+        if not source.is_file():
+            continue
+        text = source.read_text()
+        found |= set(re.findall(r'"(/(?:warehouse|gazebo)(?:/\w+)*)"', text))
+        found |= {
+            f"/gazebo/{one}"
+            for one in re.findall(r'node\.advertiseService(?:<[^>]*>)?\("(\w+)"', text)
+        }
+        found |= {f"/gazebo/{one}" for one in re.findall(r'node\.subscribe\("(\w+)"', text)}
+        found |= {
+            f"/warehouse/{one}" for one in re.findall(r'(?:_publisher|_queued)\("(\w+)"', text)
+        }
+        found |= {f"/warehouse/{one}" for one in re.findall(r'^ +\("(\w+)", srv\.\w+', text, re.M)}
+    return found - OTHERS
+
+
+def test_each_topic_and_service_is_listed():
+    parameters = {name for found in launching.asked().values() for name in found} | set(
+        launching.SHARED
+    )
+    lacking = {one for one in named() - parameters if f"`{one}`" not in topics.written()}
+    assert not lacking
+    assert len(named()) > 60
+
+
+@pytest.mark.parametrize(
+    "one",
+    [*topics.names("published"), *topics.names("taken"), *topics.services()],
+    ids=lambda one: one.name,
+)
+def test_each_listed_type_of_ours_exists(one):
+    package, name = one.type.split("/")
+    if package in messages.PACKAGES:
+        kinds = [ROOT / "src" / package / folder / f"{name}.{folder}" for folder in ("msg", "srv")]
+        assert any(kind.exists() for kind in kinds), one.type
+
+
+def test_each_launch_argument_is_explained():
+    written = launching.launches()
+    for file in ROOT.glob("src/*/launch/*.launch"):
+        for one in ElementTree.parse(file).getroot().iter("arg"):
+            if "default" in one.attrib:
+                assert f"`{one.get('name')}`" in written and one.get("doc"), (
+                    f"{file.name}: {one.get('name')}"
+                )
+
+
+def test_each_parameter_is_explained():
+    known = launching.meanings()
+    lacking = [
+        (file, name)
+        for file, found in launching.asked().items()
+        for name in found
+        if name.startswith("~") and not known.get(name)
+    ]
+    assert not lacking
+    read = set(
+        re.findall(
+            r'(?:number|rate|flag|text|folders|path|whole)\w*\(node, "(\w+)"',
+            (ROOT / "src/kiva_plugin_cpp/src/ros/settings.cpp").read_text(),
+        )
+    )
+    assert {f"~{one}" for one in read} <= launching.settings().keys()
+    for file, found in launching.asked().items():
+        for name in found:
+            assert f"`{name}`" in launching.parameters(), (file, name)
+
+
+def test_each_request_is_described():
+    written = http.written()
+    for path, methods in http.described()["paths"].items():
+        for method, operation in methods.items():
+            assert f"### {method.upper()} {path}" in written
+            assert operation.get("description") or operation.get("summary"), (method, path)
+    for path in http.described()["x-websockets"]:
+        assert f"### {path}" in written
+
+
+def test_each_program_says_what_it_does():
+    for program in commands.programs():
+        if program.name in commands.NODES or not commands.is_command(program):
+            assert commands.docstring(program), program
+    assert {one.name for one in commands.programs() if commands.is_command(one)} >= {
+        "simulate",
+        "size",
+        "sweep",
+        "layout",
+        "drive",
+    }
+
+
+def test_each_policy_is_listed():
+    from warehouse_operations.policies import ROLES
+
+    written = policies.written()
+    for role, names in ROLES.items():
+        section = written.partition(f"## {role}\n")[2].partition("\n## ")[0]
+        for name, kind in names.items():
+            assert f"`{name}`" in section
+            assert policies.about(kind), f"{role}: {name} has no docstring"
+
+
+def test_each_realism_number_is_listed_with_its_default():
+    from kiva_plugin_cpp import World
+
+    sections = dict.fromkeys(numbers.sections(), True)
+    world = World.preset("empty", realism=sections)
+    assert world.realism.keys() == sections.keys()
+    written = numbers.realism()
+    for section, values in world.realism.items():
+        told = written.partition(f"## {section}\n")[2].partition("\n## ")[0]
+        rows = {
+            name: float(default) for name, default in re.findall(r"\| `(\w+)` \| (\S+) \|", told)
+        }
+        known = {name: value for name, value in values.items() if name != "enabled"}
+        assert rows.keys() == known.keys(), section
+        assert all(rows[name] == pytest.approx(value) for name, value in known.items()), section
+
+
+def test_each_plugin_parameter_is_listed():
+    written = numbers.plugins()
+    for file in (ROOT / "src/kiva_plugin_cpp/src").rglob("*.cpp"):
+        for name in re.findall(
+            r'\bp\.(?:number|text|flag|whole|numbers)\("(\w+)"', file.read_text()
+        ):
+            assert f"`{name}`" in written, (file.name, name)
+    assert len(numbers.tabled()) == (
+        ROOT / "src/kiva_plugin_cpp/src/ros/gazebo_plugins/plugin_table.cpp"
+    ).read_text().count('.so", maker<')
+
+
+def test_each_kind_of_event_is_listed():
+    from warehouse_client import message_names
+
+    written = events.written()
+    for name in message_names.EVENT.values():
+        assert f"`{name}`" in written
+    assert "no robot can reach station … and return" in written
+    assert "there is no world '…'; tried …" in written
+
+
+def test_each_refusal_is_listed():
+    written = re.sub(r"\\(.)", r"\1", events.written())
+    for file in (ROOT / "src").glob("*/src/**/*.cpp"):
+        for text in re.findall(r'throw [\w:]+\(\s*"([^"\\%]+)"', file.read_text()):
+            if events.is_sentence(text):
+                assert text.strip() in written, (file.name, text)
+    assert "it carries nothing" in written and "is off the grid of … m" in written
+
+
+def test_each_key_of_a_layout_file_is_listed():
+    text = (ROOT / "doc/reference/layouts.md").read_text()
+    from warehouse_layout import layout_reader
+
+    for key in (*layout_reader._KEYS, *layout_reader._STATION_KEYS):
+        assert f"`{key}`" in text or f"{{{key}:" in text, key
+
+
+def test_each_package_has_its_python_api():
+    have = {one.parent.parent.name for one in ROOT.glob("src/*/python/*/__init__.py")} - {"python"}
+    packages = {one.parts[-2] for one in ROOT.glob("src/*/python")}
+    assert packages - {"warehouse_viewer", "warehouse_sim"} == set(apis.ABOUT), have
+
+
+def test_each_public_header_is_in_a_listed_namespace():
+    for package in ("kiva_plugin_cpp", "warehouse_fleet", "warehouse_layout"):
+        for header in (ROOT / "src" / package / "include").rglob("*.h"):
+            names = re.findall(r"^namespace (\w+)", header.read_text(), re.M)
+            assert not names or set(names) & (set(apis.NAMESPACES) | {"py", "warehouse"}), header
