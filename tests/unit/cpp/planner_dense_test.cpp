@@ -11,7 +11,10 @@ namespace {
 class Errands {
  public:
   Errands(const std::vector<std::string>& rows, int robots, const Rules& rules)
-      : floor(drawn(rows)), rules_(rules), free_(cellsOf(rows, '.')), planner_(makeEpibt(passing())) {
+      : floor(drawn(rows)),
+        rules_(rules),
+        free_(cellsOf(rows, '.')),
+        planner_(makeEpibt(passing())) {
     std::vector<Cell> cells = free_;
     std::shuffle(cells.begin(), cells.end(), random_);
     fleet.cell.assign(cells.begin(), cells.begin() + robots);
@@ -49,8 +52,7 @@ class Errands {
   Cell anyOf(const std::vector<Cell>& cells) { return cells[random_() % cells.size()]; }
 
   bool drive(int robot) {
-    const State state =
-        after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan_.at(robot, 0));
+    const State state = after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan_.at(robot, 0));
     fleet.cell[robot] = state.cell;
     fleet.heading[robot] = state.heading;
     ++since[robot];

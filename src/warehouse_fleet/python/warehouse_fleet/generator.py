@@ -75,9 +75,7 @@ def starts(floor: Warehouse, robots: int, rng: np.random.Generator) -> NDArray[n
     return rng.choice(free, robots, replace=False)
 
 
-def scattered(
-    width: int, height: int, walls: float, rng: np.random.Generator
-) -> NDArray[np.bool_]:
+def scattered(width: int, height: int, walls: float, rng: np.random.Generator) -> NDArray[np.bool_]:
     """Returns where robots can drive on a floor whose cells are walls at random, with probability
     `walls`, (height, width): its largest connected part."""
     left = rng.random((height, width)) >= walls

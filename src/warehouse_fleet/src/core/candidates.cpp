@@ -152,7 +152,8 @@ Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
   Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
   if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
-  if (to == kNowhere || (to != wish.goal && ((is_kept_[to] && !wish.enters_kept) || isDeadEnd(wish, to, heading)))) {
+  if (to == kNowhere ||
+      (to != wish.goal && ((is_kept_[to] && !wish.enters_kept) || isDeadEnd(wish, to, heading)))) {
     return kNowhere;
   }
   return isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;

@@ -24,7 +24,7 @@ struct Wish {
   Actions commitment{};
   bool stopped = false;
   bool stops_at_goal = true;
-  bool yields = false;  ///< goes wherever it is pushed, its goal can wait
+  bool yields = false;       ///< goes wherever it is pushed, its goal can wait
   bool is_urgent = false;    ///< goes first of all
   bool enters_kept = false;  ///< kept cells are kept for it
 };

@@ -16,9 +16,9 @@ class DeadEnds {
  public:
   explicit DeadEnds(const Floor& floor);
 
-  /// Sees to the dead ends in which robots have goals that they pursue, one robot an entrance. While
-  /// others are in its way, the outermost gets an urgent goal outside and the robot yields; then
-  /// the way in is kept for it. Overwrites their wishes.
+  /// Sees to the dead ends in which robots have goals that they pursue, one robot an entrance.
+  /// While others are in its way, the outermost gets an urgent goal outside and the robot yields;
+  /// then the way in is kept for it. Overwrites their wishes.
   void empty(DistanceTables& tables, Candidates& candidates, std::vector<Wish>& wishes);
 
  private:

@@ -108,8 +108,8 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
                              options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
   tables_ = std::make_unique<DistanceTables>(
-      floor, closures_->edges(), TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to},
-      threads_);
+      floor, closures_->edges(),
+      TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to}, threads_);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
   yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   dead_ends_ = std::make_unique<DeadEnds>(floor);

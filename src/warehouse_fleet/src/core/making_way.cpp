@@ -65,7 +65,8 @@ void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wis
     Progress& progress = progress_[robot];
     standing_[wish.state.cell] = robot;
     const bool can_move = !wish.stopped && wish.committed == 0;
-    const bool is_under_way = can_move && wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
+    const bool is_under_way =
+        can_move && wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
     progress.still = progress.cell == wish.state.cell && is_under_way ? progress.still + 1 : 0;
     progress.cell = wish.state.cell;
     measure(candidates, wish, progress);
@@ -77,7 +78,8 @@ void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wis
 }
 
 void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress& progress) const {
-  const int distance = wish.goal == kNowhere || wish.yields ? 0 : candidates.distance(wish, wish.state);
+  const int distance =
+      wish.goal == kNowhere || wish.yields ? 0 : candidates.distance(wish, wish.state);
   const bool is_new = progress.goal != wish.goal;
   if (is_new || distance == 0 || distance < progress.nearest) {
     progress.goal = wish.goal;

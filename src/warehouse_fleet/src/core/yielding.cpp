@@ -42,9 +42,8 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
   }
   const auto room = std::min<std::ptrdiff_t>(others.size(), std::max(0, most_ - pursuing));
   std::partial_sort(others.begin(), others.begin() + room, others.end());
-  std::for_each(others.begin(), others.begin() + room, [&](const auto& other) {
-    pursued_[other.second] = wishes[other.second].goal;
-  });
+  std::for_each(others.begin(), others.begin() + room,
+                [&](const auto& other) { pursued_[other.second] = wishes[other.second].goal; });
   std::for_each(others.begin() + room, others.end(), [&](const auto& other) {
     pursued_[other.second] = kNowhere;
     wishes[other.second].yields = true;

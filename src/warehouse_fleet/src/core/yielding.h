@@ -18,9 +18,9 @@ class Yielding {
   /// FloorError if it is not more than 0.
   Yielding(const Floor& floor, double share);
 
-  /// Sets `yields` of the wishes and returns whether any robot yields. A robot that pursues its goal
-  /// goes on until it is there; the place it leaves is given to the robot with least to go, less
-  /// what it has waited (`waiting`, ticks by robot).
+  /// Sets `yields` of the wishes and returns whether any robot yields. A robot that pursues its
+  /// goal goes on until it is there; the place it leaves is given to the robot with least to go,
+  /// less what it has waited (`waiting`, ticks by robot).
   bool choose(const std::vector<int>& waiting, const Candidates& candidates,
               std::vector<Wish>& wishes);
 
