@@ -109,6 +109,32 @@ def _threads(measured, _):
     ]
 
 
+def _unread(measured, _):
+    """Not asking may not be dearer, but for what chance does to medians of five."""
+    out = []
+    for robots in (1, 10):
+        ours = [f for f in measured if f["robots"] == robots]
+        speed = {r: median(f["rtf_cpu"] for f in ours if f["read"] == r) for r in (True, False)}
+        what = f"default, N = {robots}: no scan read over all, in turns"
+        out.append(Figure(what, speed[False] / speed[True], "", ">= 0.95"))
+    return out
+
+
+def _shifts(measured, scale):
+    out = []
+    for f in measured:
+        what = f"shift of {f['size']}, {f['simulated_s'] / 60:.0f} min from standstill"
+        limit = {"large": ">= 60", "huge": ">= 15"}.get(f["size"], ">= 2")
+        out += [
+            scale.speed(what, f["rtf_cpu"], limit=limit, wall=f["rtf"]),
+            Figure(f"{what}: CPU time of orders and stock, of all", f["shift_share"]),
+            Figure(f"{what}: of the stations' bound, last minute", f["share_of_bound"]),
+            Figure(f"{what}: collisions", f["collisions"], "", "<= 0"),
+            Figure(f"{what}: memory", f["memory_gb"], "GB", "<= 3"),
+        ]
+    return out
+
+
 def _others(measured, scale):
     return [scale.speed(name(f), f["rtf_cpu"], wall=f["rtf"]) for f in measured if "engine" in f]
 
@@ -230,6 +256,7 @@ def _build(found, scale):
 OF_PART = {
     "fleet": _fleet,
     "threads": _threads,
+    "unread": _unread,
     "references": _others,
     "peers": _others,
     "following": _following,
@@ -237,6 +264,7 @@ OF_PART = {
     "ros": _ros,
     "unheard": _unheard,
     "work": _work,
+    "shifts": _shifts,
     "recreations": _recreations,
     "start": _start,
     "build": _build,

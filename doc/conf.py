@@ -11,6 +11,7 @@ html_theme = "furo"
 html_title = "Kiva warehouse"
 html_static_path = ["_static"]
 html_css_files = ["tables.css"]
+html_favicon = "_static/icon.svg"
 html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
@@ -39,9 +40,12 @@ autodoc_class_signature = "mixed"
 
 def plain(app, what, name, obj, options, lines):
     """Turns a docstring, which is prose with `names` and indented blocks, into reStructuredText."""
-    out, block = [], False
+    out, block, listed = [], False, False
     for line in lines:
-        indented = line.startswith("   ") or (block and not line.strip())
+        if line.startswith("  ") and not block and listed:
+            line = line.strip()  # of an item, which goes on
+        listed = line.startswith("- ") or (listed and bool(line.strip()))
+        indented = line.startswith(" ") or (block and not line.strip())
         if indented and not block:
             out += ["", "::", ""]
         elif block and not indented:

@@ -14,6 +14,11 @@ ABOUT = {
     "warehouse_learning": "Environments to learn in.",
 }
 
+OPTIONS = {
+    "kiva_plugin_cpp": [":imported-members:"],
+    "warehouse_fleet": [":exclude-members: Floor, FloorError"],  # of warehouse_layout
+}
+
 
 def modules(package: str) -> list[str]:
     """Returns a package's public modules, the package itself first."""
@@ -31,14 +36,11 @@ def python(package: str) -> str:
     """Returns the page of a Python package."""
     parts = [f"# {package}", ABOUT[package]]
     for module in modules(package):
-        options = ":members:\n:undoc-members:\n:show-inheritance:"
-        if module == "kiva_plugin_cpp":
-            options += "\n:imported-members:"
-        parts.append(
-            f"## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n"
-            + "\n".join(f"   {one}" for one in options.split("\n"))
-            + "\n```"
-        )
+        options = [":members:", ":undoc-members:", ":show-inheritance:", *OPTIONS.get(module, [])]
+        if "." in module:
+            options.append(":ignore-module-all:")  # what is another's is described there
+        lines = "\n".join(f"   {one}" for one in options)
+        parts.append(f"## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n{lines}\n```")
     return "\n\n".join(parts) + "\n"
 
 

@@ -11,9 +11,9 @@ from reference.pages import ROOT
 # Messages whose constants are states, kinds or outcomes.
 CONSTANT = re.compile(r"^u?int\d+ (\w+)\s*=\s*(\d+)\s*(?:#\s*(.*))?$", re.M)
 RAISED = re.compile(
-    r"(?:throw \w[\w:]*(?:Error|error|argument|range)\(|\brefuse\(|\bfail\(|warn\("
-    r"|ROS_(?:ERROR|FATAL|WARN)\w*\()"
+    r"(?:\bthrow [\w:]+\(|\brefuse\(|\bfail\(|warn\(|ROS_(?:ERROR|FATAL|WARN)\w*\()"
 )
+PLACEHOLDER = re.compile(r"%[-+.\d]*(?:[a-z]|l[a-z])(?![a-z])")  # of printf
 ERRORS = re.compile(r"(Error|Exception|Refusal|Refused|refused|refuse|error)$")
 
 
@@ -57,6 +57,7 @@ def of_cpp(text: str) -> list[str]:
         inside = _arguments(text, begun.end())
         parts = re.findall(r'"((?:[^"\\]|\\.)*)"', re.sub(r'"\s*\n\s*"', "", inside))
         sentence = "…".join(part.replace('\\"', '"').replace("\\n", " ") for part in parts)
+        sentence = PLACEHOLDER.sub("…", sentence)
         if is_sentence(sentence):
             out.append(sentence.strip())
     return out

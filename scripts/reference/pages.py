@@ -61,6 +61,10 @@ class Mirror:
         """Writes a page."""
         self._put(page, text.encode())
 
+    def copy(self, file: Path, page: str) -> None:
+        """Copies a file of the repository."""
+        self._put(page, file.read_bytes())
+
     def _put(self, page, data):
         path = self._folder / page
         self._written.add(path)

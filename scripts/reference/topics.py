@@ -97,7 +97,7 @@ def written() -> str:
     """Returns the page of names."""
 
     def section(title, found, about=""):
-        head = [title.rstrip("s").split()[0].lower(), "type", "node", ""]
+        head = [title.split()[0].rstrip("s").lower(), "type", "node", ""]
         return f"## {title}\n\n{about}\n\n{table(head, rows(found))}"
 
     return page(

@@ -193,10 +193,10 @@ class World(_core.World):
 
         ValueError if the items don't fit or a number is negative or beyond the limits.
         """
-        from warehouse_layout import layout, request
+        from warehouse_layout import generated, layout, request
 
         wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
-        plan = layout.plan(wanted, options.get("seed", layout.SEED))
+        plan = generated.plan(wanted, options.get("seed", layout.SEED))
         return cls.of_layout(plan, own_models=True, **options)
 
     @classmethod
@@ -227,8 +227,8 @@ class World(_core.World):
             world.delete(models.FLOOR)
         else:
             layouts.clear(world)
-        text = models.document(models.of_layout(laid))
-        world.spawn(_ours(text) if own_models else text)
+        for text in models.documents(models.of_layout(laid)):
+            world.spawn(_ours(text) if own_models else text)
         world.events()
         return world
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "warehouse_fleet/fleet.h"
@@ -38,6 +39,14 @@ struct Journey {
   int cells = 0;
 };
 
+/// What keeps a robot from the next cell of its plan.
+enum class Hindrance : std::uint8_t {
+  kNone,    ///< nothing, or it has no plan
+  kHolder,  ///< the robot ahead, which has not left the cell
+  kOrder,   ///< a robot that passes the cell before it by the plan, and has not come yet
+  kTurn,    ///< a robot beside it, while one of them turns
+};
+
 /// A cell that a plan passes, and the tick at which it is entered.
 struct Step {
   Cell cell;
@@ -63,13 +72,14 @@ struct Course {
   Cell turning = kNowhere;  ///< where it has been released around a corner
 
   // The plan beyond.
-  std::vector<Step> plan;
+  std::deque<Step> plan;
   int committed = 0;           ///< cells that it had before it when the plan was asked for
   std::vector<Cell> granted;   ///< what it was released since then
   bool plan_is_stale = false;  ///< it is not any more where the plan was asked for
   bool travels = false;        ///< has somewhere to go
   bool waits_by_plan = false;
   int waits_for = -1;  ///< a robot
+  Hindrance hindrance = Hindrance::kNone;
 
   // Off the grid.
   bool is_astray = false;      ///< was pushed, and is not in the middle of its cell

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,11 @@ class Execution {
   /// something else meanwhile it stays with that until the next plan.
   void adopt(const Plan& plan);
 
+  /// Has all robots drive these steps from where they stand, an element a robot: a whole plan,
+  /// which nothing replaces. Ticks ascend. Robots that follow each other in a ring at one tick
+  /// would wait for each other.
+  void drive(std::vector<std::deque<Step>> plans);
+
   /// Releases to each robot what it needs in order not to brake, as far as it may have it.
   Releases release();
 
@@ -98,6 +104,10 @@ class Execution {
   int holder(Cell cell) const { return holders_.holder(cell); }
   /// Returns the robot that one with a plan waits for; kNobody.
   int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
+  /// Returns what keeps it from the next cell of its plan.
+  Hindrance hindrance(int robot) const { return courses_.at(robot).hindrance; }
+  /// Returns the tick of the next step of its plan that it was not released yet; -1 at the end.
+  int nextTick(int robot) const;
   /// Returns since when it has stood although it has somewhere to go [s]; time of the last report
   /// if not.
   double stillSince(int robot) const { return courses_.at(robot).still_since; }

@@ -19,7 +19,7 @@ import numpy as np
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.people import NO_PEOPLE
-from warehouse_fleet.robot_table import NOWHERE
+from warehouse_fleet.robot_table import NOWHERE, Reports
 from warehouse_fleet.takeover import Handover, Takeover
 from warehouse_fleet.towing import Towing, TowOrder
 from warehouse_fleet.towing import order as tow_order
@@ -40,7 +40,7 @@ class Observation:
     """What is known of a warehouse at a time [s]."""
 
     time: float
-    robots: np.ndarray  # reports (m,) of robot_table.REPORT; robots may be missing
+    robots: Reports  # (m,), of robot_table.REPORT; robots may be missing
     people: Any = field(default_factory=lambda: NO_PEOPLE)  # as warehouse_msgs/People
     fallen: int = 0  # items on the floor
     refused: Sequence[str] = ()  # models of robots that have refused a path since the last tick
@@ -137,7 +137,7 @@ class FleetController:
                 self.transports.update_units(units)
         return Decision(traffic.releases(), self.transports.take_lifts(), cancels, tows)
 
-    def _cancels(self, time: float, reports: np.ndarray) -> list[int]:
+    def _cancels(self, time: float, reports: Reports) -> list[int]:
         """Returns the robots whose paths are to end: others gave them out, or the robots have left
         the fleet. They end where the robots can stop."""
         if self._next_cancels - CANCEL_PERIOD <= time < self._next_cancels:

@@ -15,12 +15,14 @@ from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.message_enums import EventKind
 from warehouse_fleet.people import PeopleLog, people_in
-from warehouse_fleet.robot_table import reports_of
+from warehouse_fleet.robot_table import columns_of
 from warehouse_fleet.towing import TowOrder
 from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 
 UPDATE = 0.1  # between two ticks [s]
+FELL, PICKED_UP = int(EventKind.FELL), int(EventKind.PICKED_UP)
+COLLISION, REFUSED = int(EventKind.COLLISION), int(EventKind.REFUSED)
 
 
 def square(yaw: float) -> float:
@@ -93,7 +95,7 @@ class FleetDriver:
     def _observe(self, refused: list[str]) -> Observation:
         time, reports, people = (
             self.world.time,
-            reports_of(heard(self.world)),
+            columns_of(heard(self.world)),
             people_in(self.world),
         )
         self.failures.update(time, reports["failures"])
@@ -143,10 +145,13 @@ class FleetDriver:
             return []
         kinds = events["kind"]
         self.failures.note(kinds)
-        if np.isin(kinds, (EventKind.FELL, EventKind.PICKED_UP)).any():
+        counts = np.bincount(kinds, minlength=len(EventKind)).tolist()
+        if counts[FELL] or counts[PICKED_UP]:
             self.fallen = self.world.fallen_items["item_id"]
-        self.collisions += int(np.count_nonzero(kinds == EventKind.COLLISION))
-        refused = events[kinds == EventKind.REFUSED]
+        self.collisions += counts[COLLISION]
+        if not counts[REFUSED]:
+            return []
+        refused = events[kinds == REFUSED]
         self.refusals += [f"{event['model']}: {event['text']}" for event in refused]
         return [event["model"] for event in refused]
 

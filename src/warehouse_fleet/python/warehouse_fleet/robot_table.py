@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What robots report, and what is known of each: arrays with one element for each robot."""
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from warehouse_fleet.failures import LIFTS_NOT, STANDS
 from warehouse_fleet.message_enums import Mode
 
 NOWHERE = -1
+AUTOMATIC, OUT_OF_SERVICE = int(Mode.AUTOMATIC), int(Mode.OUT_OF_SERVICE)
 
 # A report, as FleetState has it: metres and radians in the frame world, batteries 0…1.
 REPORT = np.dtype(
@@ -32,11 +34,19 @@ REPORT = np.dtype(
 )
 
 
-def reports_of(fleet: Any) -> np.ndarray:
-    """Returns the reports (n,) of REPORT in an object with the arrays of FleetState.
+# Reports by column: an array of REPORT, or its columns by name.
+Reports: TypeAlias = "np.ndarray | Mapping[str, np.ndarray]"
 
-    A world in this process keeps no modes: its robots are AUTOMATIC.
-    """
+
+def columns_of(fleet: Any) -> dict[str, np.ndarray]:
+    """Returns the columns of REPORT in a fleet of this process, not copied: they hold until its
+    world goes on. A world keeps no modes: its robots are AUTOMATIC."""
+    columns = {name: getattr(fleet, name) for name in REPORT.names or () if name != "mode"}
+    return columns | {"mode": np.zeros(len(columns["kiva_id"]), np.uint8)}
+
+
+def reports_of(fleet: Any) -> np.ndarray:
+    """Returns the reports (n,) of REPORT in an object with the arrays of FleetState."""
     out = np.zeros(len(fleet.kiva_id), REPORT)
     for name in REPORT.fields or ():
         values = getattr(fleet, name, 0)
@@ -88,13 +98,13 @@ class RobotTable:
     @property
     def automatic(self) -> np.ndarray:
         """(n,) bool: robots that the fleet commands."""
-        return self.mode == Mode.AUTOMATIC
+        return self.mode == AUTOMATIC
 
     def index(self, kiva_id: int) -> int:
         """Returns the robot's index; NOWHERE if there is none of that id."""
         return next(iter(np.flatnonzero(self.kiva_ids == kiva_id).tolist()), NOWHERE)
 
-    def align(self, reports: np.ndarray) -> np.ndarray:
+    def align(self, reports: Reports) -> Reports:
         """Returns the reports (n,) with one element for each of `kiva_ids`, and updates `gone`.
 
         Robots that are gone stand nowhere (NaN) and are OUT_OF_SERVICE. Those that come back are in
@@ -104,22 +114,25 @@ class RobotTable:
         if not np.array_equal(reports["kiva_id"], self.kiva_ids):
             gone = ~np.isin(self.kiva_ids, reports["kiva_id"])
             reports = self._spread(reports, gone)
-        back = self.gone & ~gone
-        self.mode[gone] = Mode.OUT_OF_SERVICE
-        self.mode[back] = reports["mode"][back]
+        if gone.any() or self.gone.any():
+            back = self.gone & ~gone
+            self.mode[gone] = OUT_OF_SERVICE
+            self.mode[back] = reports["mode"][back]
         self.gone = gone
         return reports
 
-    def _spread(self, reports: np.ndarray, gone: np.ndarray) -> np.ndarray:
+    def _spread(self, reports: Reports, gone: np.ndarray) -> np.ndarray:
         ids = reports["kiva_id"]
         order = np.argsort(ids)
         out = np.zeros(len(self), REPORT)
-        out[~gone] = reports[order[np.searchsorted(ids[order], self.kiva_ids[~gone])]]
+        chosen = order[np.searchsorted(ids[order], self.kiva_ids[~gone])]
+        for name in REPORT.names or ():
+            out[name][~gone] = reports[name][chosen]
         out["kiva_id"] = self.kiva_ids
         out["x"][gone] = out["y"][gone] = np.nan
         return out
 
-    def update_health(self, reports: np.ndarray) -> None:
+    def update_health(self, reports: Reports) -> None:
         """Updates batteries and failures by the reports (n,)."""
         self.charge = reports["charge"].copy()
         self.failures = reports["failures"].copy()

@@ -4,6 +4,7 @@
 import numpy as np
 
 from warehouse_fleet.message_enums import State, Status
+from warehouse_fleet.robot_table import Reports
 from warehouse_fleet.traffic import Traffic
 
 IN_TRANSIT = 2.0  # for which a message may still be on its way to a robot [s]
@@ -17,13 +18,13 @@ class Takeover:
         self._traffic, self._since = traffic, time
         traffic.takes_over = True
 
-    def advance(self, reports: np.ndarray) -> None:
+    def advance(self, reports: Reports) -> None:
         """Ends the takeover once no robot drives on a path any more, by reports (n,) of REPORT."""
         elapsed = self._traffic.time - self._since
         is_over = elapsed > IN_TRANSIT and not self._drive(reports).any()
         self._traffic.takes_over = not is_over and elapsed < LONGEST
 
-    def _drive(self, reports: np.ndarray) -> np.ndarray:
+    def _drive(self, reports: Reports) -> np.ndarray:
         robots = self._traffic.robots
         under_way = (reports["path_id"] != 0) & (reports["status"] != Status.IDLE)
         return under_way & robots.automatic & ~robots.broken
@@ -44,7 +45,7 @@ class Handover:
         """Notes that a robot belongs to the fleet again."""
         self._idle_since.pop(robot, None)
 
-    def waiting(self, time: float, reports: np.ndarray) -> list[int]:
+    def waiting(self, time: float, reports: Reports) -> list[int]:
         """Returns the robots that wait on a path at that time [s], which is to be cancelled."""
         found = []
         for robot, since in list(self._idle_since.items()):

@@ -39,7 +39,7 @@ def _free_refuges(transports: Transports, robot: int) -> list[int]:
     robots, traffic = transports.robots, transports.traffic
     out = set(traffic.closed.tolist()) | set(robots.cell.tolist()) | set(robots.goal.tolist())
     if robots.loaded[robot]:
-        out |= transports.taken_cells()
+        out |= set(np.flatnonzero(transports.taken()).tolist())
     # Nor may a robot be about to pass there.
     cells = _refuges(transports, robot).tolist()
     return [c for c in cells if c not in out and traffic.holder(c) == NOWHERE]

@@ -18,10 +18,11 @@ from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.message_enums import Mode, Status
 from warehouse_fleet.people import zone_around
 from warehouse_fleet.plan_loop import PlanLoop
-from warehouse_fleet.robot_table import NOWHERE, RobotTable
+from warehouse_fleet.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.watchdog import Watchdog
 from warehouse_layout.floor_plan import FloorPlan, is_taken
 
+MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 MAP_PERIOD = 1.0  # between two looks at the world's map [s]
 STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
@@ -88,10 +89,10 @@ class Traffic:
         self.watchdog = Watchdog(self)
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
-        self._after: dict[int, int] = {}  # the next cell of a lane, by cell
+        self.lane = np.asarray(plan.lane, bool).ravel()  # by cell
+        self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
-            cells = station.cells.tolist()
-            self._after.update(zip(cells, cells[1:]))
+            self._after[station.cells[:-1]] = station.cells[1:]
         self._next_map = self._obstructed_until = 0.0
         self._units = np.zeros(0, np.int32)
         self._had_people = False
@@ -105,7 +106,7 @@ class Traffic:
         """Returns whether a later report than one of that time [s] has been taken in."""
         return time < self.time
 
-    def update_robots(self, time: float, reports: np.ndarray) -> None:
+    def update_robots(self, time: float, reports: Reports) -> None:
         """Takes in what all robots report at that time [s]: aligned reports (n,) of REPORT."""
         robots, execution = self.robots, self._execution
         self.time = time
@@ -134,26 +135,27 @@ class Traffic:
             robots.stalled, np.minimum(robots.stalled_since, time), np.inf
         )
         robots.astray = execution.astray()
-        robots.lost = (robots.lost & (robots.mode == Mode.OUT_OF_SERVICE)) | execution.lost()
+        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | execution.lost()
         robots.lost &= ~robots.gone
-        robots.mode[robots.lost] = Mode.OUT_OF_SERVICE
+        robots.mode[robots.lost] = OUT_OF_SERVICE
         robots.still_since = execution.still_since()
         self._find_foreign(reports)
         self.watchdog.update()
         self._close_trapped()
 
-    def inherited(self, reports: np.ndarray) -> np.ndarray:
+    def inherited(self, reports: Reports) -> np.ndarray:
         """Returns (n,) bool: robots that have been on paths since before this began."""
-        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != Status.IDLE)
+        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
 
-    def _find_foreign(self, reports: np.ndarray) -> None:
+    def _find_foreign(self, reports: Reports) -> None:
         """Sets robots MANUAL that were idle and are busy with a person's command."""
         robots = self.robots
         foreign = self._execution.foreign() & self._settled & robots.automatic
         if not self.takes_over:
-            self._settled |= reports["status"] == Status.IDLE
-        self._foreign = np.where(foreign, self._foreign + 1, 0).astype(np.uint8)
-        robots.mode[self._foreign >= FOREIGN] = Mode.MANUAL
+            self._settled |= reports["status"] == IDLE
+        self._foreign = (self._foreign + 1) * foreign
+        if foreign.any():
+            robots.mode[self._foreign >= FOREIGN] = MANUAL
 
     def _close_trapped(self) -> None:
         if not len(self._units) and self.time > self._obstructed_until:
@@ -167,18 +169,28 @@ class Traffic:
         ahead = int(self.robots.waits_for[robot])
         if ahead != NOWHERE or self.robots.busy[robot]:
             return ahead
-        after = self._after.get(int(self.robots.cell[robot]), NOWHERE)
+        cell = int(self.robots.cell[robot])
+        after = int(self._after[cell]) if cell != NOWHERE else NOWHERE
         return self.holder(after) if after != NOWHERE else NOWHERE
+
+    def all_ahead(self) -> np.ndarray:
+        """Returns ahead_of() of each robot, (n,)."""
+        robots = self.robots
+        ahead = robots.waits_for.copy()
+        after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
+        asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
+        ahead[asks] = self._execution.holders(after[asks])
+        return ahead
 
     def holder(self, cell: int) -> int:
         """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
         return self._execution.holder(int(cell))
 
-    @property
-    def arrived(self) -> np.ndarray:
-        """The robots that stand at their goal."""
+    def arrived(self, among: np.ndarray) -> np.ndarray:
+        """Returns the robots that stand at their goal, of those `among`, (n,) bool."""
         robots = self.robots
-        return np.flatnonzero(robots.stands & ~robots.busy & (robots.cell == robots.goal))
+        there = robots.stands & ~robots.busy & (robots.cell == robots.goal)
+        return np.flatnonzero(there & among)
 
     def on_refused(self, model: str) -> None:
         """Notes that a robot, by its model's name, has refused its path."""

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The records of transports: what was asked for, how far each is, and which events that caused."""
 
+import bisect
 import collections
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
+
+import numpy as np
 
 from warehouse_fleet.message_enums import Then, TransportEventKind
 from warehouse_fleet.robot_table import NOWHERE
@@ -50,7 +53,11 @@ class Step(IntEnum):
     DROPPING = 7
 
 
-@dataclass
+# A member of an enumeration is found by a slow search; these are looked at for each robot.
+OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING, STORING, DROPPING = Step
+
+
+@dataclass(eq=False)
 class Transport:
     """One transport; cells are the floor's, times simulated [s]."""
 
@@ -60,12 +67,13 @@ class Transport:
     cell: int  # its destination
     then: int = STORE
     priority: int = 0
-    step: Step = Step.OPEN
+    step: Step = OPEN
     robot: int = NOWHERE  # an index
     let_go: bool = False  # the station has released it
     since: float = 0.0  # the step began
     attempts: int = 0  # at lifting
     place: int = NOWHERE  # the storage cell that is kept for it while it is under way
+    turn: int = 0  # its number among those that were given to robots
 
 
 @dataclass
@@ -91,15 +99,26 @@ def _urgency(transport: Transport) -> tuple[int, int]:
 
 
 class TransportBook:
-    """All transports that are not over, by number, robot and unit. Numbers begin after `last`.
+    """All transports that are not over, by number, robot and unit; `robots`: how many there are.
+    Numbers begin after `last`.
+
+    Arrays by robot, (n,): `step_of` (the Step of its transport; NOWHERE: it has none), `place_of`
+    (the storage cell that is kept for its unit), `station_of` (an index into `stations`).
 
     `open`: those without a robot, the most urgent first. `ready`: those at step READY, in the order
-    in which they came to it. `inbound` counts lifted units by the station they go to or are at,
-    `fetched` those whose robot is on its way to the unit.
+    in which they came to it. `released`: those at step WAITING that may leave. `inbound` counts
+    lifted units by the station they go to or are at, `fetched` those whose robot is on its way to
+    the unit.
     """
 
-    def __init__(self, last: int = 0) -> None:
+    def __init__(self, robots: int, last: int = 0, stations: Iterable[str] = ()) -> None:
         self.totals = Totals()
+        self.step_of = np.full(robots, NOWHERE, np.int8)
+        self.place_of = np.full(robots, NOWHERE, np.int32)
+        self.station_of = np.full(robots, NOWHERE, np.int32)
+        self.released: list[Transport] = []
+        self._station = {name: i for i, name in enumerate(stations)}
+        self._turns = 0
         self.open: list[Transport] = []
         self.ready: list[Transport] = []
         self.of_robot: dict[int, Transport] = {}
@@ -135,8 +154,12 @@ class TransportBook:
 
     def enqueue(self, transport: Transport) -> None:
         """Adds a transport to those without a robot."""
-        self.open.append(transport)
-        self.sort_open()
+        bisect.insort(self.open, transport, key=_urgency)
+
+    def _dequeue(self, transport: Transport) -> None:
+        at = bisect.bisect_left(self.open, _urgency(transport), key=_urgency)
+        if at < len(self.open) and self.open[at] is transport:
+            del self.open[at]
 
     def sort_open(self) -> None:
         """Sorts the transports without a robot by priority, then by number."""
@@ -144,25 +167,60 @@ class TransportBook:
 
     def assign(self, transport: Transport, robot: int, time: float) -> None:
         """Gives an open transport to a robot, which fetches the unit."""
-        self.open.remove(transport)
-        transport.robot, transport.step, transport.since = robot, Step.FETCHING, time
-        self.of_robot[robot] = transport
+        self._dequeue(transport)
+        self.hand_over(transport, robot)
+        self.go_on(transport, FETCHING, time)
         self.fetched[transport.station] += 1
+
+    def hand_over(self, transport: Transport, robot: int) -> None:
+        """Notes that a robot does a transport."""
+        self._turns += 1
+        transport.robot, transport.turn = robot, self._turns
+        self.of_robot[robot] = transport
+        self.step_of[robot] = transport.step
+        self.station_of[robot] = self._station.get(transport.station, NOWHERE)
+
+    def go_on(self, transport: Transport, step: Step, time: float) -> None:
+        """Brings a transport that a robot does to a step, at `time` [s]."""
+        transport.step, transport.since = step, time
+        self.step_of[transport.robot] = step
+
+    def keep(self, transport: Transport, place: int) -> None:
+        """Keeps a storage cell for the unit of a transport that a robot does."""
+        transport.place = self.place_of[transport.robot] = place
+
+    def let_go(self, transport: Transport) -> None:
+        """Lets a unit leave its station, now or when it gets there."""
+        transport.let_go = True
+        if transport.step == WAITING:
+            self.released.append(transport)
+
+    def take_released(self) -> list[Transport]:
+        """Returns those released since the last call that still wait, in the order of turns."""
+        released, self.released = self.released, []
+        waiting = [t for t in released if t.step == WAITING and t.number in self]
+        return sorted(waiting, key=lambda transport: transport.turn)
+
+    def _leave_robot(self, transport: Transport) -> None:
+        robot = transport.robot
+        if self.of_robot.get(robot) is transport:
+            del self.of_robot[robot]
+            self.step_of[robot] = self.place_of[robot] = self.station_of[robot] = NOWHERE
 
     def unassign(self, transport: Transport) -> None:
         """Takes a transport from its robot before the unit is lifted: another one fetches it."""
         self.fetched[transport.station] -= 1
-        self.of_robot.pop(transport.robot, None)
-        transport.robot, transport.step = NOWHERE, Step.OPEN
+        self._leave_robot(transport)
+        transport.robot, transport.step = NOWHERE, OPEN
         self.enqueue(transport)
 
     def remove(self, transport: Transport) -> None:
         """Removes a transport that is over."""
-        if transport.step in (Step.FETCHING, Step.READY):
+        if transport.step in (FETCHING, READY):
             self.fetched[transport.station] -= 1
-        if transport in self.open:
-            self.open.remove(transport)
-        self.of_robot.pop(transport.robot, None)
+        if transport.robot == NOWHERE:
+            self._dequeue(transport)
+        self._leave_robot(transport)
         if self.of_unit.get(transport.shelf) is transport:
             del self.of_unit[transport.shelf]
             for asked in self.open:
@@ -178,9 +236,9 @@ class TransportBook:
         """Returns how many transports to a station have no robot yet."""
         return sum(transport.station == station for transport in self.open)
 
-    def kept_places(self) -> set[int]:
+    def kept_places(self) -> np.ndarray:
         """Returns the storage cells that are kept for units under way."""
-        return {transport.place for transport in self.of_robot.values()}
+        return self.place_of[self.place_of != NOWHERE]
 
     def publish_event(
         self, time: float, transport: Transport, kind: Kind, kiva_id: int, text: str = ""

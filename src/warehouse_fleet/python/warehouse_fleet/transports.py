@@ -9,7 +9,7 @@ import numpy as np
 
 from warehouse_fleet.charging import Charging
 from warehouse_fleet.dispatch import admit, assign, carry, park, recover
-from warehouse_fleet.robot_table import NOWHERE
+from warehouse_fleet.robot_table import NOWHERE, Reports
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transport_book import (
     ENDS,
@@ -63,7 +63,8 @@ class Transports:
 
     def __init__(self, plan: FloorPlan, traffic: Traffic, last: int = 0) -> None:
         self.plan, self.traffic, self.robots = plan, traffic, traffic.robots
-        self.book, self.units = TransportBook(last), UnitMap(plan)
+        names = [station.name for station in plan.stations]
+        self.book, self.units = TransportBook(len(self.robots), last, names), UnitMap(plan)
         self.match_robots: Callable[
             [list[Transport], np.ndarray], Iterable[tuple[Transport, int]]
         ] = lambda asked, free: assign.nearest_robots(self, asked, free)
@@ -73,7 +74,11 @@ class Transports:
         self.park: Callable[[int], int | None] = lambda _robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
-        self._queues = {name: frozenset(one.queue.tolist()) for name, one in self.stations.items()}
+        self._queue_of = np.full(
+            plan.passable.size, NOWHERE, np.int32
+        )  # a station's index, by cell
+        for i, one in enumerate(plan.stations):
+            self._queue_of[one.queue] = i
         self.left_out: frozenset[str] = frozenset()  # stations that no robot can reach
         self.charging = Charging(plan, traffic, self.distance)
         self.places = np.flatnonzero(plan.storage)  # cells
@@ -130,7 +135,7 @@ class Transports:
             raise ValueError(f"no robot can stand at ({x:g}, {y:g})")
         if self.plan.lane.flat[cell]:
             raise ValueError(f"({x:g}, {y:g}) is in the lane of a station; name the station")
-        if cell in self.taken_cells() and self.units.unit_in.get(cell) != shelf_id:
+        if self.taken()[cell] and self.units.unit_in.get(cell) != shelf_id:
             raise ValueError(f"({x:g}, {y:g}) is taken")
         return cell
 
@@ -143,7 +148,7 @@ class Transports:
             return False, f"transport {transport_id} has not arrived yet"
         if transport.let_go:
             return False, f"transport {transport_id} has been released already"
-        transport.let_go = True
+        self.book.let_go(transport)
         return True, ""
 
     def cancel(self, transport_id: int) -> tuple[bool, str]:
@@ -157,7 +162,8 @@ class Transports:
             self.end(transport)
         elif transport.step in (Step.LIFTING, Step.BRINGING, Step.WAITING):
             self.publish_event(transport, Kind.CANCELLED)
-            transport.then, transport.let_go = STORE, True
+            transport.then = STORE
+            self.book.let_go(transport)
             if transport.step == Step.BRINGING:
                 carry.store(self, transport)
         return True, ""
@@ -215,10 +221,10 @@ class Transports:
         """Returns how many units of a station may be lifted at a time: its lane has room for."""
         return min(LIFTED, self.stations[station].service + 1)
 
-    def in_lane(self, transport: Transport) -> bool:
-        """Returns whether a transport's robot is in the lane of the station that it goes to."""
-        queue = self._queues.get(transport.station, ())
-        return int(self.robots.cell[transport.robot]) in queue
+    def in_lane(self) -> np.ndarray:
+        """Returns (n,) bool: robots in the queue of the station to which their transport goes."""
+        station = self.book.station_of
+        return (station != NOWHERE) & (self._queue_of[self.robots.cell] == station)
 
     def update_units(self, poses: UnitPoses) -> None:
         """Updates where all units stand; others than robots move units as well. Units that stand
@@ -240,7 +246,7 @@ class Transports:
 
     # --- the dispatcher
 
-    def advance(self, reports: np.ndarray) -> None:
+    def advance(self, reports: Reports) -> None:
         """Runs all phases once, by what robots report: aligned reports (n,) of REPORT."""
         recover.run(self, reports)
         carry.run(self, reports)
@@ -254,12 +260,13 @@ class Transports:
         """Returns (n,) bool: robots that could be given work."""
         robots = self.robots
         idle = robots.automatic & ~robots.busy & ~robots.loaded & (robots.cell != NOWHERE)
-        idle[list(self.book.of_robot)] = False
-        return idle
+        return idle & (self.book.step_of == NOWHERE)
 
-    def taken_cells(self) -> set[int]:
-        """Returns the cells with a unit, or kept for one that is under way."""
-        return self.units.unit_in.keys() | self.book.kept_places()
+    def taken(self) -> np.ndarray:
+        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
+        taken = self.units.stands.copy()
+        taken[self.book.kept_places()] = True
+        return taken
 
     def close_streets(self) -> None:
         """Closes the cells in which units stand off the storage places for loaded robots."""

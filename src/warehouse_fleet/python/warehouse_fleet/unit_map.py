@@ -29,11 +29,16 @@ class UnitPoses(NamedTuple):
 
 class UnitMap:
     """The cell of each unit, `cell_of`: NOWHERE if it is carried, or stands across cells. `unit_in`
-    holds those that stand, by cell."""
+    holds those that stand, by cell; `stands`, (cells,) bool, tells in which there is one."""
 
     def __init__(self, plan: FloorPlan) -> None:
         self.cell_of: dict[int, int] = {}
         self.unit_in: dict[int, int] = {}
+        self.stands = np.zeros(plan.passable.size, bool)
+        self._order = np.zeros(plan.passable.size, np.int64)  # in which units came to cells
+        self._came = 0
+        self._streets: dict[int, None] = {}  # cells with a unit, off the storage places
+        self._off_storage = ~np.asarray(plan.storage, bool).ravel()
         self._plan = plan
         self._put_down: dict[int, float] = {}  # when each unit was put down last [s]
 
@@ -63,11 +68,19 @@ class UnitMap:
         kept = {unit: cell for unit, cell in self.cell_of.items() if unit in better & cells.keys()}
         self.cell_of = {**cells, **kept}
         self.unit_in = {cell: unit for unit, cell in self.cell_of.items() if cell != NOWHERE}
+        standing = np.fromiter(self.unit_in, np.int64, len(self.unit_in))
+        self.stands[:] = False
+        self.stands[standing] = True
+        self._order[standing], self._came = np.arange(len(standing)), len(standing)
+        self._streets = dict.fromkeys(standing[self._off_storage[standing]].tolist())
 
     def lift(self, unit: int) -> int:
         """Notes that a unit was lifted; returns the cell in which it stood."""
         cell = self.cell_of[unit]
         self.unit_in.pop(cell, None)
+        self._streets.pop(cell, None)
+        if cell != NOWHERE:
+            self.stands[cell] = False
         self.cell_of[unit] = NOWHERE
         return cell
 
@@ -75,12 +88,20 @@ class UnitMap:
         """Notes that a unit stands in a cell since `time` [s]."""
         self.cell_of[unit] = cell
         self.unit_in[cell] = unit
+        self.stands[cell] = True
+        self._came += 1
+        self._order[cell] = self._came
+        if self._off_storage[cell]:
+            self._streets[cell] = None
         self._put_down[unit] = time
 
     def in_streets(self) -> list[int]:
         """Returns the cells in which units stand off the storage places."""
-        storage = self._plan.storage.flat
-        return [cell for cell in self.unit_in if not storage[cell]]
+        return list(self._streets)
+
+    def in_order(self, cells: np.ndarray) -> np.ndarray:
+        """Returns cells with units, (n,), in the order in which the units came there."""
+        return cells[np.argsort(self._order[cells])]
 
     def is_in_reach(self, cell: int) -> bool:
         """Returns whether a robot can come to a unit's cell; NOWHERE counts as reachable."""

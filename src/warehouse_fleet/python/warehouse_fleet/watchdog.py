@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.robot_table import NOWHERE
 
 if TYPE_CHECKING:
@@ -38,9 +37,9 @@ class Watchdog:
         """Looks up excuses and counts the robots without one."""
         robots, time = self._robots, self._traffic.time
         self._excused[robots.broken | robots.slowed_for_people] = time
-        for robot in np.flatnonzero(self.stuck_for > LOOKS_AHEAD):
-            if self._is_excused(robot):
-                self._excused[robot] = time
+        waiting = self.stuck_for > LOOKS_AHEAD
+        if waiting.any():
+            self._excused[waiting & self._wait_excused()] = time
         stuck = self.stuck_for > NO_PROGRESS
         self.count += int(np.count_nonzero(stuck & ~self._counted))
         self._counted = stuck
@@ -53,20 +52,21 @@ class Watchdog:
         trapped &= robots.automatic & ~traffic.plan.lane.ravel()[robots.cell]
         return robots.cell[trapped]
 
-    def _is_excused(self, robot: int) -> bool:
-        robots, seen = self._robots, set()
-        while robot != NOWHERE and robot not in seen:
-            seen.add(robot)
-            robot = self._traffic.ahead_of(robot)
-            if robot == NOWHERE:
-                return False
-            if robots.busy[robot] or robots.mode[robot] != Mode.AUTOMATIC:
-                return True
-            if robots.broken[robot] or robots.slowed_for_people[robot] or self._moves_up(robot):
-                return True
-        return False
-
-    def _moves_up(self, robot: int) -> bool:
-        """Returns whether a robot has just moved in a lane, which all pass in their order."""
-        in_lane = self._traffic.plan.lane.flat[self._robots.cell[robot]]
-        return in_lane and self._traffic.time - self._robots.still_since[robot] < MOVES_UP
+    def _wait_excused(self) -> np.ndarray:
+        """Returns (n,) bool: robots that wait, directly or behind others, for one that excuses."""
+        robots, traffic = self._robots, self._traffic
+        # A robot that has just moved in a lane, which all pass in their order.
+        in_lane = traffic.lane[robots.cell] & (robots.cell != NOWHERE)
+        excuses = in_lane & (traffic.time - robots.still_since < MOVES_UP)
+        excuses |= robots.busy | ~robots.automatic | robots.broken | robots.slowed_for_people
+        ahead = traffic.all_ahead()
+        ahead[ahead == NOWHERE] = len(robots)  # the end of each chain, which excuses none
+        ahead, found = np.append(ahead, len(robots)), np.append(excuses, False)
+        found = found[ahead]
+        # As many links again each time: a chain is at most as long as there are robots.
+        for _ in range(len(robots).bit_length()):
+            further = found | found[ahead]
+            if np.array_equal(further, found):
+                break
+            found, ahead = further, ahead[ahead]
+        return found[:-1]

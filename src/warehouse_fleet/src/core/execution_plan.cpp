@@ -91,6 +91,17 @@ void Execution::adopt(const Plan& plan) {
   order_.set(members_, courses_);
 }
 
+void Execution::drive(std::vector<std::deque<Step>> plans) {
+  members_.clear();
+  for (int robot = 0; robot < robots(); ++robot) {
+    Course& course = courses_[robot];
+    course.plan = std::move(plans.at(robot));
+    course.travels = !course.plan.empty();
+    members_.push_back(robot);
+  }
+  order_.set(members_, courses_);
+}
+
 /// Takes a robot's part of the plan, beyond what it has been released by now.
 void Execution::take(int robot, const Plan& plan, int index) {
   Course& course = courses_[robot];
@@ -122,6 +133,11 @@ std::vector<Cell> Execution::released(int robot) const {
   const Course& course = courses_.at(robot);
   if (!course.isMember()) return course.occupied;
   return {course.cells.begin() + course.left, course.cells.end()};
+}
+
+int Execution::nextTick(int robot) const {
+  const Course& course = courses_.at(robot);
+  return course.plan.empty() ? -1 : course.plan.front().tick;
 }
 
 std::vector<Cell> Execution::planned(int robot) const {

@@ -11,8 +11,9 @@
 namespace fleet {
 namespace {
 
-constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
-constexpr double kClosedFor = 3;     // for which an obstacle is taken to stay [s]
+constexpr double kTurnsSoon = 0.35;    // from a corner, where what comes after it is released [m]
+constexpr double kClosedFor = 3;       // for which an obstacle is taken to stay [s]
+constexpr std::size_t kForesight = 8;  // cells of the plan that a robot is told beyond its own
 
 }  // namespace
 
@@ -26,6 +27,7 @@ Releases Execution::release() {
 void Execution::extend(int robot) {
   Course& course = courses_[robot];
   course.waits_for = kNobody;
+  course.hindrance = Hindrance::kNone;
   if (reports_[robot].is_busy || !reports_[robot].is_controlled || course.isWithdrawn()) return;
   if (isBroken(robot)) return;
   if (course.is_astray) return recentre(robot);
@@ -37,13 +39,16 @@ void Execution::extend(int robot) {
                             ? frame_.headingTo(course.cells[course.cells.size() - 2], tip)
                             : headingOf(robot);
     const bool turns = frame_.headingTo(tip, cell) != arrival;
-    if (turns && !mayTurn(robot)) break;
+    if (turns && !mayTurn(robot)) {
+      course.hindrance = Hindrance::kTurn;
+      break;
+    }
     if (!mayHave(robot, cell)) break;
     if (turns) course.turning = tip;
     holders_.hold(cell, robot);
     course.cells.push_back(cell);
     course.granted.push_back(cell);
-    course.plan.erase(course.plan.begin());
+    course.plan.pop_front();
   }
   const bool is_new = course.points() > before;
   if (is_new && !course.isActive()) {
@@ -70,13 +75,11 @@ bool Execution::isAtEnd(int robot) const {
 bool Execution::mayHave(int robot, Cell cell) {
   if (holders_.isInZone(cell) && !holders_.isInZone(courses_[robot].cells.back())) return false;
   const int holder = holders_.holder(cell);
-  if (holder != kNobody && holder != robot) {
-    courses_[robot].waits_for = holder;
-    return false;
-  }
-  const int first = order_.first(cell, courses_);
-  if (first == robot) return true;
-  courses_[robot].waits_for = first;
+  const bool is_held = holder != kNobody && holder != robot;
+  const int next = is_held ? holder : order_.first(cell, courses_);
+  if (next == robot) return true;
+  courses_[robot].waits_for = next;
+  courses_[robot].hindrance = is_held ? Hindrance::kHolder : Hindrance::kOrder;
   return false;
 }
 
@@ -133,12 +136,9 @@ void Execution::send(int robot, int first) {
   releases_.first.push_back(first);
   releases_.released.push_back(released);
   releases_.cells.insert(releases_.cells.end(), course.cells.begin() + first, course.cells.end());
-  std::uint32_t points = released - first;
-  for (const Step& step : course.plan) {
-    releases_.cells.push_back(step.cell);
-    ++points;
-  }
-  releases_.points.push_back(points);
+  const std::size_t foreseen = std::min(course.plan.size(), kForesight);
+  for (std::size_t i = 0; i < foreseen; ++i) releases_.cells.push_back(course.plan[i].cell);
+  releases_.points.push_back(static_cast<std::uint32_t>(released - first + foreseen));
   course.sent = now_;
   course.send();
 }

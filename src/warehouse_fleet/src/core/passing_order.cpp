@@ -29,10 +29,9 @@ int PassingOrder::first(Cell cell, const std::vector<Course>& courses) {
   int& next = next_[cell];
   while (next >= 0) {
     const Claim& claim = claims_[next];
-    const std::vector<Step>& plan = courses[claim.robot].plan;
-    // Its plan's first step to this cell, if it has that step still before it.
-    const auto has = [&](const Step& step) { return step.cell == cell && step.tick == claim.tick; };
-    if (std::any_of(plan.begin(), plan.end(), has)) return claim.robot;
+    const std::deque<Step>& plan = courses[claim.robot].plan;
+    // The robot has that step still before it: the ticks of its plan ascend.
+    if (!plan.empty() && claim.tick >= plan.front().tick) return claim.robot;
     const std::size_t following = next + 1;
     next = following < claims_.size() && claims_[following].cell == cell
                ? static_cast<int>(following)

@@ -3,6 +3,8 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <deque>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -67,6 +69,21 @@ py::tuple release(Run& run) {
   const Releases releases = run.execution.release();
   return py::make_tuple(array(releases.robot), array(releases.path_id), array(releases.first),
                         array(releases.points), array(releases.cells), array(releases.released));
+}
+
+void drive(Run& run, const Array<int>& steps, const Array<Cell>& cell, const Array<int>& tick) {
+  column(steps, run.execution.robots(), "steps");
+  std::vector<std::deque<Step>> plans(steps.size());
+  py::ssize_t next = 0;
+  for (std::size_t robot = 0; robot < plans.size(); ++robot) {
+    const py::ssize_t end = next + steps.data()[robot];
+    if (end > std::min(cell.size(), tick.size())) break;
+    for (; next < end; ++next) plans[robot].push_back({cell.data()[next], tick.data()[next]});
+  }
+  if (next != cell.size() || next != tick.size()) {
+    throw py::value_error("steps, cell and tick differ in length");
+  }
+  run.execution.drive(std::move(plans));
 }
 
 /// One of the questions about a robot, for all of them.
@@ -150,6 +167,13 @@ goal, home: (n,) int32 cells. horizon: ticks. Robots that are not controlled are
 
 actions: (n, horizon) uint8 of Action. A robot that was released other cells since then keeps to
 them until the next plan.)")
+      .def("drive", &drive, py::arg("steps"), py::arg("cell"), py::arg("tick"),
+           R"(Has all robots drive a whole plan from where they stand, which nothing replaces.
+
+steps: (n,) int32, how many cells each robot enters. cell, tick: (sum of steps,) int32, robot after
+robot: each cell, and when it is entered. Robots pass each cell in the order of ticks; a robot's own
+ascend. No two robots may have one tick and cell, nor may robots follow each other in a ring at one
+tick: they would wait for each other. ValueError if the arrays differ in length.)")
       .def("release", &release,
            R"(Releases to each robot the cells that it needs in order not to brake.
 
@@ -194,6 +218,12 @@ robot.)")
            "(n,) bool.")
       .def("waits_for", ofAll<int>(&Execution::waitsFor),
            "Returns the robot that each robot with a plan waits for, (n,) int32; -1 for none.")
+      .def("hindrance", ofAll<std::uint8_t>(&Execution::hindrance),
+           "Returns what keeps each robot from the next cell of its plan, (n,) uint8: 0 nothing, 1 "
+           "the robot ahead, 2 one that passes the cell before it, 3 a turn beside it.")
+      .def("next_tick", ofAll<int>(&Execution::nextTick),
+           "Returns the tick of each robot's next step that was not released yet, (n,) int32; -1 "
+           "at the end of its plan.")
       .def("foreign", ofAll<bool>(&Execution::isForeign),
            "Returns which robots are busy with a command that is not the fleet's, (n,) bool.")
       .def("stalled", ofAll<bool>(&Execution::isStalled),
@@ -208,6 +238,15 @@ robot.)")
       .def(
           "holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); },
           py::arg("cell"), "Returns the robot that holds a cell, -1 for none.")
+      .def(
+          "holders",
+          [](const Run& run, const Array<Cell>& cells) {
+            py::array_t<int> robots(cells.size());
+            std::transform(cells.data(), cells.data() + cells.size(), robots.mutable_data(),
+                           [&](Cell cell) { return run.execution.holder(cell); });
+            return robots;
+          },
+          py::arg("cells"), "Returns the robot that holds each cell (n,), -1 for none: (n,) int32.")
       .def(
           "released", [](const Run& run, int robot) { return run.execution.released(robot); },
           py::arg("robot"), "Returns the cells ahead that a robot holds, the nearest first.")

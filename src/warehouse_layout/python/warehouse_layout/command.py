@@ -13,14 +13,20 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from warehouse_layout import compact, file_check, generator, placement
+from warehouse_layout import compact, file_check, generated, generator, placement
 from warehouse_layout import layout_file as lf
-from warehouse_layout.items import CAPACITY
 from warehouse_layout.layout_file import LayoutFile
-from warehouse_layout.request import LIMITS, PRESETS, Request, RequestError, resolve
+from warehouse_layout.request import (
+    LIMITS,
+    PRESETS,
+    Request,
+    RequestError,
+    check_stations,
+    items_for,
+    resolve,
+)
 
 BAD_FILE, WRONG_USAGE = 1, 2  # exit codes
-ITEMS_A_UNIT = 4
 EMPTY = "empty"
 
 
@@ -92,13 +98,12 @@ def _generated(args: argparse.Namespace) -> LayoutFile:
     if args.preset and style is None and args.replenish is None and not _has_counts(args):
         return _preset(args.preset)
     request = _request(args)
-    like_preset = generator.of_request(request, name) if style is None else None
+    like_preset = generated.file_of(request, name) if style is None else None
     if like_preset and args.replenish in (None, _replenishments(like_preset)):
         return like_preset
-    replenish = args.replenish
-    if replenish is None:
-        replenish = -(-request.belts // 2)
-    return compact.of_request(request, replenish, style or compact.Style(), name)
+    replenish = generated.replenishing(request) if args.replenish is None else args.replenish
+    default = compact.Style(sides=1 if generated.is_regular(request) else 4)
+    return compact.of_request(request, replenish, style or default, name)
 
 
 def _preset(name: str) -> LayoutFile:
@@ -122,13 +127,10 @@ def _request(args: argparse.Namespace) -> Request:
         raise RequestError("0 robots and 0 storage units; one of them at least was expected")
     items = args.items
     if items is None:
-        items = min(units * ITEMS_A_UNIT, base.items or LIMITS["items"], units * CAPACITY)
+        items = min(items_for(units), base.items or LIMITS["items"])
     checked = resolve("", robots, items, units)
     belts = args.stations if args.stations is not None else base.belts or checked.belts
-    if not 0 <= belts <= compact.MOST_STATIONS:
-        raise RequestError(f"stations is {belts}; 0 to {compact.MOST_STATIONS} were expected")
-    if args.replenish is not None and args.replenish < 0:
-        raise RequestError(f"replenish is {args.replenish}; it can't be negative")
+    check_stations(belts, args.replenish or 0)
     return Request(robots, units, items, belts)
 
 

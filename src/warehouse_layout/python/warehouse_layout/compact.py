@@ -18,13 +18,12 @@ from warehouse_layout import layout_file as lf
 from warehouse_layout.blocks import FETCH, QUEUE, WAIT, places_for
 from warehouse_layout.layout import CHARGED
 from warehouse_layout.layout_file import Cell, LayoutFile, StationEntry
-from warehouse_layout.request import Request, RequestError
+from warehouse_layout.request import Request, RequestError, check_stations
 from warehouse_layout.stations import STEPS
 
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes
 BELT_CELLS = 2
-MOST_STATIONS = 500
 MOST_EDGE = 100  # of a block, in cells
 
 
@@ -58,10 +57,7 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
     Raises RequestError for counts and styles of which no fleet could make use.
     """
     style.check()
-    if not 0 <= request.belts + replenish <= MOST_STATIONS:
-        raise RequestError(
-            f"{request.belts + replenish} stations; at most {MOST_STATIONS} were expected"
-        )
+    check_stations(request.belts, replenish)
     plan = min(_plans(request, replenish, style), key=_Plan.cost)
     floor, stations = plan.drawn()
     return LayoutFile(

@@ -50,6 +50,7 @@ COLOURS = {  # red green blue, each in 0…1
 }
 _GAP = {"exits": 0.0}  # between a marking and the border of its cells, of a cell
 _THICK = 0.004  # of paint [m]
+MOST_MARKS = 20_000  # in a model: 4 MB of text
 
 Rectangle = tuple[int, int, int, int]  # first x, first y, last x, last y in cells
 Point = Sequence[float]  # x, y [m]
@@ -95,7 +96,34 @@ def _kind(label: str) -> str:
 
 def sdf(plan: FloorPlan, name: str = f"{NAME}1") -> str:
     """Returns the SDF text of the model that marks a FloorPlan on the floor."""
-    links = "".join(_link(label, plan, cells) for label, cells in _painted(plan))
+    return _model(name, plan, _painted(plan))
+
+
+def models_of(plan: FloorPlan) -> Iterator[tuple[str, str]]:
+    """Yields name and SDF text of the models that together mark a FloorPlan: one, or several of a
+    large floor, since the world reads no text beyond a size."""
+    part: list[tuple[str, list[Rectangle]]] = []
+    room, numbers = MOST_MARKS, count(1)
+    for label, cells in _painted(plan):
+        is_lane = label.count("/") == 2
+        for piece in [cells] if is_lane else _pieces(cells):
+            # All parts of a lane are of one model.
+            if len(piece) > room and not (is_lane and part and not label.endswith(QUEUE)):
+                yield (name := f"{NAME}{next(numbers)}"), _model(name, plan, part)
+                part, room = [], MOST_MARKS
+            part.append((label, piece))
+            room -= len(piece)
+    if part:
+        yield (name := f"{NAME}{next(numbers)}"), _model(name, plan, part)
+
+
+def _pieces(cells: list[Rectangle]) -> Iterator[list[Rectangle]]:
+    for begin in range(0, len(cells), MOST_MARKS):
+        yield cells[begin : begin + MOST_MARKS]
+
+
+def _model(name: str, plan: FloorPlan, painted: Iterable[tuple[str, list[Rectangle]]]) -> str:
+    links = "".join(_link(label, plan, cells) for label, cells in painted)
     return f'<model name="{name}"><static>true</static>{links}</model>'
 
 

@@ -2,7 +2,7 @@
 """The models of a Layout, to be spawned: names, SDF texts and poses."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +20,7 @@ WALLS = "layout_walls"
 PLACED = (*KINDS, WALLS, MARKINGS)  # all kinds of a warehouse, in the order in which they go
 _NUMBERED = re.compile(rf"({'|'.join(PLACED)})(\d+)")
 
+MOST_CHARACTERS = 10_000_000  # of a document: the world reads 20 MB
 WALL_HEIGHT = 1.0  # [m]
 BELT_LENGTH = 1.8  # [m], of its model
 
@@ -82,10 +83,10 @@ def of_layout(layout: Layout) -> list[Part]:
     """
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
-    marks = f"{MARKINGS}1"
+    marks = floor_markings.models_of(layout.plan) if layout.plan else ()
     return [
         *(floor if layout.has_own_floor else []),
-        *([Part(marks, floor_markings.sdf(layout.plan, marks))] if layout.plan else []),
+        *(Part(*mark) for mark in marks),
         *([Part(f"{WALLS}1", _walls(layout.walls))] if len(layout.walls) else []),
         *_belts(layout),
         *_numbered("storage_unit", layout.units),
@@ -133,6 +134,19 @@ def include(kind: str, number: int, x: float, y: float, z: float = 0.0, yaw: flo
     """Returns the Part of one model of worlds/models, at a place in `world` [m, rad]."""
     name = f"{kind}{number}"
     return Part(name, _INCLUDE.format(kind, name, f"{x!r} {y!r} {z!r} 0 0 {yaw!r}"))
+
+
+def documents(parts: Iterable[Part]) -> Iterator[str]:
+    """Yields SDF texts with all the Parts, none longer than the world reads."""
+    batch: list[Part] = []
+    size = 0
+    for part in parts:
+        if batch and size + len(part.xml) > MOST_CHARACTERS:
+            yield document(batch)
+            batch, size = [], 0
+        batch.append(part)
+        size += len(part.xml)
+    yield document(batch)
 
 
 def document(parts: Iterable[Part]) -> str:

@@ -38,10 +38,16 @@ PRESETS = {
     "huge": Request(1000, 4000, 20000, 40),
 }
 
-# Larger ones were never tried; the floor would be wider than a real warehouse.
-LIMITS = {"robots": 10000, "shelves": 40000, "items": 100000}
-MAX_BELTS = 60
-
+# A warehouse of all of these was built; larger ones were never tried.
+LIMITS = {"robots": 20_000, "shelves": 100_000, "items": 500_000}
+REASONS = {
+    "robots": "larger fleets were never driven",
+    "shelves": "larger floors were never built",
+    "items": "more were never laid out",
+}
+MOST_STATIONS = 1000  # for picking; as many again for replenishing
+MOST_ON_A_SIDE = 60  # picking stations of a regular floor, which has them all on one side
+ITEMS_A_UNIT = 4
 
 # The size that takes all the room of a given world.
 FIT = "fit"
@@ -57,7 +63,7 @@ def proportioned(places: int, most_robots: int = LIMITS["robots"], belts: int = 
     robots = min(places // 8 + 2, max(1, places // 3), most_robots, LIMITS["robots"])
     spare = int(SPARE * places) if places >= TIGHT else 0
     units = max(0, min(places - robots - spare, LIMITS["shelves"]))
-    items = min(4 * units, units * CAPACITY, LIMITS["items"])
+    items = items_for(units)
     return Request(robots, units, items, belts or _belts_for(robots, units))
 
 
@@ -75,6 +81,11 @@ def resolve(name: str, robots: int = 0, items: int = 0, shelves: int = 0) -> Req
     return Request(robots, shelves, items, _belts_for(robots, shelves))
 
 
+def items_for(units: int) -> int:
+    """Returns how many items lie on so many storage units, unless they are told."""
+    return min(ITEMS_A_UNIT * units, LIMITS["items"])
+
+
 def _preset(name: str) -> Request:
     try:
         return PRESETS[name]
@@ -90,7 +101,17 @@ def _check_counts(counts: dict[str, int]) -> None:
         if count < 0:
             raise RequestError(f"{what} is {count}; it can't be negative")
         if count > LIMITS[what]:
-            raise RequestError(f"{what} is {count}; the limit is {LIMITS[what]}")
+            raise RequestError(f"{what} is {count}; the limit is {LIMITS[what]}: {REASONS[what]}")
+
+
+def check_stations(picking: int, replenishing: int) -> None:
+    """Raises RequestError for numbers of stations that no warehouse can have."""
+    for what, count in (("stations", picking), ("replenish", replenishing)):
+        if not 0 <= count <= MOST_STATIONS:
+            raise RequestError(
+                f"{what} is {count}; 0 to {MOST_STATIONS} were expected: their lanes make a floor"
+                " longer than storage and streets need"
+            )
 
 
 def _check_items(items: int, shelves: int) -> None:
@@ -106,4 +127,4 @@ def _check_items(items: int, shelves: int) -> None:
 
 def _belts_for(robots: int, shelves: int) -> int:
     """Returns one belt for every 100 storage units or every 25 robots, the larger of both."""
-    return min(MAX_BELTS, max(1, math.ceil(shelves / 100), math.ceil(robots / 25)))
+    return min(MOST_STATIONS, max(1, math.ceil(shelves / 100), math.ceil(robots / 25)))

@@ -16,11 +16,24 @@ def boxes(walls: np.ndarray, spacing: float) -> np.ndarray:
     x and y are from the centre of cell (0, 0). Walls keep away from their cells' edges, so that a
     storage unit can be turned in the cell beside them; boxes overlap where they join.
     """
-    runs = (*_runs(walls), *(_turned(r) for r in _runs(walls.T)))
-    found = {*rectangles(walls), *runs, *_blocks(walls)}
+    whole = rectangles(walls)
+    joints = [*_runs(walls), *(_turned(run) for run in _runs(walls.T)), *_blocks(walls)]
+    found = {*whole, *_across(joints, whole, walls.shape)}
     low, high = np.reshape(sorted(found), (-1, 2, 2)).astype(float).transpose(1, 0, 2)
     size = (high - low + 1) * spacing - 2 * max(TURNING - spacing / 2, 0.0)
     return np.column_stack([(low + high) / 2 * spacing, size])
+
+
+def _across(
+    joints: Iterable[Rectangle], whole: list[Rectangle], shape: tuple[int, ...]
+) -> Iterable[Rectangle]:
+    """Yields what joins rectangles, which cover all walls: not what lies within one."""
+    part = np.zeros(shape, np.int32)
+    for i, (x, y, last_x, last_y) in enumerate(whole):
+        part[y : last_y + 1, x : last_x + 1] = i
+    for x, y, last_x, last_y in joints:
+        if (part[y : last_y + 1, x : last_x + 1] != part[y, x]).any():
+            yield x, y, last_x, last_y
 
 
 def _runs(walls: np.ndarray) -> Iterable[Rectangle]:

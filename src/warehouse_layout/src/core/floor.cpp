@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "warehouse_layout/floor.h"
 
+#include <cstdlib>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace layout {
 namespace {
@@ -63,22 +66,68 @@ Cell Floor::beside(Cell cell, int heading) const {
   }
 }
 
-int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
-  std::vector<int> distance(floor.size(), -1);
-  std::vector<Cell> queue{from};
-  distance[from] = 0;
-  for (std::size_t i = 0; i < queue.size() && distance[to] < 0; ++i) {
-    const Cell cell = queue[i];
-    for (int heading = 0; heading < kHeadings; ++heading) {
-      const Cell over = floor.next(Deck::kUnder, cell, heading);
-      const Cell next = over == to ? to : floor.next(deck, cell, heading);
-      if (next == kNowhere || distance[next] >= 0) continue;
-      if (isPassingThrough(floor, cell, next, to)) continue;
-      distance[next] = distance[cell] + 1;
-      queue.push_back(next);
+namespace {
+
+/// How far cells are from where a search began. What searches before it left counts as nothing, so
+/// that one over a few cells of a large floor costs as much as those few.
+class Distances {
+ public:
+  void begin(std::size_t cells) {
+    if (search_.size() < cells || ++now_ == 0) {
+      search_.assign(cells, 0);
+      steps_.resize(cells);
+      now_ = 1;
     }
   }
-  return distance[to];
+  int of(Cell cell) const { return search_[cell] == now_ ? steps_[cell] : -1; }
+  void set(Cell cell, int steps) {
+    search_[cell] = now_;
+    steps_[cell] = steps;
+  }
+
+ private:
+  std::vector<std::uint32_t> search_;  ///< the one that came to each cell last
+  std::vector<int> steps_;
+  std::uint32_t now_ = 0;
+};
+
+int alongAxes(const Floor& floor, Cell a, Cell b) {
+  return std::abs(floor.x(a) - floor.x(b)) + std::abs(floor.y(a) - floor.y(b));
+}
+
+struct Reached {
+  Cell cell;
+  int steps;
+};
+
+}  // namespace
+
+// A*: a step brings a robot nearer along the axes by one, or away by one. So there are cells to be
+// looked at now, with the least sum of steps done and steps left, and others with two more.
+int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
+  thread_local Distances distances;
+  distances.begin(floor.size());
+  distances.set(from, 0);
+  std::vector<Reached> now{{from, 0}}, later;
+  for (; !now.empty(); std::swap(now, later)) {
+    while (!now.empty()) {
+      const auto [cell, steps] = now.back();
+      now.pop_back();
+      if (steps > distances.of(cell)) continue;
+      if (cell == to) return steps;
+      const int left = alongAxes(floor, cell, to);
+      for (int heading = 0; heading < kHeadings; ++heading) {
+        const Cell over = floor.next(Deck::kUnder, cell, heading);
+        const Cell next = over == to ? to : floor.next(deck, cell, heading);
+        if (next == kNowhere) continue;
+        if (const int known = distances.of(next); known >= 0 && known <= steps + 1) continue;
+        if (isPassingThrough(floor, cell, next, to)) continue;
+        distances.set(next, steps + 1);
+        (alongAxes(floor, next, to) < left ? now : later).push_back({next, steps + 1});
+      }
+    }
+  }
+  return -1;
 }
 
 std::string Floor::name(Cell cell) const {

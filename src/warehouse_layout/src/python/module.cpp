@@ -13,6 +13,7 @@
 
 #include "warehouse_layout/layout_check.h"
 #include "warehouse_layout/python_arrays.h"
+#include "warehouse_layout/routes.h"
 
 namespace layout::python {
 namespace {
@@ -59,6 +60,35 @@ void bindFloor(py::module_& module) {
           py::arg("loaded") = false);
 }
 
+template <typename T>
+py::array_t<T> array(const std::vector<T>& vector) {
+  return py::array_t<T>(static_cast<py::ssize_t>(vector.size()), vector.data());
+}
+
+py::tuple makeRoutes(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start,
+                     double step, double turn) {
+  const auto cells = static_cast<Cell>(end.size());
+  if (next.size() != end.size() * kHeadings || start < 0 || start >= cells) {
+    throw py::value_error("next (cells, 4), end (cells,) and a cell as start were expected");
+  }
+  Routes routes;
+  {
+    py::gil_scoped_release others_may_run;
+    routes = routesFrom({next.data(), end.data(), cells, step, turn}, start);
+  }
+  return py::make_tuple(array(routes.seconds), array(routes.steps), array(routes.before));
+}
+
+void bindRoutes(py::module_& module) {
+  module.def("routes", &makeRoutes, py::arg("next"), py::arg("end"), py::arg("start"),
+             py::arg("step"), py::arg("turn"),
+             R"(Returns the quickest ways from a cell to all others, in any heading.
+
+next: (cells, 4) int32, the cell beside each in each heading, or -1. end: (cells,), where ways end.
+step, turn: from a cell to the next, and by a quarter [s]. Returns (seconds, steps, before), each
+(4 * cells,) by cell * 4 + heading: infinite where no way leads, how many cells, the one before.)");
+}
+
 void bindLayout(py::module_& module) {
   module.def(
       "check_layout",
@@ -93,6 +123,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace layout::python;
   py::register_exception<layout::FloorError>(module, "FloorError", PyExc_ValueError);
   bindFloor(module);
+  bindRoutes(module);
   bindLayout(module);
   bindLayoutFaults(module);
 }

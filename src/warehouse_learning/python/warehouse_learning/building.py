@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from kiva_plugin_cpp import World, Worlds, layouts, worlds_folder
-from warehouse_layout import layout, layout_choice, layout_world, placement, request
+from warehouse_layout import generated, layout, layout_choice, layout_world, placement, request
 from warehouse_learning.options import Options
 
 
@@ -31,7 +31,7 @@ def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]
     """Returns a Layout without items, which nothing asks for here, and the world around it."""
     if not options.layout:
         wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
-        return layout.plan(wanted), "empty"
+        return generated.plan(wanted), "empty"
     file = replace(layout_choice.chosen(options.layout), items=0, stock="")
     laid = placement.place(file, robots=options.robots)
     hall = layout_world.world_of(file, folder)

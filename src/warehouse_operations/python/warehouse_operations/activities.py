@@ -5,23 +5,15 @@
 room. Standing in a street for others is part of the drive: that is what traffic costs.
 """
 
-import collections
 from typing import Any
 
 import numpy as np
 
-from warehouse_fleet.transports import Step
+from warehouse_fleet.transport_book import BRINGING
 
 ACTIVITIES = ("to unit", "lift", "to station", "queue", "service", "back", "idle")
-OF_STEP = {
-    Step.FETCHING: "to unit",
-    Step.READY: "queue",
-    Step.LIFTING: "lift",
-    Step.BRINGING: "to station",
-    Step.WAITING: "service",
-    Step.STORING: "back",
-    Step.DROPPING: "lift",
-}
+# By Step: a transport that is open has no robot.
+OF_STEP = ("idle", "to unit", "queue", "lift", "to station", "service", "back", "lift")
 
 
 class ActivityLog:
@@ -33,11 +25,15 @@ class ActivityLog:
 
     def observe(self, elapsed: float, transports: Any, standing: np.ndarray) -> None:
         """Adds what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
-        doing: collections.Counter[str] = collections.Counter()
-        bringing = Step.BRINGING
-        for one in transports.assigned():
-            queues = one.step == bringing and standing[one.robot] and transports.in_lane(one)
-            doing["queue" if queues else OF_STEP[one.step]] += 1
-        doing["idle"] = self.robots - doing.total()
-        for activity, count in doing.items():
+        steps = transports.book.step_of
+        queues = standing & (steps == BRINGING)
+        waiting = int(np.count_nonzero(queues & transports.in_lane())) if queues.any() else 0
+        doing = np.bincount(steps + 1, minlength=len(OF_STEP) + 1)[1:].tolist()
+        counts = dict.fromkeys(ACTIVITIES, 0)
+        for activity, count in zip(OF_STEP, doing):
+            counts[activity] += count
+        counts["to station"] -= waiting
+        counts["queue"] += waiting
+        counts["idle"] = self.robots - sum(doing)
+        for activity, count in counts.items():
             self.seconds[activity] += elapsed * count

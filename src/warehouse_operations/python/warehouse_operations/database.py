@@ -28,9 +28,10 @@ WAITING = 20_000  # commits at most that are not written yet; beyond, the shift 
 
 class Database:
     """Takes Rows from any thread and writes them in order on its own; no other program may, for as
-    long. url: see engines.url_of. Raises DatabaseError."""
+    long. url: see engines.url_of. gather: for so long [s] rows may wait for others, with which they
+    are written at less cost. Raises DatabaseError."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, gather: float = 0.0) -> None:
         self.url, self.engine = shown(url), make_engine(url)
         self._lock = contextlib.ExitStack()
         with self._lock as unless_ready:
@@ -38,6 +39,7 @@ class Database:
             prepare(self.engine, url)
             self._lock = unless_ready.pop_all()
         self._queue: queue.Queue[Rows | None] = queue.Queue(WAITING)
+        self._gather, self._hurries = gather, threading.Event()
         self._error: Exception | None = None
         self._thread = threading.Thread(target=self._write, name="database", daemon=True)
         self._thread.start()
@@ -50,11 +52,14 @@ class Database:
 
     def flush(self) -> None:
         """Waits until everything that was put is in the database; raises DatabaseError."""
+        self._hurries.set()
         self._queue.join()
+        self._hurries.clear()
         self._check()
 
     def close(self) -> None:
         """Flushes and closes; raises DatabaseError."""
+        self._hurries.set()
         if self._thread.is_alive():
             self._queue.put(None)
             self._thread.join()
@@ -83,6 +88,8 @@ class Database:
         ended = False
         while not ended:
             taken = [self._queue.get()]
+            if self._gather:
+                self._hurries.wait(self._gather)
             while not self._queue.empty():
                 taken.append(self._queue.get())
             ended = None in taken

@@ -15,10 +15,12 @@ from warehouse_operations.order_file import DemandError, Wanted, read_csv
 from warehouse_operations.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.orders import Backlog
 
-FILL = 200  # orders that wait at any time
+FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: so many, or those of all stations
 POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
+LINE_SUMS = np.cumsum(LINE_SHARES / LINE_SHARES.sum())
+LINE_SUMS /= LINE_SUMS[-1]
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
 MOST_FILL = 10_000
@@ -41,7 +43,7 @@ class Customers:
     def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
         """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
         rng = self._rng
-        count = int(rng.choice(LINES, p=LINE_SHARES / LINE_SHARES.sum()))
+        count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
         lines = {}
         for _ in range(count * 20):
             sku = self.assortment.skus[self._draw()]
@@ -159,7 +161,8 @@ def make_demand(
     if text == "none":
         return FromFile([])
     if name == "fill":
-        return Fill(customers, int(_number(text, value, FILL, MOST_FILL, whole=True)))
+        waiting = max(FILL, FILL_A_STATION * stations[0])
+        return Fill(customers, int(_number(text, value, waiting, MOST_FILL, whole=True)))
     if name == "poisson":
         per_hour = _number(text, value, POISSON * stations[0], MOST_PER_HOUR)
         return Poisson(customers, per_hour, BUNDLES * stations[1], rng, now)

@@ -10,6 +10,8 @@ from collections.abc import Callable, Collection, Iterable
 from enum import StrEnum
 from typing import Any
 
+import numpy as np
+
 ROOMY = 12  # pieces, of the largest bundle
 
 
@@ -78,8 +80,14 @@ class Inventory:
         self._heirs: dict[int, str] = {}
         # Bins with room for a bundle of any size, by SKU.
         self.roomy: dict[str, int] = defaultdict(int)
+        self.room_changed: set[str] = set()  # SKUs whose number of those has changed
         self._roomy: set[int] = set()
         self._available: dict[str, int] = defaultdict(int)
+        # Available pieces by row, a row a bin; and of each SKU, while none comes or goes, its rows
+        # by unit with the units and where each begins.
+        self._row = {one.bin_id: row for row, one in enumerate(bins)}
+        self._pieces = np.zeros(len(bins), np.int32)
+        self._rows_of: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._incoming: dict[str, int] = defaultdict(int)
         self.blocked: set[int] = set()  # units out of service
         self._on_move = on_move or (lambda *_: None)
@@ -90,6 +98,7 @@ class Inventory:
             self.total += one.quantity
             self._index(one)
             self._available[one.sku] += one.available
+            self._pieces[self._row[one.bin_id]] = one.available
             self._measure(one)
 
     @property
@@ -108,6 +117,26 @@ class Inventory:
     def with_sku(self, sku: str) -> Collection[Bin]:
         """Returns the bins in which pieces of a SKU lie."""
         return self._of_sku[sku].values()
+
+    def by_unit(self, sku: str) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (units, pieces), (n,) each: where pieces of a SKU lie that are promised to no
+        order, and how many on each unit, by ascending units."""
+        if sku not in self._rows_of:
+            self._rows_of[sku] = self._sorted_rows(sku)
+        rows, units, begins = self._rows_of[sku]
+        if not len(units):
+            return units, units
+        pieces = np.add.reduceat(self._pieces[rows], begins)
+        some = pieces > 0
+        return units[some], pieces[some]
+
+    def _sorted_rows(self, sku: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        bins = self._of_sku[sku].values()
+        unit_of = np.array([one.unit for one in bins], np.int64)
+        rows = np.array([self._row[one.bin_id] for one in bins], np.int64)
+        order = np.argsort(unit_of, kind="stable")
+        units, begins = np.unique(unit_of[order], return_index=True)
+        return rows[order], units, begins
 
     def takes(self, one: Bin, sku: str, quantity: int) -> bool:
         """Returns whether so many pieces of a SKU can be put into a bin.
@@ -132,6 +161,7 @@ class Inventory:
         one.quantity += quantity
         self.total += quantity
         self._available[one.sku] += quantity
+        self._pieces[self._row[one.bin_id]] += quantity
         self._index(one)
         self._measure(one)
         self.changed.add(one)
@@ -145,6 +175,7 @@ class Inventory:
             )
         one.reserved += quantity
         self._available[one.sku] -= quantity
+        self._pieces[self._row[one.bin_id]] -= quantity
         self.changed.add(one)
 
     def pick(self, one: Bin, quantity: int, **context: Any) -> None:
@@ -206,9 +237,7 @@ class Inventory:
             self.move(one, one.sku, -one.quantity, Reason.GONE)
         self.capacity -= one.capacity
         self._kept_for[one.sku] -= 1
-        if one.bin_id in self._roomy:
-            self._roomy.discard(one.bin_id)
-            self.roomy[one.sku] -= 1
+        self._forget_room(one)
         self.empty.pop(one.bin_id, None)
         del self.bins[one.bin_id]
         self.of_unit[one.unit].remove(one)
@@ -222,16 +251,19 @@ class Inventory:
         self._measure(one)
 
     def _index(self, one: Bin) -> None:
+        bins = self._of_sku[one.sku]
+        if bool(one.quantity) == (one.bin_id in bins):
+            return
+        self._rows_of.pop(one.sku, None)
         if one.quantity:
-            self._of_sku[one.sku][one.bin_id] = one
+            bins[one.bin_id] = one
         else:
-            self._of_sku[one.sku].pop(one.bin_id, None)
+            del bins[one.bin_id]
 
     def _rename(self, one: Bin, sku: str) -> None:
         """Assigns another SKU to an empty bin."""
-        if one.sku != sku and one.bin_id in self._roomy:
-            self._roomy.discard(one.bin_id)
-            self.roomy[one.sku] -= 1
+        if one.sku != sku:
+            self._forget_room(one)
         if one.sku != sku and not self._heirs.pop(one.bin_id, ""):
             self._keep_for(one, sku)
         one.sku = sku
@@ -245,6 +277,15 @@ class Inventory:
             self.empty[one.bin_id] = one
         else:
             self.empty.pop(one.bin_id, None)
-        if (one.room >= ROOMY) != (one.bin_id in self._roomy):
-            self.roomy[one.sku] += 1 if one.room >= ROOMY else -1
-            self._roomy ^= {one.bin_id}
+        if one.room < ROOMY:
+            self._forget_room(one)
+        elif one.bin_id not in self._roomy:
+            self._roomy.add(one.bin_id)
+            self.roomy[one.sku] += 1
+            self.room_changed.add(one.sku)
+
+    def _forget_room(self, one: Bin) -> None:
+        if one.bin_id in self._roomy:
+            self._roomy.discard(one.bin_id)
+            self.roomy[one.sku] -= 1
+            self.room_changed.add(one.sku)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
+GATHER = 0.5  # rows for the database are written together, twice a second [s, wall]
 ASKED = 16  # cycles after which the progress is told: those of a large world take seconds
 
 
@@ -158,4 +159,4 @@ def _opened(url: str) -> "Database":
     """Returns a Database; its libraries are needed for nothing else."""
     from warehouse_operations import database
 
-    return database.Database(url)
+    return database.Database(url, gather=GATHER)

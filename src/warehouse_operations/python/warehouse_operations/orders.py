@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders of customers, and the bundles of pieces that come to refill the stock."""
 
+import bisect
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -79,6 +80,7 @@ class Backlog:
         self.lines = 0  # of all of them
         self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
         self._by_sku: dict[str, dict[int, Order]] = defaultdict(dict)
+        self._urgencies: list[tuple[int, float, int]] = []  # of all of them, ascending
 
     def __len__(self) -> int:
         return len(self.orders)
@@ -89,6 +91,7 @@ class Backlog:
     def add(self, order: Order) -> None:
         """Adds an order, with the demand of its open lines."""
         self.orders[order.order_id] = order
+        bisect.insort(self._urgencies, order.urgency)
         self.lines += len(order.lines)
         for line in order.lines:
             if line.open:
@@ -98,11 +101,16 @@ class Backlog:
     def remove(self, order: Order) -> None:
         """Removes an order and its demand. Raises KeyError."""
         del self.orders[order.order_id]
+        del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
         self.lines -= len(order.lines)
         for line in order.lines:
             if line.open:
                 self.demand[line.sku] -= line.open
                 self._by_sku[line.sku].pop(order.order_id, None)
+
+    def by_urgency(self) -> Iterator[Order]:
+        """Returns the orders, the most urgent first; it may not change meanwhile."""
+        return (self.orders[order_id] for _, _, order_id in self._urgencies)
 
     def with_sku(self, sku: str) -> Iterable[Order]:
         """Returns the orders that ask for a SKU, by age."""

@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from warehouse_operations.candidates import Candidates
 from warehouse_operations.inventory import Bin
 from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.orders import Line, Order
@@ -229,16 +230,10 @@ class Picking:
     def _retry(self, station: WorkStation) -> None:
         self._to_fetch[station] = None
 
-    def _candidates(self, station: WorkStation) -> dict[int, dict[Line, int]]:
+    def _candidates(self, station: WorkStation) -> Candidates:
         """Returns what each free unit could serve: {unit: {line: pieces}}."""
-        result: dict[int, dict[Line, int]] = {}
-        for line in station.missing.values():
-            for one in self.shift.inventory.with_sku(line.sku):
-                if one.quantity > one.reserved and one.unit in self.shift.free_units:
-                    lines = result.setdefault(one.unit, {})
-                    there = lines.get(line, 0)
-                    lines[line] = min(line.missing, there + one.available)
-        return result
+        shift = self.shift
+        return Candidates(station.missing.values(), shift.inventory, shift.free_units)
 
     # At the station.
 

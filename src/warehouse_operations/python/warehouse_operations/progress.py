@@ -14,6 +14,53 @@ if TYPE_CHECKING:
 WIDTH = 30
 
 
+class ProgressLine:
+    """Shows a bar with a text, on one line of a terminal; elsewhere a line now and then.
+
+    period: between two of them [s, wall]; None: 0.2 on a terminal, else 10.
+    """
+
+    def __init__(
+        self,
+        stream: TextIO = sys.stderr,
+        clock: Callable[[], float] = time.monotonic,
+        period: float | None = None,
+    ) -> None:
+        self._stream, self._clock = stream, clock
+        self._period = period or (0.2 if stream.isatty() else 10.0)
+        self._began = clock()
+        self._next = self._began + self._period
+
+    @property
+    def wall(self) -> float:
+        """Time since the begin [s]."""
+        return self._clock() - self._began
+
+    def is_due(self) -> bool:
+        """Returns whether something is to be shown now, and not again for a period."""
+        now = self._clock()
+        if now < self._next:
+            return False
+        self._next = now + self._period
+        return True
+
+    def show(self, share: float, text: str) -> None:
+        """Shows which share is done, 0…1, and a text."""
+        done = round(WIDTH * min(share, 1.0))
+        text = f"[{'#' * done}{'.' * (WIDTH - done)}] {text}"
+        self.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
+
+    def write(self, text: str) -> None:
+        """Writes a text as it is."""
+        self._stream.write(text)
+        self._stream.flush()
+
+    def end(self) -> None:
+        """Ends the line."""
+        if self._stream.isatty():
+            self._stream.write("\n")
+
+
 class ProgressBar:
     """Shows simulated time, throughput and speed; to be called with an Operations now and then.
 
@@ -25,37 +72,29 @@ class ProgressBar:
         seconds: float,
         stream: TextIO = sys.stderr,
         clock: Callable[[], float] = time.monotonic,
+        period: float | None = None,
     ) -> None:
-        self._seconds, self._stream, self._clock = seconds, stream, clock
-        self._period = 0.2 if stream.isatty() else 10.0
-        self._began = clock()
-        self._next = self._began + self._period
+        self._seconds, self._line = seconds, ProgressLine(stream, clock, period)
         self.stopped = False
 
     def __call__(self, ops: "Operations") -> bool:
         """Shows the progress if the period is over. Returns whether to stop."""
-        now = self._clock()
-        if now >= self._next:
-            self._next = now + self._period
-            self._show(ops, now - self._began)
+        if self._line.is_due():
+            self._show(ops)
         return self.stopped
 
     def end(self, ops: "Operations") -> None:
         """Shows the progress at the end of the shift."""
-        self._show(ops, self._clock() - self._began)
-        if self._stream.isatty():
-            self._stream.write("\n")
+        self._show(ops)
+        self._line.end()
 
-    def _show(self, ops: "Operations", wall: float) -> None:
-        share = min(ops.time / self._seconds, 1.0) if self._seconds else 1.0
-        done = round(WIDTH * share)
+    def _show(self, ops: "Operations") -> None:
         hourly = ops.shift.tally.items_picked / max(ops.time, 1e-9) * 3600
-        text = (
-            f"[{'#' * done}{'.' * (WIDTH - done)}] {_hms(ops.time)} of {_hms(self._seconds)}, "
-            f"{hourly:,.0f} pieces/h, {ops.time / max(wall, 1e-9):,.1f} x real time"
+        self._line.show(
+            ops.time / self._seconds if self._seconds else 1.0,
+            f"{hms(ops.time)} of {hms(self._seconds)}, {hourly:,.0f} pieces/h, "
+            f"{ops.time / max(self._line.wall, 1e-9):,.1f} x real time",
         )
-        self._stream.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
-        self._stream.flush()
 
 
 class ProgressLines(ProgressBar):
@@ -69,21 +108,19 @@ class ProgressLines(ProgressBar):
         stream: TextIO = sys.stderr,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        super().__init__(seconds, stream, clock)
-        self._period = self.PERIOD
-        self._next = self._began + self._period
+        super().__init__(seconds, stream, clock, self.PERIOD)
 
-    def _show(self, ops: "Operations", wall: float) -> None:
+    def _show(self, ops: "Operations") -> None:
         told = {
             "time": round(ops.time, 1),
             "of": self._seconds,
             "pieces": ops.shift.tally.items_picked,
-            "wall_s": round(wall, 2),
+            "wall_s": round(self._line.wall, 2),
         }
-        self._stream.write(json.dumps(told) + "\n")
-        self._stream.flush()
+        self._line.write(json.dumps(told) + "\n")
 
 
-def _hms(seconds: float) -> str:
+def hms(seconds: float) -> str:
+    """Returns a time [s] as hours:minutes:seconds."""
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"

@@ -27,6 +27,7 @@ class Replenishing:
         self.bundles: dict[int, Bundle] = {}  # those without a bin yet, by id
         self.ordered = 0  # pieces in them
         self.ordered_of: dict[str, int] = {}  # pieces in them, by SKU
+        self.changed: set[str] = set()  # SKUs of which that has changed
         self._count = 0
         self._look = True
 
@@ -53,12 +54,14 @@ class Replenishing:
             return
         self._look = False
         limit = -(-self.shift.units_per_station // 2)  # their units have more work with them
-        stations = [s for s in self.stations if s.is_open and _coming(s) < limit]
-        while self.bundles and stations:
-            station = min(stations, key=_coming)
+        coming = {s: n for s in self.stations if s.is_open and (n := _coming(s)) < limit}
+        while self.bundles and coming:
+            station = min(coming, key=coming.__getitem__)
             if not self._fetch(station):
                 return
-            stations = [s for s in stations if _coming(s) < limit]
+            coming[station] += 1
+            if coming[station] >= limit:
+                del coming[station]
 
     def _fetch(self, station: WorkStation) -> bool:
         for bundle in islice(self.bundles.values(), LOOK_AHEAD):
@@ -110,6 +113,7 @@ class Replenishing:
     def _ordered(self, sku: str, quantity: int) -> None:
         self.ordered += quantity
         self.ordered_of[sku] = self.ordered_of.get(sku, 0) + quantity
+        self.changed.add(sku)
 
     # At the station.
 

@@ -80,7 +80,10 @@ class Rows:
 
 def _plain(values: dict[str, Any]) -> dict[str, Any]:
     """Returns values without numpy's types, which psycopg2 writes as numpy 2 shows them."""
-    return {k: v.item() if isinstance(v, np.generic) else v for k, v in values.items()}
+    for name, value in values.items():
+        if isinstance(value, np.generic):
+            values[name] = value.item()
+    return values
 
 
 def _named(names: Sequence[str], key: Any) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from warehouse_layout import FloorError, layout_choice
 from warehouse_layout.layout_file import LayoutFileError, text_of
+from warehouse_layout.request import items_for
 from warehouse_operations import check, layout_site, runs
 from warehouse_operations.building import world_of
 from warehouse_operations.database import DatabaseError
@@ -47,6 +48,7 @@ class Description:
     size: str = "medium"
     layout: str = ""  # a .layout.yaml file
     robots: int = 0  # instead of the layout's or the preset's; 0: as many as it has
+    units: int = 0  # of a warehouse that is generated for them and the robots; 0: none is
     stations: int = 0  # picking stations that are open, the first ones; 0: all
     instance: str = ""  # an .xinst file
     settings: str = ""  # an .xsett file
@@ -67,6 +69,7 @@ class Description:
             "physics": self.physics,
             "seconds": self.seconds,
             **({"robots": self.robots} if self.robots else {}),
+            **({"units": self.units} if self.units else {}),
             **({"stations": self.stations} if self.stations else {}),
             **({"realism": self.realism} if self.realism else {}),
             **({"layout": self._fingerprint} if self.layout else {}),
@@ -77,6 +80,8 @@ class Description:
         """The name of the warehouse."""
         if self.layout:
             return layout_choice.chosen(self.layout).title
+        if self.units:
+            return f"{self.robots} robots, {self.units} units"
         return Path(self.instance).stem if self.instance else self.size
 
     @property
@@ -144,6 +149,9 @@ def open_operations(description: Description, database: str | None = None) -> Op
                 raise InstanceError(jams)
             with _told_as_ours():
                 world, site = world_of(site, description.seed, description.realism)
+    elif description.units:
+        world = _generated(description)
+        site = Site.of_world(world, description.site_name)
     elif description.layout or description.robots:
         file = layout_choice.chosen(description.layout or description.size)
         world = _of_layout(description)
@@ -245,6 +253,23 @@ def _of_layout(description: Description) -> "World":
         return World.layout(
             description.layout or description.size,
             robots=description.robots or None,
+            seed=description.seed,
+            realism=description.realism or None,
+        )
+
+
+def _generated(description: Description) -> "World":
+    from kiva_plugin_cpp import World
+
+    if not description.robots:
+        raise InstanceError("units, but no robots for them; both were expected")
+    if description.layout:
+        raise InstanceError("units: a layout has its own; without one a warehouse is generated")
+    with _told_as_ours():
+        return World.create(
+            robots=description.robots,
+            shelves=description.units,
+            items=items_for(description.units),
             seed=description.seed,
             realism=description.realism or None,
         )

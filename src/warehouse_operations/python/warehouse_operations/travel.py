@@ -6,16 +6,19 @@ turn takes its time, and a start and stop more.
 """
 
 from collections import OrderedDict
+from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
 
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_layout._core import routes
 from warehouse_layout.floor_plan import FloorPlan
 
 HEADINGS = 4
 TABLES = 400  # kept at most, the least recently used is dropped
+PLACE_TABLES = (
+    4000  # likewise, of storage places alone: a thousand on a floor of fifty thousand cells
+)
 
 
 class Table:
@@ -42,13 +45,14 @@ class Travel:
     def __init__(self, plan: FloorPlan, kinematics: Kinematics) -> None:
         self.plan, self.kinematics = plan, kinematics
         self.width = plan.passable.shape[1]
-        self._keep_out = np.asarray(plan.storage | plan.parking, bool).ravel()
-        edges = _edges(plan, self._keep_out)
         # Places in storage are ends of ways, never on the way.
-        self._forward = _graph(plan, kinematics, edges, ~self._keep_out[edges[0]])
-        self._backward = _graph(plan, kinematics, edges, ~self._keep_out[edges[2]]).T.tocsr()
-        self._edges = edges
+        self._ends = np.asarray(plan.storage | plan.parking, np.uint8).ravel()
+        self._forward, self._backward = _steps(plan, self._ends.astype(bool))
         self._tables: OrderedDict[tuple[int, bool], Table] = OrderedDict()
+        self._places = np.flatnonzero(plan.storage)
+        self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
+        self._place[self._places] = np.arange(len(self._places))
+        self._of_places: OrderedDict[tuple[int, bool], np.ndarray] = OrderedDict()
 
     def loaded_from(self, cell: int) -> Table:
         """Returns the routes of a loaded robot from a cell to all others."""
@@ -57,6 +61,32 @@ class Travel:
     def loaded_to(self, cell: int) -> Table:
         """Returns the routes of a loaded robot to a cell from all others."""
         return self._table(int(cell), False)
+
+    def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
+        """Returns how far it is for a loaded robot from a cell to storage places, (n,) [m]."""
+        metres = self._of_storage(int(cell), True, lambda table: table.metres)
+        return metres[self._place[places]]
+
+    def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
+        """Returns how long a loaded robot takes to a cell from others, most often storage places,
+        (n,) [s]; anything where there is none."""
+        places = self._place[starts]
+        seconds = self._of_storage(cell, False, lambda table: table.seconds)[places]
+        if (off := (places < 0) & (starts >= 0)).any():
+            seconds[off] = self.loaded_to(cell).seconds[starts[off]]
+        return seconds
+
+    def _of_storage(
+        self, cell: int, forward: bool, column: Callable[[Table], np.ndarray]
+    ) -> np.ndarray:
+        """Returns a column of a table for storage places alone: a seventh of a floor, or less."""
+        key = cell, forward
+        known = self._of_places.get(key)
+        if known is None:
+            known = self._of_places[key] = column(self._search(cell, forward))[self._places]
+            if len(self._of_places) > PLACE_TABLES:
+                self._of_places.popitem(last=False)
+        return known
 
     def unloaded(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns time [s] and length [m] for robots without a load, which drive under the units.
@@ -75,74 +105,35 @@ class Travel:
         if key in self._tables:
             self._tables.move_to_end(key)
             return self._tables[key]
-        table = self._tables[key] = self._search(cell, self._graph_of(cell, forward))
+        table = self._tables[key] = self._search(cell, forward)
         if len(self._tables) > TABLES:
             self._tables.popitem(last=False)
         return table
 
-    def _graph_of(self, cell: int, forward: bool) -> csr_matrix:
-        """Returns all routes from or to a cell; also out of its own storage place, or into it."""
+    def _search(self, cell: int, forward: bool) -> Table:
+        step = self.plan.spacing / self.kinematics.speed
+        turn = self.kinematics.quarter_turn + self.kinematics.start_stop
         graph = self._forward if forward else self._backward
-        if not self._keep_out[cell]:
-            return graph
-        own = self._edges[0 if forward else 2] == cell
-        between = _graph(self.plan, self.kinematics, self._edges, own, turns=False)
-        return graph + (between if forward else between.T.tocsr())
-
-    def _search(self, cell: int, graph: csr_matrix) -> Table:
-        start = cell * HEADINGS + np.arange(HEADINGS)
-        seconds, before, _ = dijkstra(graph, indices=start, min_only=True, return_predecessors=True)
-        metres = _lengths(before, self.plan.spacing)
+        seconds, steps, before = routes(graph, self._ends, cell, step, turn)
         heading = np.argmin(seconds.reshape(-1, HEADINGS), axis=1)
         nodes = np.arange(len(heading)) * HEADINGS + heading
         # The start and stop of the first run; the turn into it.
         seconds = seconds[nodes] + self.kinematics.start_stop + self.kinematics.quarter_turn
         seconds[cell] = 0.0
-        return Table(seconds, metres[nodes], before, heading)
+        metres = np.where(np.isfinite(seconds), steps[nodes] * self.plan.spacing, np.inf)
+        return Table(seconds, metres, before, heading)
 
 
-def _edges(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Returns cells, headings and next cells of all steps that a loaded robot may ever make."""
+def _steps(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (next, before), (cells, 4) int32 each: the cell to which a loaded robot may ever step
+    from each in each heading, and that from which it may come; or -1."""
     following = np.asarray(plan.floor().edges(False)).reshape(-1, HEADINGS)
     lane = np.asarray(plan.lane, bool).ravel()
     cells, headings = np.nonzero(following >= 0)
     to = following[cells, headings]
     allowed = ~(keep_out[cells] & (keep_out[to] | lane[to])) & ~(lane[cells] & keep_out[to])
-    return cells[allowed], headings[allowed], to[allowed]
-
-
-def _graph(
-    plan: FloorPlan,
-    kinematics: Kinematics,
-    edges: tuple[np.ndarray, ...],
-    chosen: np.ndarray,
-    turns: bool = True,
-) -> csr_matrix:
-    """Returns steps between (cell, heading) with their time [s], and turns on the spot."""
-    cells, headings, to = (values[chosen] for values in edges)
-    count = plan.passable.size * HEADINGS
-    rows, columns = [cells * HEADINGS + headings], [to * HEADINGS + headings]
-    weights = [np.full(len(cells), plan.spacing / kinematics.speed)]
-    if turns:
-        node = np.arange(count)
-        rows += [node, node]
-        columns += [_turned(node, 1), _turned(node, HEADINGS - 1)]
-        weights += [np.full(2 * count, kinematics.quarter_turn + kinematics.start_stop)]
-    joined = (np.concatenate(parts) for parts in (weights, rows, columns))
-    weights, rows, columns = joined
-    return csr_matrix((weights, (rows, columns)), (count, count))
-
-
-def _turned(node: np.ndarray, quarters: int) -> np.ndarray:
-    return node // HEADINGS * HEADINGS + (node + quarters) % HEADINGS
-
-
-def _lengths(before: np.ndarray, spacing: float) -> np.ndarray:
-    """Returns the metres along a tree of predecessors, by pointer doubling."""
-    pointer = np.where(before < 0, np.arange(len(before)), before)
-    length = np.where(pointer // HEADINGS == np.arange(len(before)) // HEADINGS, 0.0, spacing)
-    while True:
-        further = pointer[pointer]
-        if np.array_equal(further, pointer):
-            return length
-        length, pointer = length + length[pointer], further
+    cells, headings, to = cells[allowed], headings[allowed], to[allowed]
+    out = np.full((2, *following.shape), -1, np.int32)
+    out[0, cells, headings] = to
+    out[1, to, headings] = cells
+    return out[0], out[1]

@@ -33,6 +33,8 @@ class View:
         self._turnover_rank: dict[int, float] = {}
         self._ranked_at = -np.inf
         self._popularity_rank = _ranks_of(shift.assortment)
+        self._sku_index = {sku: i for i, sku in enumerate(shift.assortment.skus)}
+        self._refill_weights = np.zeros(len(self._sku_index))
 
     @property
     def now(self) -> float:
@@ -88,8 +90,12 @@ class View:
 
     def work(self, unit: int) -> int:
         """Returns how many free pieces on a unit the orders of the backlog ask for."""
-        demand = self.backlog.demand
-        return sum(min(b.available, demand.get(b.sku, 0)) for b in self.inventory.of_unit[unit])
+        demand, pieces = self.backlog.demand, 0
+        for one in self.inventory.of_unit[unit]:
+            wanted = demand.get(one.sku)
+            if wanted:
+                pieces += min(one.quantity - one.reserved, wanted)
+        return pieces
 
     def room(self, unit: int) -> int:
         """Returns how many pieces can be put into a unit's bins."""
@@ -97,13 +103,13 @@ class View:
 
     def sku_to_refill(self) -> str | None:
         """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""
-        weights = np.array(
-            [
-                max(self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8, 0)
-                for sku in self.assortment.skus
-            ]
-        )
-        sums = np.cumsum(weights)
+        changed = self.inventory.room_changed | self._shift.replenishing.changed
+        self.inventory.room_changed.clear()
+        self._shift.replenishing.changed.clear()
+        for sku in changed & self._sku_index.keys():
+            room = self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8
+            self._refill_weights[self._sku_index[sku]] = max(room, 0)
+        sums = np.cumsum(self._refill_weights)
         if not sums[-1] > 0:
             return None
         at = np.searchsorted(sums, self.rng.random() * sums[-1], side="right")
@@ -122,6 +128,10 @@ class View:
     def seconds_to(self, station: str, unit: int) -> float:
         """Returns how long a unit takes to a station without traffic [s]; inf if it is carried."""
         return self.floor.seconds_to(station, unit)
+
+    def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
+        """Returns the same of units, (n,) [s]."""
+        return self.floor.seconds_to_all(station, units)
 
     def cell(self, unit: int) -> int | None:
         """Returns the cell where a unit stands; None while it is carried."""

@@ -2,6 +2,7 @@
 """Units that a shift asks the fleet for, and those that it may ask for."""
 
 import itertools
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from warehouse_fleet.transports import ENDS, Kind, TransportEvent
@@ -24,6 +25,7 @@ class Visits:
         self.free_units: set[int] = set(shift.floor.units)
         self._absent: set[int] = set()  # units that are not in the warehouse any more
         self._by_transport: dict[int, Visit] = {}
+        self._away: Counter[int] = Counter()  # visits of each unit
         self._ids = itertools.count(1)
 
     def request(self, unit: int, station: WorkStation, replenishes: bool = False) -> Visit | None:
@@ -40,6 +42,7 @@ class Visits:
         visit = Visit(next(self._ids), answer.transport_id, unit, station, shift.now)
         visit.replenishes = replenishes
         self._by_transport[answer.transport_id] = visit
+        self._away[unit] += 1
         station.inbound[visit.visit_id] = visit
         shift.journal.visit(visit)
         return visit
@@ -78,8 +81,8 @@ class Visits:
 
     def free(self, unit: int) -> None:
         """Lets a unit be asked for, unless it is away, absent or out of service."""
-        away = any(visit.unit == unit for visit in self._by_transport.values())
-        if unit not in self._shift.inventory.blocked | self._absent and not away:
+        blocked, absent = self._shift.inventory.blocked, self._absent
+        if unit not in blocked and unit not in absent and not self._away[unit]:
             self.free_units.add(unit)
             self._shift.picking.on_unit_free(unit)
             self._shift.replenishing.on_unit_free()
@@ -116,6 +119,7 @@ class Visits:
     def _end(self, visit: Visit, event: TransportEvent) -> None:
         shift = self._shift
         del self._by_transport[visit.transport_id]
+        self._away[visit.unit] -= 1
         shift.part_of(visit).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.travel import Travel
 
@@ -34,8 +35,15 @@ class Whereabouts:
         """Returns the time [s] from a unit's place to a station's service cell; inf while it is
         carried."""
         cell = self.cells.get(unit)
-        table = self._travel.loaded_to(self._service[station])
-        return float(table.seconds[cell]) if cell is not None else float("inf")
+        if cell is None:
+            return float("inf")
+        return float(self._travel.seconds_from_all(np.array([cell]), self._service[station])[0])
+
+    def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
+        """Returns seconds_to() of units, (n,) [s]."""
+        cells = np.array([self.cells.get(unit, NOWHERE) for unit in units.tolist()], np.int64)
+        seconds = self._travel.seconds_from_all(cells, self._service[station])
+        return np.where(cells == NOWHERE, np.inf, seconds)
 
     def apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
         """Returns the metres along the axes between a cell and others, (n,)."""

@@ -58,7 +58,7 @@ class WorldFleet(FleetDriver):
             yield asked[task], free[robot]
 
     def _choose_place(self, shelf_id: int, cell: int, free: np.ndarray) -> int:
-        metres = self.travel.loaded_from(int(cell)).metres[free]
+        metres = self.travel.metres_to_places(cell, free)
         return self._hooks.choose_place(shelf_id, free, metres)
 
     def _park(self, robot: int) -> int | None:

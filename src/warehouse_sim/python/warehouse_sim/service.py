@@ -15,7 +15,8 @@ from warehouse_client.warehouse_builder import UndoneError, WarehouseBuilder
 from warehouse_layout import models
 from warehouse_layout.cells import Cells
 from warehouse_layout.fit import fit, fit_largest
-from warehouse_layout.layout import SEED, Layout, plan
+from warehouse_layout.generated import plan
+from warehouse_layout.layout import SEED, Layout
 from warehouse_layout.layout_file import LayoutFileError
 from warehouse_layout.request import FIT, Request, RequestError, resolve
 from warehouse_msgs.srv import CreateWarehouseResponse

@@ -205,6 +205,15 @@ def test_each_kind_of_event_is_listed():
     assert "there is no world '…'; tried …" in written
 
 
+def test_each_refusal_is_listed():
+    written = re.sub(r"\\(.)", r"\1", events.written())
+    for file in (ROOT / "src").glob("*/src/**/*.cpp"):
+        for text in re.findall(r'throw [\w:]+\(\s*"([^"\\%]+)"', file.read_text()):
+            if events.is_sentence(text):
+                assert text.strip() in written, (file.name, text)
+    assert "it carries nothing" in written and "is off the grid of … m" in written
+
+
 def test_each_key_of_a_layout_file_is_listed():
     text = (ROOT / "doc/reference/layouts.md").read_text()
     from warehouse_layout import layout_reader

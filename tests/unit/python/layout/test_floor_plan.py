@@ -7,7 +7,7 @@ import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, Rules, epibt
-from warehouse_layout import FloorError, floor_markings, models
+from warehouse_layout import FloorError, floor_markings, generated, models
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.layout import plan
 from warehouse_layout.request import PRESETS, resolve
@@ -23,7 +23,7 @@ ARRAYS = ("passable", "storage", "parking", "lane", "exits")
 
 @pytest.fixture(scope="module", params=REQUESTS)
 def laid_out(request):
-    return REQUESTS[request.param], plan(REQUESTS[request.param])
+    return REQUESTS[request.param], generated.plan(REQUESTS[request.param])
 
 
 def same(one, other):
@@ -244,3 +244,12 @@ def test_a_fleet_delivers_to_every_station_and_waits_in_lanes_without_turning():
             break
     assert (cell == homes).all() and (served >= hold).all()
     assert needless == []
+
+
+def test_a_floor_with_more_marks_than_a_model_holds_is_marked_by_several(monkeypatch):
+    monkeypatch.setattr(floor_markings, "MOST_MARKS", 30)
+    world = World.preset("small")
+    assert [name for name in world.names if floor_markings.is_name(name)] == [
+        f"floor_markings{n}" for n in (1, 2, 3)
+    ]
+    assert same(FloorPlan.of_world(world), plan(resolve("small")).plan)

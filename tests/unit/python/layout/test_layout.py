@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from warehouse_client.routes import Grid, covered, point
+from warehouse_layout import generated
 from warehouse_layout.items import BOARDS, CAPACITY, PLACES, spread
 from warehouse_layout.layout import plan
-from warehouse_layout.request import LIMITS, PRESETS, resolve
+from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS, resolve
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 
@@ -156,9 +157,20 @@ def test_a_full_unit_uses_every_place():
 
 
 def test_the_largest_warehouse_is_planned():
-    layout = plan(resolve("", **LIMITS))
-    assert len(layout.units) == LIMITS["shelves"]
+    layout = generated.plan(resolve("", **LIMITS))
+    assert (len(layout.robots), len(layout.units)) == (LIMITS["robots"], LIMITS["shelves"])
+    assert len(layout.belts) == MOST_STATIONS
     assert max(layout.floor.size) / min(layout.floor.size) < 2
+
+
+def test_stations_beyond_one_side_lie_on_all_sides():
+    regular, compact = (resolve("", robots=25 * n, shelves=6000) for n in (60, 100))
+    assert same(generated.plan(regular, 3), plan(regular, 3)) >= {"robots", "units", "drops"}
+    drops = generated.plan(compact).drops
+    (west, south), (east, north) = drops.min(axis=0), drops.max(axis=0)
+    for x, y in ((west, None), (east, None), (None, south), (None, north)):
+        on_side = (drops[:, 0] == x) if y is None else (drops[:, 1] == y)
+        assert on_side.sum() >= 25
 
 
 # --- what a seed decides

@@ -4,7 +4,15 @@
 import pytest
 
 from warehouse_layout.items import CAPACITY
-from warehouse_layout.request import LIMITS, PRESETS, Request, RequestError, resolve
+from warehouse_layout.request import (
+    LIMITS,
+    MOST_STATIONS,
+    PRESETS,
+    Request,
+    RequestError,
+    check_stations,
+    resolve,
+)
 
 
 def test_presets_are_those_of_the_interface():
@@ -35,7 +43,17 @@ def test_explicit_counts_bring_belts():
 
 def test_limits_themselves_are_met():
     request = resolve("", **LIMITS)
-    assert request.robots == LIMITS["robots"]
+    assert (request.robots, request.belts) == (LIMITS["robots"], MOST_STATIONS)
+    check_stations(MOST_STATIONS, MOST_STATIONS)
+
+
+@pytest.mark.parametrize(
+    "counts, words",
+    [((MOST_STATIONS + 1, 0), "stations is 1001; 0 to 1000"), ((1, -1), "replenish is -1; 0 to")],
+)
+def test_more_stations_are_refused(counts, words):
+    with pytest.raises(RequestError, match=words):
+        check_stations(*counts)
 
 
 @pytest.mark.parametrize(
@@ -45,9 +63,15 @@ def test_limits_themselves_are_met():
         ({"robots": -1, "shelves": 4}, "robots is -1.*negative"),
         ({"items": -2, "shelves": 4}, "items is -2.*negative"),
         ({"shelves": -3, "robots": 4}, "shelves is -3.*negative"),
-        ({"robots": LIMITS["robots"] + 1}, "robots is 10001; the limit is 10000"),
-        ({"shelves": LIMITS["shelves"] + 1}, "shelves is 40001; the limit is 40000"),
-        ({"items": LIMITS["items"] + 1, "shelves": 9}, "items is 100001; the limit is 100000"),
+        ({"robots": LIMITS["robots"] + 1}, "robots is 20001; the limit is 20000: larger fleets"),
+        (
+            {"shelves": LIMITS["shelves"] + 1},
+            "shelves is 100001; the limit is 100000: larger floors",
+        ),
+        (
+            {"items": LIMITS["items"] + 1, "shelves": 9},
+            "items is 500001; the limit is 500000: more were never",
+        ),
         ({"items": 1, "robots": 1}, "1 items, but no shelves"),
         ({"items": 2 * CAPACITY + 1, "shelves": 2}, "don't fit on 2 shelves.*so 3 shelves"),
     ],

@@ -176,6 +176,21 @@ def test_of_very_many_robots_each_is_a_box():
     assert len(marker.points) == 1000 * (36 + 3 + 24)
 
 
+def test_of_ten_thousand_robots_each_is_a_square():
+    marker = Scene(robots=10_000).shown()["robots"]
+    assert len(marker.points) == 10_000 * 6 <= markers.MOST_POINTS
+    low, high = extent(marker)
+    assert low[2] == high[2] > 0.4
+    assert (low[1], high[1]) == pytest.approx((-0.3, 0.3))
+
+
+def test_of_very_many_units_each_is_a_box_without_items(monkeypatch):
+    monkeypatch.setattr(markers, "MOST_CUBES", 2 * 3 - 1)
+    shown = Scene().shown()
+    assert len(shown["units 1"].points) == 2
+    assert "items 1" not in shown
+
+
 def test_the_tower_goes_up_with_the_load(scene):
     before = extent(scene.shown()["robots"])[1][2]
     scene.drive(shelf=1)

@@ -4,7 +4,7 @@
 from typing import TYPE_CHECKING
 
 from warehouse_fleet.dispatch import carry
-from warehouse_fleet.transport_book import Step, Transport
+from warehouse_fleet.transport_book import LIFTING, READY, Transport
 
 if TYPE_CHECKING:
     from warehouse_fleet.transports import Transports
@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 def run(work: "Transports") -> None:
     """Lifts units for whose station there is room, in the order in which their robots came."""
     book = work.book
+    if not book.ready:
+        return
     waiting, book.ready = book.ready, []
     for transport in waiting:
-        if transport.step != Step.READY:
+        if transport.step != READY:
             continue
         station = transport.station
         is_full = station and book.inbound[station] >= work.capacity(station)
@@ -25,7 +27,7 @@ def run(work: "Transports") -> None:
         book.fetched[station] -= 1
         book.inbound[station] += 1
         transport.attempts = 0
-        carry.begin_lift(work, transport, Step.LIFTING)
+        carry.begin_lift(work, transport, LIFTING)
 
 
 def _is_beneath(work: "Transports", transport: Transport) -> bool:

@@ -6,40 +6,54 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from warehouse_fleet.message_enums import Status
-from warehouse_fleet.robot_table import NOWHERE
-from warehouse_fleet.transport_book import STAY, Kind, Step, Transport
+from warehouse_fleet.robot_table import NOWHERE, Reports
+from warehouse_fleet.transport_book import (
+    BRINGING,
+    DROPPING,
+    FETCHING,
+    LIFTING,
+    READY,
+    STAY,
+    STORING,
+    WAITING,
+    Kind,
+    Step,
+    Transport,
+)
 
 if TYPE_CHECKING:
     from warehouse_fleet.transports import Transports
 
+IDLE = int(Status.IDLE)
+DRIVES = np.isin(np.arange(len(Step) + 1), (FETCHING, BRINGING, STORING))  # by step; none: False
 LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 8  # of ten messages one may be lost, and thousands of units are lifted
 
 
-def run(work: "Transports", reports: np.ndarray) -> None:
+def run(work: "Transports", reports: Reports) -> None:
     """Goes on where a lift has ended, a robot has arrived or a station has released its unit."""
-    for robot in np.flatnonzero(work.robots.busy).tolist():
-        _watch_lift(work, robot, reports[robot])
-    for robot in work.traffic.arrived.tolist():
+    book, robots = work.book, work.robots
+    lifting = (book.step_of == LIFTING) | (book.step_of == DROPPING)
+    ended = lifting & robots.busy & (reports["status"] == IDLE)
+    for robot in np.flatnonzero(ended).tolist():
+        _watch_lift(work, robot, int(reports["shelf_id"][robot]))
+    for robot in work.traffic.arrived(DRIVES[book.step_of]).tolist():
         _arrive(work, robot)
-    for transport in work.book.assigned():
-        if transport.step == Step.WAITING and transport.let_go:
-            _leave(work, transport)
+    for transport in book.take_released():
+        _leave(work, transport)
 
 
-def _watch_lift(work: "Transports", robot: int, report: np.void) -> None:
-    transport = work.book.of_robot.get(robot)
-    if transport is None or transport.step not in (Step.LIFTING, Step.DROPPING):
-        return
-    if report["status"] != Status.IDLE:
-        return
-    robots, is_up = work.robots, transport.step == Step.LIFTING
-    if report["shelf_id"] == (transport.shelf if is_up else 0):
+def _watch_lift(work: "Transports", robot: int, shelf: int) -> None:
+    """Goes on with a robot that is idle, and is to lift or drop its unit; shelf: what it carries,
+    0: nothing."""
+    transport = work.book.of_robot[robot]
+    robots, is_up = work.robots, transport.step == LIFTING
+    if shelf == (transport.shelf if is_up else 0):
         robots.busy[robot] = False
         _bring(work, transport) if is_up else _stored(work, transport)
     elif robots.astray[robot]:  # lifts again when it is back in the middle
         robots.busy[robot] = False
-        transport.step = Step.FETCHING if is_up else Step.STORING
+        work.book.go_on(transport, FETCHING if is_up else STORING, work.traffic.time)
         if is_up:
             work.book.inbound[transport.station] -= 1
             work.book.fetched[transport.station] += 1
@@ -55,10 +69,10 @@ def _watch_lift(work: "Transports", robot: int, report: np.void) -> None:
 
 def begin_lift(work: "Transports", transport: Transport, step: Step) -> None:
     """Orders a robot to lift or drop its unit: step is LIFTING or DROPPING."""
-    transport.step, transport.since = step, work.traffic.time
+    work.book.go_on(transport, step, work.traffic.time)
     transport.attempts += 1
     work.robots.busy[transport.robot] = True
-    work.order_lift(transport, step == Step.LIFTING)
+    work.order_lift(transport, step == LIFTING)
 
 
 def send(work: "Transports", transport: Transport, cell: int, home: int = NOWHERE) -> None:
@@ -72,24 +86,21 @@ def send(work: "Transports", transport: Transport, cell: int, home: int = NOWHER
 
 
 def _arrive(work: "Transports", robot: int) -> None:
-    transport = work.book.of_robot.get(robot)
-    if transport is None:
-        return
-    if transport.step in (Step.FETCHING, Step.BRINGING, Step.STORING):
-        _count_journey(work, robot)
-    if transport.step == Step.FETCHING:
-        transport.step, transport.since = Step.READY, work.traffic.time
-        work.book.ready.append(transport)
-    elif transport.step == Step.BRINGING:
-        transport.step, transport.since = Step.WAITING, work.traffic.time
+    transport, book = work.book.of_robot[robot], work.book
+    _count_journey(work, robot)
+    if transport.step == FETCHING:
+        book.go_on(transport, READY, work.traffic.time)
+        book.ready.append(transport)
+    elif transport.step == BRINGING:
+        book.go_on(transport, WAITING, work.traffic.time)
         work.robots.busy[robot] = True
-        work.book.totals.delivered += 1
+        book.totals.delivered += 1
         work.publish_event(transport, Kind.ARRIVED)
         if not transport.station:
-            transport.let_go = True
-    elif transport.step == Step.STORING:
+            book.let_go(transport)
+    else:
         transport.attempts = 0
-        begin_lift(work, transport, Step.DROPPING)
+        begin_lift(work, transport, DROPPING)
 
 
 def _count_journey(work: "Transports", robot: int) -> None:
@@ -110,9 +121,9 @@ def _bring(work: "Transports", transport: Transport) -> None:
     if transport.let_go:  # was cancelled meanwhile
         store(work, transport)
         return
-    transport.step, transport.since = Step.BRINGING, work.traffic.time
+    work.book.go_on(transport, BRINGING, work.traffic.time)
     # The place stays reserved: there is always one to return to.
-    transport.place = place
+    work.book.keep(transport, place)
     # A loaded robot may enter one storage place: that of its destination, or the one it leaves.
     is_stored = work.plan.storage.flat[transport.cell]
     send(work, transport, transport.cell, transport.cell if is_stored else place)
@@ -125,9 +136,9 @@ def _leave(work: "Transports", transport: Transport) -> None:
     work.book.inbound[transport.station] -= 1
     if transport.then == STAY:
         if work.plan.storage.flat[transport.cell]:
-            transport.place = transport.cell
+            work.book.keep(transport, transport.cell)
         transport.attempts = 0
-        begin_lift(work, transport, Step.DROPPING)
+        begin_lift(work, transport, DROPPING)
     else:
         store(work, transport, is_inbound=False)
 
@@ -136,12 +147,13 @@ def store(work: "Transports", transport: Transport, is_inbound: bool = True) -> 
     """Sends a loaded robot to a free storage place; is_inbound: its station counts on it still."""
     if is_inbound:
         work.book.inbound[transport.station] -= 1
-    transport.place = NOWHERE
-    out = work.taken_cells() | set(work.traffic.closed.tolist())
-    free = np.array([cell for cell in work.places.tolist() if cell not in out])
+    work.book.keep(transport, NOWHERE)
+    taken = work.taken()
+    taken[work.traffic.closed] = True
+    free = work.places[~taken[work.places]]
     begin = int(work.robots.cell[transport.robot])
-    transport.place = int(work.choose_place(transport.shelf, begin, free))
-    transport.step, transport.since = Step.STORING, work.traffic.time
+    work.book.keep(transport, int(work.choose_place(transport.shelf, begin, free)))
+    work.book.go_on(transport, STORING, work.traffic.time)
     send(work, transport, transport.place, transport.place)
 
 
@@ -153,5 +165,4 @@ def _stored(work: "Transports", transport: Transport) -> None:
     work.close_streets()
     work.book.totals.stored += 1
     work.publish_event(transport, Kind.STORED)
-    transport.step = Step.DROPPING
     work.end(transport)

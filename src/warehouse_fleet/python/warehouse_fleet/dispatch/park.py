@@ -19,8 +19,11 @@ def run(work: "Transports") -> None:
     robots.goal[idle & (robots.goal == robots.cell)] = NOWHERE
     sent = idle & (robots.goal != NOWHERE)
     if sent.any():  # a robot with work at a cell comes first, and stays
-        robots.goal[sent & np.isin(robots.goal, robots.goal[~idle])] = NOWHERE
-    _send_freed(work, idle)
+        wanted = np.zeros(work.plan.passable.size, bool)
+        wanted[robots.goal[~idle & (robots.goal != NOWHERE)]] = True
+        robots.goal[sent & wanted[robots.goal]] = NOWHERE
+    if work.freed:
+        _send_freed(work, idle)
     _clear_streets(work, idle & (robots.goal == NOWHERE) & ~work.aside[robots.cell])
 
 
@@ -40,10 +43,12 @@ def _clear_streets(work: "Transports", in_the_way: np.ndarray) -> None:
     if not in_the_way.any():
         return
     robots = work.robots
-    kept = set(robots.goal.tolist()) | set(robots.cell.tolist())
-    places = [cell for cell in work.units.unit_in if work.aside[cell] and cell not in kept]
+    free = work.units.stands & work.aside
+    for cells in (robots.goal, robots.cell):
+        free[cells[cells != NOWHERE]] = False
+    places = work.units.in_order(np.flatnonzero(free))
     for robot in np.flatnonzero(in_the_way).tolist():
         place = work.nearest(int(robots.cell[robot]), places)
         if place != NOWHERE:
-            places.remove(place)
+            places = places[places != place]
             robots.send(robot, place)

@@ -7,22 +7,24 @@ import numpy as np
 
 from warehouse_fleet.dispatch import carry
 from warehouse_fleet.message_enums import Mode, Status
-from warehouse_fleet.robot_table import NOWHERE
-from warehouse_fleet.transport_book import Kind, Step
+from warehouse_fleet.robot_table import NOWHERE, Reports
+from warehouse_fleet.transport_book import READY, STORING, Kind
 
 if TYPE_CHECKING:
     from warehouse_fleet.transports import Transports
 
+IDLE = int(Status.IDLE)
 DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
 URGENT = 255  # the highest priority
 
 
-def run(work: "Transports", reports: np.ndarray) -> None:
+def run(work: "Transports", reports: Reports) -> None:
     """Takes transports from robots that are lost, gives one to each robot found carrying a unit,
     and sends units elsewhere whose place is closed. reports: (n,) of REPORT."""
     _drop_lost(work)
     _adopt_loaded(work, reports)
-    _avoid(work, set(work.traffic.closed.tolist()))
+    if len(closed := work.traffic.closed):
+        _avoid(work, set(closed.tolist()))
 
 
 def _lost(work: "Transports") -> np.ndarray:
@@ -33,11 +35,10 @@ def _lost(work: "Transports") -> np.ndarray:
 
 def _drop_lost(work: "Transports") -> None:
     robots, lost = work.robots, _lost(work)
-    for robot in np.flatnonzero(lost | robots.broken | robots.lifts_not).tolist():
-        transport = work.book.of_robot.get(robot)
-        if transport is None:
-            continue
-        if transport.step <= Step.READY:
+    has_one = work.book.step_of != NOWHERE
+    for robot in np.flatnonzero(has_one & (lost | robots.broken | robots.lifts_not)).tolist():
+        transport = work.book.of_robot[robot]
+        if transport.step <= READY:
             work.book.unassign(transport)
         elif lost[robot]:  # one that is broken may soon go on
             work.abandoned_units.add(transport.shelf)
@@ -55,14 +56,13 @@ def _why_lost(work: "Transports", robot: int) -> str:
     return f"its robot is {Mode(robots.mode[robot]).name} now"
 
 
-def _adopt_loaded(work: "Transports", reports: np.ndarray) -> None:
+def _adopt_loaded(work: "Transports", reports: Reports) -> None:
     robots, shelf = work.robots, reports["shelf_id"]
     loaded = shelf != 0
-    without = np.ones(len(robots), bool)
-    without[list(work.book.of_robot)] = False
+    without = work.book.step_of == NOWHERE
     robots.loaded[without] = loaded[without]
     # A robot that broke while it lifted, or was served, and lost its transport, is free again.
-    robots.busy[without & ~robots.broken & (reports["status"] == Status.IDLE)] = False
+    robots.busy[without & ~robots.broken & (reports["status"] == IDLE)] = False
     ready = without & loaded & robots.stands & ~robots.broken & ~_lost(work)
     for robot in np.flatnonzero(ready).tolist():
         _adopt(work, robot, int(shelf[robot]))
@@ -75,8 +75,7 @@ def _adopt(work: "Transports", robot: int, shelf: int) -> None:
     if asked is not None and asked.robot != NOWHERE:
         return
     transport = work.book.add(shelf, "", int(work.robots.cell[robot]))
-    transport.robot = robot
-    work.book.of_robot[robot] = transport
+    work.book.hand_over(transport, robot)
     work.units.cell_of[shelf] = NOWHERE
     work.robots.loaded[robot] = True
     work.publish_event(transport, Kind.RECEIVED, "its robot was found with it")
@@ -85,11 +84,9 @@ def _adopt(work: "Transports", robot: int, shelf: int) -> None:
 
 def _avoid(work: "Transports", closed: set[int]) -> None:
     """Chooses another place for units that can't get to theirs, which is closed."""
-    if not closed:
-        return
     for transport in work.book.assigned():
         is_away = work.robots.cell[transport.robot] != transport.place
-        if transport.step == Step.STORING and transport.place in closed and is_away:
+        if transport.step == STORING and transport.place in closed and is_away:
             carry.store(work, transport, is_inbound=False)
 
 

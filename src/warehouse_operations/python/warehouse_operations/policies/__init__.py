@@ -51,7 +51,8 @@ class UnitChoice(Protocol):
     ) -> int:
         """Returns the unit, one of candidates, that is brought for missing lines of a station.
 
-        candidates: {unit: {line: pieces}}, what each free unit could serve; not empty.
+        candidates: {unit: {line: pieces}}, what each free unit could serve; not empty. It is a
+        candidates.Candidates, which has the same in arrays.
         """
 
 

@@ -2,7 +2,6 @@
 """Policies that choose the next order of a picking station."""
 
 from collections.abc import Mapping
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from warehouse_operations.orders import Order
@@ -90,8 +89,7 @@ class PileOn:
 
 
 def _most_urgent(view: "View") -> Order | None:
-    orders = (order for order in view.backlog if view.in_stock(order))
-    return min(orders, key=attrgetter("urgency"), default=None)
+    return next((order for order in view.backlog.by_urgency() if view.in_stock(order)), None)
 
 
 NAMES: dict[str, type] = {

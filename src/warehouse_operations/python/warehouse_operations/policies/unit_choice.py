@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Policies that choose the storage unit brought to a picking station for its orders."""
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from warehouse_operations.orders import Line
+import numpy as np
+
+from warehouse_operations.candidates import Candidates
 from warehouse_operations.stations import WorkStation
 
 if TYPE_CHECKING:
     from warehouse_operations.view import View
-
-Candidates = Mapping[int, Mapping[Line, int]]  # {unit: {line: pieces}}
 
 
 class Random:
@@ -27,7 +26,8 @@ class Nearest:
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
-        return min(candidates, key=lambda unit: (view.seconds_to(station.name, unit), unit))
+        units = candidates.units
+        return int(units[np.argmin(view.seconds_to_all(station.name, units))])
 
 
 class MostLines:
@@ -40,14 +40,8 @@ class MostLines:
         """Returns the unit, one of candidates, that is brought to a station."""
         if not station.coming:
             return Nearest().choose(station, candidates, view)
-
-        def lines(unit: int) -> int:
-            return sum(pieces >= line.missing for line, pieces in candidates[unit].items())
-
-        completed = {unit: lines(unit) for unit in candidates}
-        most = max(completed.values())
-        best = [unit for unit in candidates if completed[unit] == most]
-        return max(best, key=lambda unit: _with_backlog(unit, candidates[unit], station, view))
+        completes_most = candidates.completes == candidates.completes.max()
+        return _most_work(np.flatnonzero(completes_most), station, candidates, view)
 
 
 class MostWork:
@@ -55,20 +49,18 @@ class MostWork:
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
-        return max(
-            candidates, key=lambda unit: _with_backlog(unit, candidates[unit], station, view)
-        )
+        return _most_work(np.arange(len(candidates)), station, candidates, view)
 
 
-def _with_backlog(
-    unit: int, lines: Mapping[Line, int], station: WorkStation, view: "View"
-) -> tuple[int, float, int]:
-    """Returns a sort key: pieces for the station and the backlog, then nearness, then number."""
-    demand = view.backlog.demand
-    waiting = sum(
-        min(one.available, demand.get(one.sku, 0)) for one in view.inventory.of_unit[unit]
-    )
-    return sum(lines.values()) + waiting, -view.seconds_to(station.name, unit), -unit
+def _most_work(
+    among: np.ndarray, station: WorkStation, candidates: Candidates, view: "View"
+) -> int:
+    """Returns the unit, of those at the indices `among`, with most pieces for the station and the
+    backlog; of equals the nearest, then that of the lowest number."""
+    units = candidates.units[among]
+    work = candidates.pieces[among] + [view.work(unit) for unit in units.tolist()]
+    best = units[work == work.max()]
+    return int(best[np.argmin(view.seconds_to_all(station.name, best))])
 
 
 NAMES: dict[str, type] = {

@@ -30,7 +30,9 @@ PATH = (0.00, 0.62, 0.45, 1)
 WAITS = (0.80, 0.47, 0.65, 1)
 CHOSEN = (0.80, 0.47, 0.65, 1)
 
-MOST_POINTS = 100_000  # of all robots: where they would need more, each is a box
+# What RViz draws ten times a second on a machine like those that the tests run on.
+MOST_POINTS = 100_000  # of all robots: where they would need more, each is a box, or a square
+MOST_CUBES = 200_000  # of all things of a kind: where they would need more, each is one
 MOST_NAMES = 200  # robots with their names above them
 NAME_HEIGHT, NAME_ABOVE = 0.28, 0.30  # of letters; over a robot [m]
 LIFTED = "tower"  # a robot's link that goes up with its load
@@ -84,6 +86,8 @@ def robots(look: Look | None, at: np.ndarray, does: np.ndarray, lift: np.ndarray
         )
         for part in seen
     ]
+    if len(at) * (len(body.triangles()) + len(_frame()) + len(ARROW)) > MOST_POINTS:
+        return [_joined("robots", [(shapes.placed(lifted, _top(look)), COLOURS[does])])]
     marks = [(shapes.placed(at, _arrow(look)), WHITE)]
     marks.append((shapes.placed(at, _frame()), COLOURS[does]))
     return [_joined("robots", [*solids, *marks])]
@@ -93,6 +97,12 @@ def _arrow(look):
     """Triangle on top of a robot's front, where it heads."""
     low, high = looks.extent(look)
     return np.column_stack([ARROW * high[:2], np.full(3, high[2] + 0.001)])
+
+
+def _top(look):
+    """Triangles of the square that a robot is from above."""
+    low, high = looks.extent(look)
+    return np.insert((low + high)[:2] / 2 + _QUAD * (high - low)[:2] / 2, 2, high[2], axis=1)
 
 
 def _frame():
@@ -107,10 +117,10 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
     """Returns things of one look at (n, 4) x y z [m] yaw [rad]; in line with the axes as boxes."""
     if look is None or not len(at):
         return []
+    seen = [looks.hull(look)] if are_thinned(look, len(at)) else looks.parts(look)
     turned = np.abs(np.sin(2 * at[:, 3])) > 0.01
     across = ~turned & (np.abs(np.sin(at[:, 3])) > 0.7)
     along = ~turned & ~across
-    seen = looks.parts(look)
     boxes = [part for part in seen if part.kind == Look.BOX and _is_straight(part)]
     others = [part for part in seen if not any(part is box for box in boxes)]
     out = []
@@ -123,6 +133,11 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
     round_ones = [(shapes.placed(at[~turned], p.triangles()), p.colour) for p in others]
     slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in seen]
     return [*out, _joined(f"{name} round", round_ones), _joined(f"{name} turned", slanted)]
+
+
+def are_thinned(look: Look | None, count: int) -> bool:
+    """Tells whether so many things of a look are a box each, since they have too many parts."""
+    return look is not None and count * len(looks.parts(look)) > MOST_CUBES
 
 
 def _is_straight(part):

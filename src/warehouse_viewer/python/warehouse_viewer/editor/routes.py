@@ -14,9 +14,9 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from warehouse_layout import generator, layout_file
+from warehouse_layout import generated, layout_file
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.request import LIMITS, MAX_BELTS, PRESETS, RequestError, resolve
+from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
 from warehouse_viewer.editor import checking, drawing_json, opening
 from warehouse_viewer.server.site import LAYOUT
 
@@ -52,7 +52,7 @@ class Editor:
     async def _about(self, _: Request) -> Response:
         about: Answer = {
             "presets": {n: _counts(p) for n, p in PRESETS.items() if p.robots},
-            "limits": LIMITS | {"stations": MAX_BELTS},
+            "limits": LIMITS | {"stations": MOST_STATIONS},
             "builds": self._builds,
             "compares": self._compares,
             "file": str(self._file.resolve()) if self._file else "",
@@ -170,8 +170,8 @@ def _new(robots: int, units: int, items: int, stations: int) -> Answer:
 
 def _generated(robots: int, units: int, items: int, stations: int) -> LayoutFile:
     request = resolve("", robots, items, units)
-    if not (robots and units and 1 <= stations <= MAX_BELTS):
+    if not (robots and units and 1 <= stations <= MOST_STATIONS):
         raise RequestError(
-            f"robots, storage units and 1 to {MAX_BELTS} picking stations were expected"
+            f"robots, storage units and 1 to {MOST_STATIONS} picking stations were expected"
         )
-    return generator.of_request(type(request)(robots, units, items, stations))
+    return generated.file_of(type(request)(robots, units, items, stations))

@@ -5,21 +5,14 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
-
 from warehouse_fleet.coordinator_messages import state_message
+from warehouse_fleet.waiting import Waiting
 from warehouse_operations.operations import Operations
 from warehouse_operations.stations import WorkStation
 from warehouse_viewer.api import catalogue
-from warehouse_viewer.message_enums import EventKind
-from warehouse_viewer.page.journal import Journal
-from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.replay.blocks import RecordingError
-from warehouse_viewer.replay.file import NAME, FileWriter
-from warehouse_viewer.replay.recorder import INTERVAL, Recorder
-from warehouse_viewer.replay.shift_feed import ShiftFeed
-
-EVENTS_KEPT = 10_000  # more than come between two updates
+from warehouse_viewer.replay.run import RunRecorder
 
 
 class ShiftRecorder:
@@ -29,33 +22,22 @@ class ShiftRecorder:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._path = folder / NAME
-        self._journal = Journal(EVENTS_KEPT)
-        self._recorder: Recorder | None = None
-        self._due = 0.0
+        self._folder = folder
+        self._run: RunRecorder | None = None
 
     def __call__(self, ops: Operations) -> None:
         """Records the shift as it is now, if that is due."""
-        if ops.time < self._due:
-            return
-        recorder = self._recorder or self._begin(ops)
-        self._due = ops.time + INTERVAL - 1e-3
-        self._take_events(ops.fleet)
-        feed = self._feed
-        feed.update()
-        self._model.update(
-            feed.objects, feed.states, feed.fleet_state, feed.scenery, feed.waiting()
-        )
-        recorder.take()
+        run = self._run = self._run or self._begin(ops)
+        if run.is_due:
+            fleet: Any = ops.fleet
+            run.take(fleet.events, waiting(fleet))
+            fleet.events.clear()
 
     def close(self) -> int:
         """Ends the recording; returns its length [bytes]."""
-        if not self._recorder:
-            return 0
-        self._recorder.close()
-        return self._writer.size
+        return self._run.close() if self._run else 0
 
-    def _begin(self, ops: Operations) -> Recorder:
+    def _begin(self, ops: Operations) -> RunRecorder:
         if ops.ideal:
             raise RecordingError(
                 "--record: ideal robots are nowhere between two cells; without --no-physics was"
@@ -63,20 +45,22 @@ class ShiftRecorder:
             )
         fleet: Any = ops.fleet
         fleet.events = []
-        self._feed, self._model = ShiftFeed(fleet), Model()
-        self._writer = FileWriter(self._path, {"name": ops.site.name, "from": "simulate"})
-        self._recorder = Recorder(
-            self._writer, self._model, self._journal, lambda: self._figures(ops), lambda: None
+        about = {"name": ops.site.name, "from": "simulate"}
+        run = RunRecorder(
+            self._folder,
+            about,
+            fleet.world,
+            lambda: figures(ops) | {"fleet": coordinator(fleet, run.objects)},
         )
-        return self._recorder
+        return run
 
-    def _figures(self, ops: Operations) -> dict[str, Any]:
-        return figures(ops) | {"fleet": coordinator(ops.fleet, self._feed.objects)}
 
-    def _take_events(self, fleet: Any) -> None:
-        for event in _concatenated(fleet.events):
-            self._journal.add(event)
-        fleet.events.clear()
+def waiting(fleet: Any) -> list[int]:
+    """Returns the numbers of the robots of a FleetDriver that wait for too long."""
+    traffic, robots = fleet.traffic, fleet.robots
+    found = Waiting(traffic, fleet.transports).long()
+    long = [robot for robot, _ in found if traffic.time - robots.still_since[robot] >= TOO_LONG]
+    return robots.kiva_ids[long].tolist()
 
 
 def figures(ops: Operations) -> dict[str, Any]:
@@ -97,7 +81,7 @@ def figures(ops: Operations) -> dict[str, Any]:
 
 def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
     """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
-    ShiftFeed.objects."""
+    RunFeed.objects."""
     watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects)
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
@@ -111,20 +95,4 @@ def station(one: WorkStation, now: float) -> dict[str, Any]:
         "inbound": sorted(one.inbound),
         "pieces": one.pieces,
         "busy_fraction": one.busy_fraction(now),
-    }
-
-
-def _concatenated(events: list[np.ndarray]) -> list[dict[str, Any]]:
-    """Returns events of a world as a Journal has them."""
-    return [_entry(event) for some in events for event in some]
-
-
-def _entry(event: np.void) -> dict[str, Any]:
-    return {
-        "time": round(float(event["time"]), 3),
-        "kind": EventKind(event["kind"]).name,
-        "command": int(event["command"]),
-        "model": event["model"],
-        "other": event["other"],
-        "text": event["text"],
     }

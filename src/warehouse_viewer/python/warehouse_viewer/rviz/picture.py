@@ -48,13 +48,14 @@ def fleet_shapes(
 
 
 def load_shapes(scenery: Scenery, objects: WarehouseObjects, states: UnitStates) -> list[Any]:
-    """Returns the markers of units and items."""
+    """Returns the markers of units and items; of units without their shelves, no items."""
     units = tracking.storage_units(objects, states).pose
+    look = looks.named(scenery, "storage_unit")
+    shown = markers.things("units", look, _upright(units))
+    if markers.are_thinned(look, len(units)):
+        return shown
     items = tracking.items(objects, states).pose
-    return [
-        *markers.things("units", looks.named(scenery, "storage_unit"), _upright(units)),
-        *markers.things("items", looks.named(scenery, "item"), _upright(items)),
-    ]
+    return [*shown, *markers.things("items", looks.named(scenery, "item"), _upright(items))]
 
 
 SILENT = 2.0  # after which a coordinator counts as gone [s, simulated]

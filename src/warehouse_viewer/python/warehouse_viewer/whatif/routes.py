@@ -10,7 +10,7 @@ from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from warehouse_layout.layout_file import SUFFIX, LayoutFileError
-from warehouse_layout.request import LIMITS, MAX_BELTS, PRESETS
+from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.order_file import DemandError
 from warehouse_operations.policies import DEFAULTS, ROLES
 from warehouse_operations.runs import RunError
@@ -77,7 +77,7 @@ def _about(workshop: Workshop) -> Answer:
         "defaults": Scenario().to_json(),
         "most": {
             "robots": LIMITS["robots"],
-            "stations": MAX_BELTS,
+            "stations": MOST_STATIONS,
             "minutes": MOST_MINUTES,
             "seeds": MOST_SEEDS,
             "compared": COMPARED[1],

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from warehouse_layout.layout_file import SUFFIX
-from warehouse_layout.request import LIMITS, MAX_BELTS, PRESETS
+from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import ROLES
 from warehouse_operations.yaml_file import read_yaml
 
@@ -158,7 +158,7 @@ def checked_name(name: Any) -> str:
 EXPECTED: dict[str, tuple[Callable[[Any], Any], str]] = {
     "layout": (_is_layout, f"a preset, or the name of a {SUFFIX} file"),
     "robots": _whole(0, LIMITS["robots"]),
-    "stations": _whole(0, MAX_BELTS),
+    "stations": _whole(0, MOST_STATIONS),
     "orders": (_is_orders, "fill, poisson:PER_HOUR, mix:PER_HOUR:LINESxPIECES or FILE.csv"),
     "minutes": (_is_minutes, f"a number above 0, up to {MOST_MINUTES:g},"),
     "seeds": _whole(1, MOST_SEEDS),

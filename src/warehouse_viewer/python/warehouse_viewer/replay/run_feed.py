@@ -1,26 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simulated shift's world as messages: goods on their units, people who walk, items that fall."""
+"""A world of this process as messages: goods on their units, people who walk, items that fall."""
 
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from warehouse_fleet.waiting import Waiting
 from warehouse_layout import poses
-from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.page.world_source import COLUMNS, Looks, Stamp, scenery_of
 
 
-class ShiftFeed:
+class RunFeed:
     """The messages that a Model needs, of a world whose robots and units stay the same.
 
-    fleet: a world_fleet.WorldFleet. objects, states, fleet_state, scenery: laid out as the
+    objects, states, fleet_state, scenery: laid out as the
     messages; see page.source.Feed.
     """
 
-    def __init__(self, fleet: Any) -> None:
-        self._fleet, self._world = fleet, fleet.world
+    def __init__(self, world: Any) -> None:
+        self._world = world
         self._units = [f"storage_unit{n}" for n in self._world.storage_units["shelf_id"]]
         self._people: list[str] = []
         self._fallen: list[int] = []
@@ -47,13 +45,6 @@ class ShiftFeed:
             loose_item=self._loose,
             loose_pose=_poses(world.items[self._loose]).ravel(),
         )
-
-    def waiting(self) -> list[int]:
-        """Returns the numbers of the robots that wait for too long."""
-        traffic, robots = self._fleet.traffic, self._fleet.robots
-        found = Waiting(traffic, self._fleet.transports).long()
-        long = [robot for robot, _ in found if traffic.time - robots.still_since[robot] >= TOO_LONG]
-        return robots.kiva_ids[long].tolist()
 
     # --- goods
     def _objects(self) -> SimpleNamespace:

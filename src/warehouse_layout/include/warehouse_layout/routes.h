@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The quickest ways of a robot from one cell to all others, or to it from all others.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "warehouse_layout/floor.h"
+
+namespace layout {
+
+/// Which cells a robot may go through, and how long that takes. A node is a cell and a heading,
+/// cell * kHeadings + heading.
+struct RouteGraph {
+  const Cell* next;         ///< by node: the cell beside it, or kNowhere; cells * kHeadings
+  const std::uint8_t* end;  ///< by cell: ways end there, and don't go on
+  Cell cells;
+  double step;  ///< from cell to cell [s]
+  double turn;  ///< by a quarter [s]
+};
+
+/// By node: how long the way to it takes [s], infinity if there is none; how many steps it has; and
+/// the node before it, -1 for the first.
+struct Routes {
+  std::vector<double> seconds;
+  std::vector<std::int32_t> steps;
+  std::vector<std::int32_t> before;
+};
+
+/// Returns the quickest ways from a cell, in any heading. With edges turned round they are those to
+/// the cell.
+Routes routesFrom(const RouteGraph& graph, Cell start);
+
+}  // namespace layout

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ways over a floor are the shortest, and the quickest, as a search by scipy finds them."""
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from warehouse_layout._core import Floor, routes
+from warehouse_layout.layout import plan
+from warehouse_layout.request import resolve
+
+STEP, TURN = 2 / 3, 2.125  # [s]
+
+
+def random_graph(rng, cells):
+    """Returns (next, end): cells beside each other in a row of two, with some edges missing."""
+    following = np.full((cells, 4), -1, np.int32)
+    for heading, offset in enumerate((1, 7, -1, -7)):
+        to = np.arange(cells) + offset
+        there = (to >= 0) & (to < cells) & (rng.random(cells) < 0.7)
+        following[there, heading] = to[there]
+    return following, (rng.random(cells) < 0.2).astype(np.uint8)
+
+
+def by_scipy(following, end, start):
+    cells, headings = np.nonzero(following >= 0)
+    goes_on = (end[cells] == 0) | (cells == start)
+    cells, headings = cells[goes_on], headings[goes_on]
+    node = np.arange(following.size)
+    turned = [node // 4 * 4 + (node + quarters) % 4 for quarters in (1, 3)]
+    rows = np.concatenate([cells * 4 + headings, node, node])
+    columns = np.concatenate([following[cells, headings] * 4 + headings, *turned])
+    weights = np.r_[np.full(len(cells), STEP), np.full(2 * len(node), TURN)]
+    graph = csr_matrix((weights, (rows, columns)), (len(node), len(node)))
+    return dijkstra(graph, indices=start * 4 + np.arange(4), min_only=True)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_quickest_ways_are_those_of_dijkstra(seed):
+    rng = np.random.default_rng(seed)
+    following, end = random_graph(rng, 49)
+    start = int(rng.integers(49))
+    seconds, steps, before = routes(following, end, start, STEP, TURN)
+    assert np.array_equal(seconds, by_scipy(following, end, start))
+    for node in np.flatnonzero(np.isfinite(seconds) & (before >= 0)):
+        is_step = node // 4 != before[node] // 4
+        assert steps[node] == steps[before[node]] + is_step
+        assert seconds[node] == seconds[before[node]] + (STEP if is_step else TURN)
+
+
+def test_a_graph_that_does_not_fit_is_refused():
+    following, end = random_graph(np.random.default_rng(1), 49)
+    for wrong in ((following[1:], end, 0), (following, end, 49), (following, end, -1)):
+        with pytest.raises(ValueError, match=r"next \(cells, 4\)"):
+            routes(*wrong, STEP, TURN)
+
+
+@pytest.mark.parametrize("loaded", [False, True])
+def test_the_shortest_way_has_as_many_steps_as_a_search_of_all_cells_finds(loaded):
+    floor_plan = plan(resolve("small")).plan
+    floor, lane = floor_plan.floor(), floor_plan.lane.ravel()
+    streets = np.flatnonzero((floor_plan.passable & ~floor_plan.storage).ravel() & ~lane)
+    streets = streets[~floor_plan.parking.ravel()[streets]]
+    edges = np.asarray(floor.edges(loaded)).reshape(-1, 4)
+    cells, headings = np.nonzero(edges >= 0)
+    to = edges[cells, headings]
+    kept = ~lane[to]  # lanes are no short cuts
+    graph = csr_matrix((np.ones(kept.sum()), (cells[kept], to[kept])), (len(lane),) * 2)
+    for begin in streets[::40].tolist():
+        steps = dijkstra(graph, indices=begin, unweighted=True)
+        for end in streets[::7].tolist():
+            found = floor.shortest(begin, end, loaded=loaded)
+            assert found == (steps[end] if np.isfinite(steps[end]) else -1)
+
+
+def test_there_is_no_way_off_an_island():
+    floor = Floor(np.array([[1, 0, 1]], np.uint8))
+    assert floor.shortest(0, 2) == -1
+    assert floor.shortest(0, 0) == 0
