@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The viewer's page in a headless Chromium, drawn in software."""
 
+import base64
 import tempfile
 import time
 from contextlib import contextmanager
@@ -81,6 +82,10 @@ class Browser:
     def read(self, expression):
         """The value of a JavaScript expression, in which `page` is the page's object."""
         return self.driver.execute_script(f"const page = window.page; return {expression};")
+
+    def picture(self):
+        """A photograph, PNG, however long the page takes to be drawn."""
+        return base64.b64decode(self.driver.execute_cdp_cmd("Page.captureScreenshot", {})["data"])
 
     def until(self, expression):
         """Waits until an expression holds, and returns its value."""

@@ -9,10 +9,12 @@ import { topOf } from '../../../src/warehouse_viewer/web/js/heat_scale.js';
 import { whole } from '../../../src/warehouse_viewer/web/js/order_entry.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
+import { sharesOf } from '../../../src/warehouse_viewer/web/js/robot_shares.js';
 import { waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
+import { countedWork } from '../../../src/warehouse_viewer/web/js/words.js';
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };
@@ -91,4 +93,12 @@ test('what is nothing is not coloured, and the most is dark red', () => {
   assert.equal(colours[3], 0);
   assert.deepEqual([...colours.subarray(12, 16)], [189, 0, 38, 230]);
   assert.ok(colours[5] > colours[9]); // yellow is greener than red
+});
+
+test('robots are counted by what they do at a glance, what needs a person first; their work in words', () => {
+  const shares = sharesOf({ needs_help: 1, waiting: 4, working: 0, moving: 5, resting: 2 });
+  assert.deepEqual(shares.map(({ text, look, count }) => [text, look, count]),
+    [['needs help', 'needs-help', 1], ['waiting', 'waiting', 4], ['moving', 'moving', 5], ['resting', 'resting', 2]]);
+  assert.deepEqual(sharesOf({}), []);
+  assert.equal(countedWork({ fetching: 2, ready: 1, bringing: 0, waiting: 3, idle: 1 }), '2 fetching, 1 ready beneath a unit, 3 at a station, 1 without work');
 });

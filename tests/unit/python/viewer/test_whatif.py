@@ -210,7 +210,7 @@ def test_the_queue_is_bounded(tmp_path):
         ({"layout": "../secret"}, "layout is '../secret'; a preset, or the name of a .layout"),
         ({"layout": "none.layout.yaml"}, "layouts/none.layout.yaml: No such file"),
         ({"layout": "small", "robots": 900}, "small: 900 robots, but there is room for 31"),
-        ({"robots": True}, "robots is True; a whole number from 0 to 10000 was expected"),
+        ({"robots": True}, "robots is True; a whole number from 0 to 20000 was expected"),
         ({"layout": "small", "stations": 3}, "stations is 3; small has 2 for picking"),
         ({"orders": "fill:x"}, "orders are 'fill:x'; a number above 0"),
         ({"orders": "mix:1:/etc/x.csv"}, "orders is 'mix:1:/etc/x.csv'; fill,"),
