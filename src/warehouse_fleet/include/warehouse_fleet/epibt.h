@@ -13,7 +13,8 @@
 namespace fleet {
 
 struct EpibtOptions {
-  int depth = 4;    ///< ticks of an operation, 1 to 5
+  /// Ticks of an operation, 1 to 5; 0: 4, or 5 where the first step has time for it.
+  int depth = 0;
   int horizon = 0;  ///< ticks of a plan, up to 7: what is committed, and an operation; 0: depth
   int turn_ticks =
       1;  ///< what a quarter turn costs on the way to a goal: with braking, more than a tick
@@ -21,6 +22,9 @@ struct EpibtOptions {
   int pushes = 400;    ///< how many robots may be moved aside to find one robot's operation
   int exchanges = 40;  ///< the same in the search for something better
   int patience = 30;   ///< ticks in a cell after which others make way for a robot
+  /// How many robots may pursue their goals at a time, over the passable cells. Where there are
+  /// more, the others yield: they go where they are pushed until it is their turn.
+  double pursuing = 0.5;
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept

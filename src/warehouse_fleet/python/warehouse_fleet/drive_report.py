@@ -50,21 +50,23 @@ class DriveLog:
 
 def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:
     """Returns what drive.json has. wall, cpu: what the drive took of the clock and of this
-    process [s]."""
+    process [s]. Of a drive that was interrupted, planned is as much as robots have come to."""
     order, spacing = driver.order, driver.plan.spacing
     tick_s = spacing / driver.kinematics.speed
     has_arrived = ~np.isnan(driver.arrival)
     planned = tick_s * order.last
     travels = has_arrived & (order.last > 0)
-    executed = driver.time if not has_arrived.all() else float(driver.arrival.max())
+    executed, due = float(driver.arrival.max()), float(planned.max())
+    if not driver.is_over:
+        executed, due = driver.time, tick_s * float(driver.tick.mean())
     waiting = {cause.name.lower(): round(float(driver.seconds[cause].sum()), 1) for cause in Cause}
     return {
         "robots": len(order.steps),
         "ticks": len(order.rank_of_tick),
         "tick_s": tick_s,
-        "planned_s": float(planned.max()),
+        "planned_s": round(due, 1),
         "executed_s": round(executed, 1),
-        "executed_over_planned": _ratio(executed, float(planned.max())),
+        "executed_over_planned": _ratio(executed, due),
         "executed_over_planned_of_a_robot": _ratio(
             float(driver.arrival[travels].sum()), float(planned[travels].sum())
         ),
@@ -73,8 +75,8 @@ def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:
         "contacts": driver.collisions,
         "refusals": driver.refusals,
         "rings_broken": order.rings,
-        "cells": len(order.cell),
-        "metres": len(order.cell) * spacing,
+        "cells": driver.cells,
+        "metres": driver.cells * spacing,
         "robot_seconds": waiting,
         "simulated_s": round(driver.time, 1),
         "wall_s": round(wall, 2),

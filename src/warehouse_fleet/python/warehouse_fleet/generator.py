@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generates floors and problems like those of the League of Robot Runners: blocks of shelves
-between aisles, stations along two walls."""
+between aisles, stations along two walls; floors with walls at random."""
 
 from dataclasses import dataclass
 
@@ -73,3 +73,31 @@ def starts(floor: Warehouse, robots: int, rng: np.random.Generator) -> NDArray[n
     if robots > free.size:
         raise ValueError(f"{robots} robots on {free.size} free cells")
     return rng.choice(free, robots, replace=False)
+
+
+def scattered(width: int, height: int, walls: float, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Returns where robots can drive on a floor whose cells are walls at random, with probability
+    `walls`, (height, width): its largest connected part."""
+    left = rng.random((height, width)) >= walls
+    best = np.zeros_like(left)
+    while np.count_nonzero(left) > np.count_nonzero(best):
+        part = _connected(left, int(np.flatnonzero(left)[0]))
+        best = part if np.count_nonzero(part) > np.count_nonzero(best) else best
+        left = left & ~part
+    return best
+
+
+def _connected(passable: NDArray[np.bool_], cell: int) -> NDArray[np.bool_]:
+    """Returns the cells that can be reached from a cell, (rows, columns)."""
+    reached = np.zeros_like(passable)
+    reached.flat[cell] = True
+    while True:
+        wider = reached.copy()
+        wider[1:] |= reached[:-1]
+        wider[:-1] |= reached[1:]
+        wider[:, 1:] |= reached[:, :-1]
+        wider[:, :-1] |= reached[:, 1:]
+        wider &= passable
+        if (wider == reached).all():
+            return reached
+        reached = wider

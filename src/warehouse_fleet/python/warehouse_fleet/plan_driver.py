@@ -88,6 +88,13 @@ class PlanDriver:
         end = len(self.order.rank_of_tick)
         return np.where(rank < 0, end, self.order.tick(rank))
 
+    @property
+    def cells(self) -> int:
+        """How many cells of the plan were released to robots so far."""
+        rank = self._execution.next_tick()
+        limit = np.where(rank < 0, np.iinfo(rank.dtype).max, rank)
+        return int(np.count_nonzero(self.order.rank < np.repeat(limit, self.order.steps)))
+
     def at_end(self) -> NDArray[np.bool_]:
         """Returns which robots stand where the plan ends, (robots,)."""
         fleet = self.world.fleet

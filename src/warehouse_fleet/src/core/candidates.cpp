@@ -78,6 +78,19 @@ Path Candidates::standing(const Wish& wish) const {
   return path;
 }
 
+Path Candidates::along(const Wish& wish, const Actions& actions) const {
+  Path path;
+  State state = wish.state;
+  path.cells[0] = state.cell;
+  for (int tick = 0; tick < horizon_; ++tick) {
+    state = after(floor_, state, actions[tick]);
+    path.actions[tick] = actions[tick];
+    path.cells[tick + 1] = state.cell;
+  }
+  path.cost = cost(wish, path, state.heading);
+  return path;
+}
+
 Path Candidates::rest(const Path& path, const State& begin, const Wish& wish,
                       bool& is_punctual) const {
   Path rest;
@@ -139,7 +152,8 @@ Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
   Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
   if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
-  if (to == kNowhere || (to != wish.goal && (is_kept_[to] || isDeadEnd(wish, to, heading)))) {
+  if (to == kNowhere ||
+      (to != wish.goal && ((is_kept_[to] && !wish.enters_kept) || isDeadEnd(wish, to, heading)))) {
     return kNowhere;
   }
   return isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
@@ -200,7 +214,7 @@ void Candidates::grow(const Wish& wish, Scratch& scratch) const {
 
 int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
   const Cell end = path.cells[horizon_];
-  if (wish.goal == kNowhere) {
+  if (wish.goal == kNowhere || wish.yields) {
     // Nothing to do: to be where it is, or back there soon.
     return kFine * kTickCost *
            (std::abs(floor_.x(end) - floor_.x(path.cells[0])) +

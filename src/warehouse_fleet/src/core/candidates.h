@@ -24,6 +24,9 @@ struct Wish {
   Actions commitment{};
   bool stopped = false;
   bool stops_at_goal = true;
+  bool yields = false;       ///< goes wherever it is pushed, its goal can wait
+  bool is_urgent = false;    ///< goes first of all
+  bool enters_kept = false;  ///< kept cells are kept for it
 };
 
 class Candidates {
@@ -44,6 +47,8 @@ class Candidates {
   /// Returns the candidate that keeps to what is committed, and stands from then on. It is allowed
   /// if no other robot is in its way.
   Path standing(const Wish& wish) const;
+  /// Returns the path of these actions from where the robot stands, which must lead along edges.
+  Path along(const Wish& wish, const Actions& actions) const;
   /// What is left of a path that was planned from `begin`, a tick ago or longer: keeps to what is
   /// committed, goes on from there as planned, and stands from then on, or at once if the path does
   /// not lead there. `is_punctual` if the robot is as far as was planned.

@@ -155,7 +155,10 @@ bool DistanceTables::hasRoom(std::size_t bytes) {
   return true;
 }
 
-void DistanceTables::make() { buildAll(to_make_); }
+void DistanceTables::make() {
+  buildAll(to_make_);
+  to_make_.clear();
+}
 
 const DistanceTable* DistanceTables::find(Deck deck, Cell from, Cell goal, bool is_urgent) {
   Entry* entry = known(keyOf(deck, goal, false));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -13,7 +14,9 @@
 #include <string>
 
 #include "candidates.h"
+#include "chain_search.h"
 #include "closures.h"
+#include "dead_ends.h"
 #include "distance_tables.h"
 #include "guidance.h"
 #include "making_way.h"
@@ -22,6 +25,7 @@
 #include "reservations.h"
 #include "spacing.h"
 #include "threads.h"
+#include "yielding.h"
 
 namespace fleet {
 namespace {
@@ -48,9 +52,10 @@ struct Memory {
 class Epibt : public Planner {
  public:
   explicit Epibt(const EpibtOptions& options) : options_(options), threads_(options.threads) {
-    if (options_.horizon == 0) options_.horizon = options_.depth;
-    inRange("depth", options_.depth, 1, kMaxDepth);
-    inRange("horizon", options_.horizon, options_.depth, kMaxHorizon);
+    inRange("depth", options_.depth, 0, kMaxDepth);
+    if (options_.horizon != 0) {
+      inRange("horizon", options_.horizon, std::max(1, options_.depth), kMaxHorizon);
+    }
     inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
   }
 
@@ -61,12 +66,14 @@ class Epibt : public Planner {
   void load(const std::string& path) override;
 
  private:
+  void beginSearch(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
   void wish(const Fleet& fleet);
   void measure();
   std::int64_t tableWork(std::int64_t a_robot) const;
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
+  void replan(bool is_crowded);
   void improve(const Budget& budget, double deadline);
   void answer(const Fleet& fleet, Plan& plan);
 
@@ -79,6 +86,8 @@ class Epibt : public Planner {
   std::unique_ptr<Reservations> reserved_;
   std::unique_ptr<Spacing> spacing_;
   std::unique_ptr<MakingWay> way_;
+  std::unique_ptr<Yielding> yielding_;
+  std::unique_ptr<DeadEnds> dead_ends_;
   Rules rules_;
   const Floor* floor_ = nullptr;
   std::mt19937_64 random_;
@@ -88,6 +97,7 @@ class Epibt : public Planner {
   std::vector<Wish> wishes_;
   Priorities priorities_;
   std::unique_ptr<PushSearch> search_;
+  std::unique_ptr<ChainSearch> chains_;
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
@@ -97,35 +107,45 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
       floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
                              options_.memory});
   closures_ = std::make_unique<Closures>(floor, guidance_->costs());
-  const Edges& edges = closures_->edges();
   tables_ = std::make_unique<DistanceTables>(
-      floor, edges, TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to},
-      threads_);
-  candidates_ = std::make_unique<Candidates>(floor, edges, options_.depth, options_.horizon);
-  reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
-  spacing_ = std::make_unique<Spacing>(options_.horizon);
+      floor, closures_->edges(),
+      TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to}, threads_);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
+  yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
+  dead_ends_ = std::make_unique<DeadEnds>(floor);
+  rules_ = rules;
+}
+
+/// Chooses how far the first step's time lets operations reach, if no option says so.
+void Epibt::beginSearch(const Fleet& fleet, const Budget& budget) {
+  constexpr double kDeep = 0.25e-3;  // [s] a robot: a longer operation costs 20 us
+  if (options_.depth == 0) options_.depth = budget.seconds > kDeep * fleet.size() ? 5 : 4;
+  if (options_.horizon == 0) options_.horizon = options_.depth;
+  options_.depth = std::min(options_.depth, options_.horizon);
+  const int horizon = options_.horizon;
+  candidates_ = std::make_unique<Candidates>(*floor_, closures_->edges(), options_.depth, horizon);
+  reserved_ = std::make_unique<Reservations>(*floor_, rules_, horizon);
+  spacing_ = std::make_unique<Spacing>(horizon);
   search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
                                          options_.revisits);
-  rules_ = rules;
+  chains_ = std::make_unique<ChainSearch>(*floor_, rules_, horizon, wishes_, priorities_,
+                                          *candidates_, *reserved_, *search_);
 }
 
 void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   const double deadline = threadSeconds() + budget.seconds;
   check(*floor_, fleet);
+  if (search_ == nullptr) beginSearch(fleet, budget);
   updateFleet(fleet);
   closures_->update(fleet);
   wish(fleet);
-  way_->direct(fleet, *candidates_, wishes_);
+  const bool is_crowded = yielding_->choose(waiting_, *candidates_, wishes_);
+  if (is_crowded) dead_ends_->empty(*tables_, *candidates_, wishes_);
+  way_->direct(fleet, !is_crowded, *candidates_, wishes_);
   inherit(fleet);
   priorities_.assign(wishes_, waiting_, *candidates_, *way_);
   candidates_->find(wishes_, threads_);
-  search_->begin(fleet.size());
-  search_->beginPass();
-  for (const int robot : priorities_.order()) {
-    if (search_->isSettled(robot)) continue;
-    search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
-  }
+  replan(is_crowded);
   improve(budget, deadline);
   answer(fleet, plan);
   ++now_;
@@ -286,9 +306,23 @@ void Epibt::resume(const std::vector<Path>& rests) {
   } while (waiting.size() < still.size());
 }
 
+/// Looks for a better operation for each robot, by rank. On a crowded floor robots that yield keep
+/// what they have, and those that get no nearer by pushing do so by a chain.
+void Epibt::replan(bool is_crowded) {
+  search_->begin(static_cast<int>(wishes_.size()));
+  search_->beginPass();
+  for (const int robot : priorities_.order()) {
+    if (search_->isSettled(robot) || wishes_[robot].yields) continue;
+    search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
+    if (is_crowded && chains_->isStuck(robot)) chains_->advance(robot);
+  }
+}
+
 /// A large-neighbourhood search: moves robots aside where all together gain by it.
 void Epibt::improve(const Budget& budget, double deadline) {
-  std::vector<int> order = priorities_.order();
+  std::vector<int> order;
+  std::copy_if(priorities_.order().begin(), priorities_.order().end(), std::back_inserter(order),
+               [this](int robot) { return !wishes_[robot].yields; });
   if (order.empty()) return;
   constexpr int kBetweenLooks = 8;
   const bool is_timed = budget.seconds > 0;

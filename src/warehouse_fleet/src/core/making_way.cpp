@@ -20,10 +20,27 @@ bool drivesOn(const Wish& wish) {
 
 }  // namespace
 
-void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes) {
+void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidates,
+                       std::vector<Wish>& wishes) {
   watch(candidates, wishes);
-  std::vector<int> pressing;
+  if (may_press) {
+    for (const int robot : pressing()) {
+      if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
+    }
+  }
   for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Cell told = progress_[robot].told;
+    if (told == kNowhere) continue;
+    wishes[robot].goal = told;
+    wishes[robot].table = nullptr;
+    candidates.keep(told);
+  }
+}
+
+/// Returns the robots that press in this step, those first that have come no nearer for longest.
+std::vector<int> MakingWay::pressing() const {
+  std::vector<int> pressing;
+  for (int robot = 0; robot < static_cast<int>(progress_.size()); ++robot) {
     const Progress& progress = progress_[robot];
     const bool presses = progress.still > patience_ || progress.stalled > kStalled;
     if (presses && progress.told == kNowhere) pressing.push_back(robot);
@@ -33,16 +50,7 @@ void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<W
     return ours != theirs ? ours > theirs : one < other;
   });
   if (pressing.size() > kPressing) pressing.resize(kPressing);
-  for (const int robot : pressing) {
-    if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
-  }
-  for (int robot = 0; robot < fleet.size(); ++robot) {
-    const Cell told = progress_[robot].told;
-    if (told == kNowhere) continue;
-    wishes[robot].goal = told;
-    wishes[robot].table = nullptr;
-    candidates.keep(told);
-  }
+  return pressing;
 }
 
 /// Who stands, and whose next cell is still to be reached.
@@ -57,7 +65,8 @@ void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wis
     Progress& progress = progress_[robot];
     standing_[wish.state.cell] = robot;
     const bool can_move = !wish.stopped && wish.committed == 0;
-    const bool is_under_way = can_move && wish.goal != kNowhere && wish.goal != wish.state.cell;
+    const bool is_under_way =
+        can_move && wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
     progress.still = progress.cell == wish.state.cell && is_under_way ? progress.still + 1 : 0;
     progress.cell = wish.state.cell;
     measure(candidates, wish, progress);
@@ -69,7 +78,8 @@ void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wis
 }
 
 void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress& progress) const {
-  const int distance = wish.goal == kNowhere ? 0 : candidates.distance(wish, wish.state);
+  const int distance =
+      wish.goal == kNowhere || wish.yields ? 0 : candidates.distance(wish, wish.state);
   const bool is_new = progress.goal != wish.goal;
   if (is_new || distance == 0 || distance < progress.nearest) {
     progress.goal = wish.goal;

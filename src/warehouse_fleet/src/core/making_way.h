@@ -20,7 +20,9 @@ class MakingWay {
   /// Tells who presses and who makes way where to go: overwrites their goals in `wishes`.
   /// `candidates` knows how far it is, and keeps their next cells for them: a robot that drives
   /// past would else always be there before one that must turn first.
-  void direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes);
+  /// Without `may_press` no other robot begins to press.
+  void direct(const Fleet& fleet, bool may_press, Candidates& candidates,
+              std::vector<Wish>& wishes);
 
   /// Whether a robot was told where to go; those come first of all.
   bool isTold(int robot) const { return progress_[robot].told != kNowhere; }
@@ -42,6 +44,7 @@ class MakingWay {
 
   void watch(const Candidates& candidates, const std::vector<Wish>& wishes);
   void measure(const Candidates& candidates, const Wish& wish, Progress& progress) const;
+  std::vector<int> pressing() const;
   void press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes);
   bool move(int robot, const Candidates& candidates, const std::vector<Wish>& wishes, int& effort);
   std::vector<Cell> ways(const Candidates& candidates, const Wish& wish) const;

@@ -16,7 +16,8 @@ void nearestFirst(const std::vector<Wish>& wishes, const MakingWay& way,
                   const std::vector<int>& distance, std::vector<int>& key) {
   std::vector<int> by_distance;
   for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {
-    if (!way.isTold(robot)) by_distance.push_back(robot);
+    const bool is_told = way.isTold(robot) || wishes[robot].is_urgent;
+    if (!is_told && !wishes[robot].yields) by_distance.push_back(robot);
   }
   std::vector<int> by_key = by_distance;
   const auto sort = [&](std::vector<int>& robots, const std::vector<int>& value) {
@@ -46,12 +47,12 @@ std::vector<int> keys(const std::vector<Wish>& wishes, const std::vector<int>& w
   std::vector<int> distance(robots), key(robots);
   for (int robot = 0; robot < robots; ++robot) {
     const Wish& wish = wishes[robot];
-    const bool has_goal = wish.goal != kNowhere;
+    const bool has_goal = wish.goal != kNowhere && !wish.yields;
     distance[robot] = has_goal ? candidates.distance(wish, wish.state) : kLast;
     const int waited = kWaitingWorth * waiting[robot];
     const int stood = kStandingWorth * std::max(0, way.still(robot) - kStands);
     key[robot] = distance[robot] - (has_goal ? waited + stood : 0);
-    if (way.isTold(robot)) key[robot] = kFirst;
+    if (way.isTold(robot) || wish.is_urgent) key[robot] = kFirst;
   }
   nearestFirst(wishes, way, distance, key);
   return key;

@@ -34,6 +34,9 @@ class PushSearch {
   /// Tells whether this pass has given a robot its path.
   bool isSettled(int robot) const { return settled_[robot] == pass_; }
 
+  /// Tells that a robot has its path in this pass.
+  void settle(int robot) { settled_[robot] = pass_; }
+
   /// Finds a robot another path and returns true; returns false and leaves all paths as they were
   /// if there is none.
   bool replan(int robot, Limits limits);

@@ -200,6 +200,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("pushes", options.pushes);
   set("exchanges", options.exchanges);
   set("patience", options.patience);
+  set("pursuing", options.pursuing);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
   set("whole_up_to", options.whole_up_to);
@@ -248,9 +249,11 @@ their tables in time. seconds: by the clock at most [s]; without it equal plans 
              py::arg("seed") = 1, R"(Returns the planner of this package, started on a floor.
 
 It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
-by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5), horizon (ticks of a
-plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], goals_are_stops,
-table_bytes, whole_up_to [cells], threads (0: one a core), table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
+by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5; 0: 4, or 5 where the
+first step has time for it), horizon (ticks of a plan, up to 7; 0: depth), turn_ticks, revisits, pushes,
+exchanges, patience [ticks], pursuing (share of the passable cells), goals_are_stops, table_bytes,
+whole_up_to [cells], threads (0: one a core), table_work, renewal_work, renewal_age [ticks], against,
+crowd, resting, at_lanes,
 memory [ticks]. TypeError for another option.)");
   module.def(
       "load_planner",

@@ -79,6 +79,8 @@ def test_ctrl_c_reports_what_was_driven(plan, tmp_path):
     told = json.loads((tmp_path / "drive.json").read_text())
     assert told["interrupted"]
     assert 0 < told["simulated_s"] < 29 * 400
+    assert 0 < told["cells"] < 2 * 29 * 400
+    assert 1.0 < told["executed_over_planned"] < 2.0, "as far as robots have come"
 
 
 def test_a_damaged_plan_is_refused_in_a_sentence(plan, tmp_path):

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Floors with hardly a free cell: all robots get to their goals, by rings, and by coming out of
+// dead ends before others go in.
+#include "planner_shift.h"
+
+namespace fleet::test {
+namespace {
+
+/// Robots that each go to one random cell after the other, and pass their goals without a stop.
+class Errands {
+ public:
+  Errands(const std::vector<std::string>& rows, int robots, const Rules& rules)
+      : floor(drawn(rows)),
+        rules_(rules),
+        free_(cellsOf(rows, '.')),
+        planner_(makeEpibt(passing())) {
+    std::vector<Cell> cells = free_;
+    std::shuffle(cells.begin(), cells.end(), random_);
+    fleet.cell.assign(cells.begin(), cells.begin() + robots);
+    fleet.heading.assign(robots, 0);
+    for (int robot = 0; robot < robots; ++robot) fleet.goal.push_back(anyOf(free_));
+    since.assign(robots, 0);
+    planner_->start(floor, rules, 1);
+  }
+
+  /// Drives so many ticks; returns how many goals were reached.
+  int run(int ticks) {
+    int arrivals = 0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      planner_->plan(fleet, {0, 0}, plan_);
+      for (const Violation& violation : validate(floor, fleet, plan_, rules_, 1)) {
+        ADD_FAILURE() << describe(violation, floor);
+        return 0;
+      }
+      for (int robot = 0; robot < fleet.size(); ++robot) arrivals += drive(robot);
+    }
+    return arrivals;
+  }
+
+  const Floor floor;
+  Fleet fleet;
+  std::vector<int> since;  ///< by robot: ticks since it got its goal
+
+ private:
+  static EpibtOptions passing() {
+    EpibtOptions options;
+    options.goals_are_stops = false;
+    return options;
+  }
+
+  Cell anyOf(const std::vector<Cell>& cells) { return cells[random_() % cells.size()]; }
+
+  bool drive(int robot) {
+    const State state = after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan_.at(robot, 0));
+    fleet.cell[robot] = state.cell;
+    fleet.heading[robot] = state.heading;
+    ++since[robot];
+    if (state.cell != fleet.goal[robot]) return false;
+    fleet.goal[robot] = anyOf(free_);
+    since[robot] = 0;
+    return true;
+  }
+
+  const Rules rules_;
+  const std::vector<Cell> free_;
+  std::mt19937_64 random_{3};
+  std::unique_ptr<Planner> planner_;
+  Plan plan_;
+};
+
+/// Walls here and there, two dead ends among them.
+const std::vector<std::string> kScattered = {
+    "............", "..#....#...#", ".....#......", ".#........#.", "....#..#....", "..#........#",
+    ".......#....", ".#...#....#.", "...#........", "......#.#..#", ".#......#...", "....#.....#.",
+};
+
+class FullFloor : public testing::TestWithParam<int> {};
+
+TEST_P(FullFloor, NothingStandsStill) {
+  Rules rules;
+  rules.rings = true;
+  const int cells = static_cast<int>(cellsOf(kScattered, '.').size());
+  const int robots = GetParam() * cells / 100;
+  Errands errands(kScattered, robots, rules);
+  const int first = errands.run(250), second = errands.run(250);
+  EXPECT_GT(first, robots / 2);
+  EXPECT_GT(second, first / 2) << "throughput collapses";
+  for (int robot = 0; robot < robots; ++robot) {
+    EXPECT_LT(errands.since[robot], 500)
+        << "robot " << robot << " on its way from " << errands.floor.name(errands.fleet.cell[robot])
+        << " to " << errands.floor.name(errands.fleet.goal[robot]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Percent, FullFloor, testing::Values(80, 98));
+
+TEST(FullFloor, MovesWithoutAnyFreeCellByRings) {
+  Rules rules;
+  rules.rings = true;
+  const std::vector<std::string> rows = {"....", "....", "...."};
+  Errands errands(rows, 12, rules);
+  EXPECT_GT(errands.run(100), 12);
+  for (const int since : errands.since) EXPECT_LT(since, 100);
+}
+
+TEST(FullFloor, MovesWithAFewFreeCellsWithoutRings) {
+  Errands errands(kScattered, 110, {});
+  const int first = errands.run(150), second = errands.run(150);
+  EXPECT_GT(first, 10);
+  EXPECT_GT(second, first / 2);
+}
+
+TEST(FullFloor, RobotsComeOutOfADeadEndBeforeAnotherGoesIn) {
+  const std::vector<std::string> rows = {"....#", ".....", "....#"};
+  const Floor floor(drawn(rows));
+  const Cell inner = 9, before = 8;
+  // All cells taken but two; the robot before the dead end is to go in.
+  Fleet fleet;
+  for (const Cell cell : cellsOf(rows, '.')) {
+    if (cell > 1) fleet.cell.push_back(cell);
+  }
+  const auto at = [&](Cell cell) {
+    return std::find(fleet.cell.begin(), fleet.cell.end(), cell) - fleet.cell.begin();
+  };
+  fleet.heading.assign(fleet.size(), 0);
+  fleet.goal.assign(fleet.size(), kNowhere);
+  const auto entering = at(before);
+  for (int robot = 0; robot < fleet.size(); ++robot) fleet.goal[robot] = fleet.cell[robot];
+  fleet.goal[entering] = inner;
+  fleet.goal[at(inner)] = 0;
+  Rules rules;
+  rules.rings = true;
+  const auto planner = makeEpibt();
+  planner->start(floor, rules, 1);
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell[entering] != inner && ticks < 60; ++ticks) {
+    planner->plan(fleet, {0, 0}, plan);
+    ASSERT_TRUE(validate(floor, fleet, plan, rules).empty());
+    for (int robot = 0; robot < fleet.size(); ++robot) {
+      const State state =
+          after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
+      fleet.cell[robot] = state.cell;
+      fleet.heading[robot] = state.heading;
+    }
+  }
+  EXPECT_LT(ticks, 60);
+}
+
+TEST(FullFloor, RefusesAFleetOfWhichNoneMayPursueItsGoal) {
+  EpibtOptions options;
+  options.pursuing = 0;
+  const Floor floor(drawn({"..."}));
+  const auto planner = makeEpibt(options);
+  EXPECT_THROW(planner->start(floor, {}, 1), FloorError);
+}
+
+}  // namespace
+}  // namespace fleet::test
