@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether a database balances: every piece exists once, nothing was done twice or half."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from sqlalchemy import text
-from sqlalchemy.engine import Engine
+from sqlalchemy.engine import Connection, Engine
+from sqlalchemy.exc import SQLAlchemyError
+
+from warehouse_operations.engines import DatabaseError, path_of, reason
 
 # Pieces picked from a unit or put into it, by the moves of a visit.
 DONE_TO_UNIT = """COALESCE(SUM(CASE m.reason WHEN 'undone' THEN -ABS(m.quantity)
@@ -81,9 +86,12 @@ RULES = (
 
 
 def faults(engine: Engine, most: int = 20) -> list[str]:
-    """Returns sentences about what does not balance, at most so many a rule; none is good."""
+    """Returns sentences about what does not balance, at most so many a rule; none is good.
+
+    Raises DatabaseError where values can't be read, as after damage to the file.
+    """
     found = []
-    with engine.connect() as connection:
+    with _reading(engine) as connection:
         for sentence, query in RULES:
             rows = connection.execute(text(query)).fetchmany(most)
             found += [sentence.format(*row) for row in rows]
@@ -91,7 +99,10 @@ def faults(engine: Engine, most: int = 20) -> list[str]:
 
 
 def summary(engine: Engine) -> dict[str, Any]:
-    """Returns the numbers of pieces, reservations, bins, moves, orders by state and visits."""
+    """Returns the numbers of pieces, reservations, bins, moves, orders by state and visits.
+
+    Raises DatabaseError where they can't be read.
+    """
     queries = {
         "pieces": "SELECT COALESCE(SUM(quantity), 0) FROM bin",
         "reserved": "SELECT COALESCE(SUM(reserved), 0) FROM bin",
@@ -101,5 +112,16 @@ def summary(engine: Engine) -> dict[str, Any]:
         "completed": "SELECT COUNT(*) FROM orders WHERE state = 2",
         "visits": "SELECT COUNT(*) FROM visit",
     }
-    with engine.connect() as connection:
+    with _reading(engine) as connection:
         return {name: connection.execute(text(q)).scalar() for name, q in queries.items()}
+
+
+@contextmanager
+def _reading(engine: Engine) -> Iterator[Connection]:
+    """Opens a connection to read by; its errors name the database."""
+    try:
+        with engine.connect() as connection:
+            yield connection
+    except SQLAlchemyError as error:
+        name = path_of(engine) or engine.url.render_as_string()
+        raise DatabaseError(f"{name}: {reason(error)}") from error
