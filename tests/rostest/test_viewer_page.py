@@ -395,7 +395,7 @@ class ViewerPage(PageTest):
         told = "document.getElementById('plan-answer').textContent"
         self.page.until(f"{told} === '20 items, but no shelves to lay them on'")
         self.assertTrue(self.page.read("document.getElementById('builder').open"))
-        self.assertIn("at most 10,000", self.page.text("counts"))
+        self.assertIn("at most 20,000", self.page.text("counts"))
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text("medium")
         self.page.until("document.getElementById('own-shelves').value === '160'")
         self.page.driver.find_element("css selector", "#plan .answers button").click()
