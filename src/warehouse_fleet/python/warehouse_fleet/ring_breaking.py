@@ -36,14 +36,15 @@ class Move(NamedTuple):
 def rings_of(before: Cells, after: Cells, at: Cells) -> list[list[int]]:
     """Returns the rings of a tick: robots of which each enters the cell of the next, in a circle.
 
-    before, after: (robots,) cells. at: (cells,) who stands there before the tick, or NO_ROBOT.
+    before, after: (robots,) cells. at: (cells,) the robot in each cell before the tick, or
+    NO_ROBOT.
     """
     count = len(before)
     moves, found = before != after, at[after]
     leader = np.full(count + 1, count)  # whose cell it enters; `count`: no robot's
     leader[:count] = np.where(moves & (found != NO_ROBOT) & moves[found], found, count)
     jump = leader
-    for _ in range(count.bit_length()):  # then who is in no ring has come to the end of its queue
+    for _ in range(count.bit_length()):  # a robot in no ring comes to the end of its queue
         jump = jump[jump]
     left = set(np.flatnonzero(jump[:count] != count).tolist())
     rings = []

@@ -15,6 +15,7 @@ namespace py = pybind11;
 
 namespace fleet::python {
 
+using layout::python::array;
 using layout::python::Array;
 using layout::python::copied;
 using layout::python::view;

@@ -60,11 +60,6 @@ void update(Run& run, double time, const Numbers& x, const Numbers& y, const Num
   run.execution.update(time, reports);
 }
 
-template <typename T>
-py::array_t<T> array(const std::vector<T>& vector) {
-  return py::array_t<T>(static_cast<py::ssize_t>(vector.size()), vector.data());
-}
-
 py::tuple release(Run& run) {
   const Releases releases = run.execution.release();
   return py::make_tuple(array(releases.robot), array(releases.path_id), array(releases.first),

@@ -23,6 +23,12 @@ std::vector<T> copied(const std::optional<Array<T>>& array) {
   return std::vector<T>(array->data(), array->data() + array->size());
 }
 
+/// Returns a vector of C++ as a new array.
+template <typename T>
+py::array_t<T> array(const std::vector<T>& vector) {
+  return py::array_t<T>(static_cast<py::ssize_t>(vector.size()), vector.data());
+}
+
 /// Returns a vector of C++ as a read-only array that keeps its owner alive.
 template <typename T>
 py::array view(const std::vector<T>& vector, const py::object& owner,

@@ -60,11 +60,6 @@ void bindFloor(py::module_& module) {
           py::arg("loaded") = false);
 }
 
-template <typename T>
-py::array_t<T> array(const std::vector<T>& vector) {
-  return py::array_t<T>(static_cast<py::ssize_t>(vector.size()), vector.data());
-}
-
 py::tuple makeRoutes(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start,
                      double step, double turn) {
   const auto cells = static_cast<Cell>(end.size());

@@ -42,12 +42,12 @@ class Rows:
 
     def insert(self, table: Table, key: Any, **values: Any) -> None:
         """Adds a row with the values by column."""
-        self.inserts[table][key] = _plain(values)
+        self.inserts[table][key] = _without_numpy(values)
 
     def update(self, table: Table, key: Any, **values: Any) -> None:
         """Changes values by column of a row, whether it is still to be inserted or exists."""
         known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
-        known.setdefault(key, {}).update(_plain(values))
+        known.setdefault(key, {}).update(_without_numpy(values))
 
     def merge(self, later: "Rows") -> None:
         """Adds later rows and changes to these."""
@@ -78,8 +78,8 @@ class Rows:
                 connection.execute(update(table).where(*where).values(values), rows)
 
 
-def _plain(values: dict[str, Any]) -> dict[str, Any]:
-    """Returns values without numpy's types, which psycopg2 writes as numpy 2 shows them."""
+def _without_numpy(values: dict[str, Any]) -> dict[str, Any]:
+    """Replaces numpy's types in place, which psycopg2 writes as numpy 2 shows them."""
     for name, value in values.items():
         if isinstance(value, np.generic):
             values[name] = value.item()

@@ -7,6 +7,7 @@ turn takes its time, and a start and stop more.
 
 from collections import OrderedDict
 from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,9 +17,10 @@ from warehouse_layout.floor_plan import FloorPlan
 
 HEADINGS = 4
 TABLES = 400  # kept at most, the least recently used is dropped
-PLACE_TABLES = (
-    4000  # likewise, of storage places alone: a thousand on a floor of fifty thousand cells
-)
+PLACE_TABLES = 4000  # likewise of storage places alone: a floor of 50,000 cells has a thousand
+
+_Key = TypeVar("_Key")
+_Value = TypeVar("_Value")
 
 
 class Table:
@@ -81,12 +83,12 @@ class Travel:
     ) -> np.ndarray:
         """Returns a column of a table for storage places alone: a seventh of a floor, or less."""
         key = cell, forward
-        known = self._of_places.get(key)
-        if known is None:
-            known = self._of_places[key] = column(self._search(cell, forward))[self._places]
-            if len(self._of_places) > PLACE_TABLES:
-                self._of_places.popitem(last=False)
-        return known
+        return _remembered(
+            self._of_places,
+            PLACE_TABLES,
+            key,
+            lambda: column(self._search(cell, forward))[self._places],
+        )
 
     def unloaded(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns time [s] and length [m] for robots without a load, which drive under the units.
@@ -102,13 +104,7 @@ class Travel:
 
     def _table(self, cell: int, forward: bool) -> Table:
         key = cell, forward
-        if key in self._tables:
-            self._tables.move_to_end(key)
-            return self._tables[key]
-        table = self._tables[key] = self._search(cell, forward)
-        if len(self._tables) > TABLES:
-            self._tables.popitem(last=False)
-        return table
+        return _remembered(self._tables, TABLES, key, lambda: self._search(cell, forward))
 
     def _search(self, cell: int, forward: bool) -> Table:
         step = self.plan.spacing / self.kinematics.speed
@@ -122,6 +118,19 @@ class Travel:
         seconds[cell] = 0.0
         metres = np.where(np.isfinite(seconds), steps[nodes] * self.plan.spacing, np.inf)
         return Table(seconds, metres, before, heading)
+
+
+def _remembered(
+    known: OrderedDict[_Key, _Value], most: int, key: _Key, make: Callable[[], _Value]
+) -> _Value:
+    """Returns the value of a key, made where it is not known; drops the least recently used."""
+    if key in known:
+        known.move_to_end(key)
+        return known[key]
+    value = known[key] = make()
+    if len(known) > most:
+        known.popitem(last=False)
+    return value
 
 
 def _steps(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The documentation that `make docs` builds, served without internet."""
 
-import base64
-import hashlib
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +10,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 
+from warehouse_viewer.server.csp import csp_source
 from warehouse_viewer.server.static_files import FreshFiles
 from warehouse_viewer.shared_files import SHARE
 
@@ -66,10 +65,7 @@ def content_policy(page: str) -> str:
     Only these scripts run, by their hashes; styles may be inline, since the theme has its colours
     there.
     """
-    hashes = [
-        base64.b64encode(hashlib.sha256(one.encode()).digest()) for one in INLINE.findall(page)
-    ]
-    scripts = " ".join(f"'sha256-{one.decode()}'" for one in dict.fromkeys(hashes))
+    scripts = " ".join(dict.fromkeys(csp_source(one) for one in INLINE.findall(page)))
     return (
         "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
         f"script-src 'self' {scripts}; frame-ancestors 'none'"

@@ -4,13 +4,13 @@
 What follows a # a browser keeps to itself, so that no log and no proxy sees it; the form is posted.
 """
 
-import base64
-import hashlib
 import html
 import re
 from collections.abc import Mapping
 from typing import Any
 from urllib.parse import parse_qs
+
+from warehouse_viewer.server.csp import csp_source
 
 PATH = "/token"
 MOST_FORM = 2000  # [bytes]
@@ -43,12 +43,8 @@ which the warehouse was started tells it, or in which file it lies.</p>{wrong}
 """
 
 
-def _digest(text):
-    return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
-
-
 CONTENT = (
-    f"default-src 'none'; style-src {_digest(STYLE)}; script-src {_digest(SCRIPT)}; "
+    f"default-src 'none'; style-src {csp_source(STYLE)}; script-src {csp_source(SCRIPT)}; "
     "form-action 'self'; frame-ancestors 'none'"
 ).encode()
 
