@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Learns to dispatch a shift, in KivaOperations-v0: scores of candidates by the cross-entropy method
-(Rubinstein, 1999), which asks for nothing but what a shift comes to.
+"""Learns to dispatch a shift, in KivaOperations-v0: first to score candidates as the default policy
+takes them, then better, by the cross-entropy method (Rubinstein, 1999), which asks for nothing but
+what a shift comes to.
 
 examples/operations_train.py --decides orders --size medium --robots 8 --out orders.npz
 
@@ -15,9 +16,11 @@ import time
 import numpy as np
 
 from warehouse_learning.operations_env import KivaOperationsEnv, run_shift, usual
-from warehouse_operations.policies.learned import FEATURES, Scorer
+from warehouse_operations.policies.learned import FEATURES, SHORTLIST, Scorer
 
 ELITE = 0.25  # of a generation, from which the next is drawn
+WIDTH = 0.5  # of the first generation, as a share of the weights
+IMITATION, RATE = 3000, 0.5  # steps of the regression
 HELD_OUT = 10_000  # first seed of the shifts that results are measured on
 
 
@@ -26,8 +29,7 @@ def main():
     options = {"size": wanted.size, "robots": wanted.robots, "minutes": wanted.minutes}
     env = KivaOperationsEnv(decides=(wanted.decides,), **options)
     try:
-        weights = trained(env, wanted)
-        scorer(weights).save(wanted.out, wanted.decides, about=f"{options}, {vars(wanted)}")
+        weights = trained(env, wanted, imitated(env, wanted.imitated))
         print(f"{wanted.out} is written; {wanted.tests} shifts it was not trained on:", flush=True)
         compare(env, weights, wanted.tests)
     except KeyboardInterrupt:
@@ -44,6 +46,7 @@ def arguments():
     parser.add_argument("--size", default="medium")
     parser.add_argument("--robots", type=int, default=0, help="0: as many as the size has")
     parser.add_argument("--minutes", type=float, default=10, help="of a shift (10)")
+    parser.add_argument("--imitated", type=int, default=4, help="shifts of the default policy (4)")
     parser.add_argument("--generations", type=int, default=12)
     parser.add_argument("--population", type=int, default=16)
     parser.add_argument("--shifts", type=int, default=2, help="that each is tried on (2)")
@@ -59,25 +62,57 @@ def scorer(weights):
     return Scorer([*nothing, weights])
 
 
-def trained(env, wanted):
-    """(FEATURES,) weights: the mean of the last generation."""
+def imitated(env, shifts):
+    """(FEATURES,) weights by which the default policy's choices are likely, by logistic regression."""
+    rows, chosen = [], []
+
+    def watch(decision):
+        padded = np.full((SHORTLIST, FEATURES), np.nan)
+        padded[: len(decision.keys)] = decision.rows
+        rows.append(padded)
+        chosen.append(decision.usual)
+        return decision.usual
+
+    returns(env, watch, range(HELD_OUT - shifts, HELD_OUT))
+    there = ~np.isnan(np.array(rows)[..., :1])
+    x, picked = np.nan_to_num(np.array(rows)), np.array(chosen)
+    weights = np.zeros(FEATURES)
+    for _ in range(IMITATION):
+        chances = np.exp(np.clip(x @ weights, -30, 30)) * there[..., 0]
+        chances /= chances.sum(1, keepdims=True)
+        likely = (x * chances[..., None]).sum(1)
+        weights += RATE * (x[np.arange(len(x)), picked] - likely).mean(0)
+    agrees = np.where(there[..., 0], x @ weights, -np.inf).argmax(1) == picked
+    print(f"after {len(x)} decisions {agrees.mean():.0%} are the default policy's", flush=True)
+    return weights
+
+
+def trained(env, wanted, mean):
+    """(FEATURES,) weights: the mean of the last generation, which is kept in the file."""
     random = np.random.default_rng(wanted.seed)
-    mean, deviation = np.zeros(FEATURES), np.ones(FEATURES)
+    deviation = WIDTH * (np.abs(mean) + 1)
+    save(mean, wanted)
     for generation in range(wanted.generations):
         begin = time.process_time()
         seeds = random.integers(HELD_OUT, size=wanted.shifts).tolist()
         drawn = mean + deviation * random.standard_normal((wanted.population, FEATURES))
+        drawn[0] = mean
         pieces = [np.mean(returns(env, scorer(weights), seeds)) for weights in drawn]
         best = drawn[np.argsort(pieces)[::-1][: round(ELITE * wanted.population)]]
         mean = best.mean(0)
         # Some of the old width stays, or it narrows before it has found the way.
         deviation = 0.7 * best.std(0) + 0.3 * deviation
+        save(mean, wanted)
         print(
             f"generation {generation}: {np.mean(pieces):.1f} pieces a shift, best"
             f" {max(pieces):.1f}; {time.process_time() - begin:.0f} s of CPU",
             flush=True,
         )
     return mean
+
+
+def save(weights, wanted):
+    scorer(weights).save(wanted.out, wanted.decides, about=repr(vars(wanted)))
 
 
 def returns(env, choose, seeds):

@@ -17,13 +17,15 @@ from warehouse_learning.rware import RwareVectorEnv, options_of  # noqa: E402
 FLOOR = {
     "layout": "g x\n. x\n. .",
     "n_agents": 2,
-    "request_queue_size": 2,
+    "request_queue_size": 1,
     "max_steps": 50,
 }
 
+QUICK = {"environments": 32, "rollout": 16, "steps": 30_000, "rate": 3e-3, "discount": 0.95}
+
 
 def training(seed=0, **settings):
-    settings = {"environments": 32, "rollout": 32, "steps": 16_000} | settings
+    settings = QUICK | settings
     envs = RwareVectorEnv(
         settings["environments"], autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR
     )
@@ -55,7 +57,7 @@ def test_a_training_beats_chance(algorithm, tmp_path):
     trained = policy.load(tmp_path / "p.npz")
     returns = evaluation.episodes(evaluation.by_policy(trained), 32, 5, **FLOOR)["returns"]
     chance = evaluation.episodes(evaluation.by_chance, 32, 5, **FLOOR)["returns"]
-    assert returns.mean() > chance.mean() + 0.5, learnt.curve
+    assert returns.mean() > chance.mean() + 2, learnt.curve
     assert trained.about["steps"] == learnt.done
 
 

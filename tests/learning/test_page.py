@@ -180,8 +180,8 @@ def test_requests_and_lasers_are_shown():
     browser = Browser(env.page.url)
     try:
         post(f"{env.page.url}api/v1/simulation/speed", factor=0)
-        browser.watch(scans=[2])
         requested = browser.told("requested")["units"]
+        browser.watch(scans=[2])
         assert len(requested) == 3
         assert requested == env._in.units_requested(0)
         for _ in range(100):

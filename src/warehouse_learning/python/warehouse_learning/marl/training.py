@@ -26,11 +26,11 @@ class Settings:
     algorithm: str = "mappo"
     steps: int = 20_000_000
     environments: int = 128
-    rollout: int = 64  # steps of each between two updates
+    rollout: int = 16  # steps of each between two updates
     epochs: int = 3
     minibatches: int = 4
-    rate: float = 7e-4  # of Adam; falls to a tenth
-    discount: float = 0.99
+    rate: float = 2e-3  # of Adam; falls to a tenth
+    discount: float = 0.98
     trace: float = 0.95  # lambda of the generalised advantage estimation
     clip: float = 0.2
     entropy: float = 0.01  # falls to a tenth
