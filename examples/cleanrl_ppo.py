@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Independent PPO in one file, as CleanRL writes it, in PyTorch, on RWARE's task: each robot is a row of
-the batch, all share one network. pip install torch gymnasium, and the wheel, or . devel/setup.bash
+"""Independent PPO in one file, as CleanRL writes it, in PyTorch, on RWARE's task: each robot is a
+row of the batch, all share one network. It needs torch, gymnasium, and the wheel (or
+. devel/setup.bash).
 
 examples/cleanrl_ppo.py [TASK] [STEPS]     tiny-2ag, 2,000,000 steps of the environments
 

@@ -6,7 +6,10 @@ what a shift comes to.
 
 examples/operations_train.py --decides orders --size medium --robots 8 --out orders.npz
 
-Then in a policy file, for simulate or a running warehouse: orders: {name: learned, file: orders.npz}
+Then in a policy file, of simulate or a running warehouse:
+
+    orders: {name: learned, file: orders.npz}
+
 In the end it is measured beside the default policy, on shifts that it was not trained on.
 """
 
@@ -16,7 +19,7 @@ import time
 import numpy as np
 
 from warehouse_learning.operations_env import KivaOperationsEnv, run_shift, usual
-from warehouse_operations.policies.learned import FEATURES, SHORTLIST, Scorer
+from warehouse_operations.policies.learned import FEATURES, SHORTLIST, linear
 
 ELITE = 0.25  # of a generation, from which the next is drawn
 WIDTH = 0.5  # of the first generation, as a share of the weights
@@ -40,7 +43,9 @@ def main():
 
 def arguments():
     parser = argparse.ArgumentParser(
-        "operations_train", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        "operations_train",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--decides", choices=("orders", "units", "robots"), default="orders")
     parser.add_argument("--size", default="medium")
@@ -56,14 +61,8 @@ def arguments():
     return parser.parse_args()
 
 
-def scorer(weights):
-    """A Scorer of (FEATURES,) weights: a score is linear in what a candidate is like."""
-    nothing = np.zeros((FEATURES, 1)), np.zeros(1), np.zeros(1)
-    return Scorer([*nothing, weights])
-
-
 def imitated(env, shifts):
-    """(FEATURES,) weights by which the default policy's choices are likely, by logistic regression."""
+    """(FEATURES,) weights that make the default policy's choices likely: logistic regression."""
     rows, chosen = [], []
 
     def watch(decision):
@@ -97,7 +96,7 @@ def trained(env, wanted, mean):
         seeds = random.integers(HELD_OUT, size=wanted.shifts).tolist()
         drawn = mean + deviation * random.standard_normal((wanted.population, FEATURES))
         drawn[0] = mean
-        pieces = [np.mean(returns(env, scorer(weights), seeds)) for weights in drawn]
+        pieces = [np.mean(returns(env, linear(weights), seeds)) for weights in drawn]
         best = drawn[np.argsort(pieces)[::-1][: round(ELITE * wanted.population)]]
         mean = best.mean(0)
         # Some of the old width stays, or it narrows before it has found the way.
@@ -112,7 +111,7 @@ def trained(env, wanted, mean):
 
 
 def save(weights, wanted):
-    scorer(weights).save(wanted.out, wanted.decides, about=repr(vars(wanted)))
+    linear(weights).save(wanted.out, wanted.decides, about=repr(vars(wanted)))
 
 
 def returns(env, choose, seeds):
@@ -126,13 +125,15 @@ def compare(env, weights, count):
     policies = {
         "default": usual,
         "chance": lambda decision: int(random.integers(len(decision.keys))),
-        "learnt": scorer(weights),
+        "learnt": linear(weights),
     }
     of = {name: np.array(returns(env, choose, seeds)) for name, choose in policies.items()}
     for name, pieces in of.items():
         gain = pieces - of["default"]
         error = gain.std(ddof=1) / np.sqrt(count) if count > 1 else 0.0
-        print(f"{name:8} {pieces.mean():7.1f} pieces; {gain.mean():+.1f} ± {error:.1f} to the default")
+        print(
+            f"{name:8} {pieces.mean():7.1f} pieces; {gain.mean():+.1f} ± {error:.1f} to the default"
+        )
 
 
 if __name__ == "__main__":

@@ -83,7 +83,8 @@ def scripted(task, physics, count):
 def line(task, who, physics, seeds, steps, mean, band, seconds):
     time = f"{np.mean(seconds):.0f}" if np.any(seconds) else ""
     print(
-        f"| {task} | {who} | {physics} | {seeds} | {steps} | {mean:.1f} | {band} | {time} |", flush=True
+        f"| {task} | {who} | {physics} | {seeds} | {steps} | {mean:.1f} | {band} | {time} |",
+        flush=True,
     )
 
 

@@ -5,6 +5,7 @@
 examples/rware_train.py tiny-4ag                                # MAPPO, 20 million steps, seed 0
 examples/rware_train.py small-4ag --algorithm ippo --seeds 5 --out results
 examples/rware_train.py tiny-2ag --minutes 10                   # a part; the same command goes on
+examples/rware_train.py tiny-4ag --imitate 20000                # from the planner's example
 
 Each seed writes OUT/TASK-ALGORITHM-SEED.npz, a policy that warehouse_learning.watch shows, a
 .checkpoint.npz, from which the same command goes on, and .json, its learning curve.
@@ -13,6 +14,7 @@ examples/rware_results.py draws the curves and measures the policies.
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import gymnasium
@@ -27,6 +29,10 @@ def main():
     out = Path(wanted.out)
     out.mkdir(parents=True, exist_ok=True)
     settings = Settings(algorithm=wanted.algorithm, steps=wanted.steps)
+    if wanted.imitate:
+        # Gently: what was imitated is soon unlearnt.
+        gentle = {"imitation": wanted.imitate, "warm_up": 30, "rate": 7e-4, "entropy": 0.003}
+        settings = replace(settings, **gentle)
     for seed in range(wanted.first_seed, wanted.first_seed + wanted.seeds):
         train(wanted.task, settings, seed, out, wanted.minutes)
 
@@ -39,6 +45,13 @@ def arguments():
     parser.add_argument("--algorithm", choices=ALGORITHMS, default="mappo")
     parser.add_argument(
         "--steps", type=int, default=Settings.steps, help="of all environments (%(default)s)"
+    )
+    parser.add_argument(
+        "--imitate",
+        type=int,
+        default=0,
+        metavar="STEPS",
+        help="begin by imitating the fleet's planner (DAgger) in so many steps; 20000 will do",
     )
     parser.add_argument("--seeds", type=int, default=1, help="how many (1)")
     parser.add_argument("--first-seed", type=int, default=0)

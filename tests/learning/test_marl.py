@@ -26,9 +26,7 @@ QUICK = {"environments": 32, "rollout": 16, "steps": 30_000, "rate": 3e-3, "disc
 
 def training(seed=0, **settings):
     settings = QUICK | settings
-    envs = RwareVectorEnv(
-        settings["environments"], autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR
-    )
+    envs = RwareVectorEnv(settings["environments"], autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR)
     return Training(envs, Settings(**settings), seed, {"task": "floor"})
 
 
@@ -81,9 +79,7 @@ def test_the_planner_delivers_more_than_chance_and_without_a_stop():
     options = options_of("tiny-2ag") | {"max_steps": 200}
     returns = evaluation.episodes(evaluation.by_planner, 4, 3, **options)["returns"]
     assert returns.min() >= 5
-    with_bodies = evaluation.episodes(
-        evaluation.by_planner, 2, 3, physics="bodies", **options
-    )
+    with_bodies = evaluation.episodes(evaluation.by_planner, 2, 3, physics="bodies", **options)
     assert with_bodies["returns"].min() >= 4
     assert not with_bodies["collisions"].any()
 

@@ -79,7 +79,9 @@ class Browser:
     def _see(self, update):
         """Takes an update in, and answers as a page does."""
         if update[0] == protocol.SCAN:
-            self.scans[int(np.frombuffer(update, "<u4", 1, 4)[0])] = np.frombuffer(update, "<f4", -1, RAYS)
+            self.scans[int(np.frombuffer(update, "<u4", 1, 4)[0])] = np.frombuffer(
+                update, "<f4", -1, RAYS
+            )
             return
         self._send({"ack": 1})
         self.time = float(np.frombuffer(update, "<f8", 1, STAMP)[0])

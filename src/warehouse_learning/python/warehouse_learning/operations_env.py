@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The dispatcher of a whole shift as a Gymnasium environment: orders, stock and stations are those of
-warehouse_operations, and each step is one decision that a policy of a shift makes."""
+"""The dispatcher of a whole shift as a Gymnasium environment: orders, stock and stations are those
+of warehouse_operations, and each step is one decision that a policy of a shift makes."""
 
 import threading
 from collections.abc import Callable
@@ -14,7 +14,14 @@ from gymnasium import spaces
 from warehouse_learning.warehouses import ActionError
 from warehouse_operations import simulation
 from warehouse_operations.operations import Operations
-from warehouse_operations.policies.learned import FEATURES, SHORTLIST, Decision, Orders, Robots, Units
+from warehouse_operations.policies.learned import (
+    FEATURES,
+    SHORTLIST,
+    Decision,
+    Orders,
+    Robots,
+    Units,
+)
 
 ROLES = {"orders": Orders, "units": Units, "robots": Robots}
 DECIDES = ("units",)
@@ -150,15 +157,18 @@ class KivaOperationsEnv(gymnasium.Env):
         return info | {"kpis": operations.kpis()}
 
 
-class _Stopped(Exception):
+class _StoppedError(Exception):
     """Ends the thread of a shift whose environment goes on without it."""
 
 
 class _Shift:
-    """A shift in a thread that waits wherever a policy is to decide. One of the two threads runs."""
+    """A shift in a thread that waits where a policy is to decide: one of both threads runs."""
 
     def __init__(
-        self, description: simulation.Description, decides: tuple[str, ...], policies: dict[str, Any]
+        self,
+        description: simulation.Description,
+        decides: tuple[str, ...],
+        policies: dict[str, Any],
     ) -> None:
         chosen = dict(policies)
         for role in decides:
@@ -181,7 +191,7 @@ class _Shift:
     def _run(self):
         try:
             self.operations.run(seconds=self._seconds)
-        except _Stopped:
+        except _StoppedError:
             pass
         except BaseException as error:  # handed over to the environment's thread
             self._error = error
@@ -196,7 +206,7 @@ class _Shift:
         self._mine.release()
         self._theirs.acquire()
         if self._is_stopped:
-            raise _Stopped
+            raise _StoppedError
         return self._answer
 
     def next(self, answer: int | None = None) -> Decision | None:
@@ -220,7 +230,9 @@ class _Shift:
         self.operations.close()
 
 
-def run_shift(env: KivaOperationsEnv, choose: Callable[[Decision], int], seed: int) -> dict[str, Any]:
+def run_shift(
+    env: KivaOperationsEnv, choose: Callable[[Decision], int], seed: int
+) -> dict[str, Any]:
     """Plays an episode; returns its kpis, with the `return`, the sum of rewards."""
     env.reset(seed=seed)
     total, info = 0.0, {}

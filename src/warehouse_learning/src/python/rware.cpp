@@ -288,9 +288,10 @@ actions: a sequence of one an agent, without messages; written: rewards, (1, age
   rware.def("images", &Rware::images, py::arg("out"),
             "out: (count, agents, layers, width, width) float32.");
   rware.def("features", &Rware::features, py::arg("out"), "out: (count, agents, 6) float32.");
-  rware.def("begin", &Rware::begin, py::arg("which"), py::arg("actions"), py::arg("bodies"),
-            py::arg("current"),
-            R"(Lets agents that are at nothing begin an action that takes time, where that is possible.
+  rware.def(
+      "begin", &Rware::begin, py::arg("which"), py::arg("actions"), py::arg("bodies"),
+      py::arg("current"),
+      R"(Lets agents that are at nothing begin an action that takes time, where that is possible.
 
 actions, current: (count, agents) int8; current, 0 where an agent is at nothing, is written. What
 ends is told to step(), which makes it come true. bodies: neighbours turn one after the other.)");

@@ -21,7 +21,8 @@ class Undertaking {
   void begin(const Warehouse& warehouse, const std::int8_t* actions, std::int8_t* current);
 
  private:
-  bool mayBegin(const Warehouse& warehouse, int agent, int action, const std::int8_t* current) const;
+  bool mayBegin(const Warehouse& warehouse, int agent, int action,
+                const std::int8_t* current) const;
   bool mayGo(const Warehouse& warehouse, int agent) const;
   bool mayTurn(const Warehouse& warehouse, int agent, const std::int8_t* current) const;
 

@@ -63,10 +63,9 @@ class Adam:
         scale = np.float32(min(1.0, self.norm / (norm + 1e-8)))
         self.steps += 1
         c1, c2 = 1 - 0.9**self.steps, 1 - 0.999**self.steps
-        for parameter, mean, square, slope in zip(
-            self.parameters, self.mean, self.square, slopes
-        ):
-            scaled = slope * scale
+        for i, slope in enumerate(slopes):
+            scaled, mean, square = slope * scale, self.mean[i], self.square[i]
             mean += np.float32(0.1) * (scaled - mean)
             square += np.float32(0.001) * (scaled * scaled - square)
-            parameter -= np.float32(rate / c1) * mean / (np.sqrt(square / np.float32(c2)) + 1e-8)
+            step = mean / (np.sqrt(square / np.float32(c2)) + 1e-8)
+            self.parameters[i] -= np.float32(rate / c1) * step

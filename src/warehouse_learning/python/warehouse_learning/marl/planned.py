@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""RWARE's task as the fleet's own planner does it, EPIBT: it sees the whole warehouse, and tells every
-robot what to do. What learning without that view compares with."""
+"""RWARE's task as the fleet's own planner does it, EPIBT: it sees the whole warehouse, and tells
+every robot what to do. What learning without that view compares with."""
 
 from typing import Any
 
@@ -11,8 +11,10 @@ from warehouse_fleet import Fleet, Rules, epibt
 from warehouse_layout import Floor
 from warehouse_learning.rware.task import Action, Direction, Task
 
-# Rows count downwards in RWARE: the planner's y is the row, and +x towards +y is a turn to the right.
-HEADING = np.array([{Direction.RIGHT: 0, Direction.DOWN: 1, Direction.LEFT: 2}.get(d, 3) for d in Direction])
+# Rows count downwards in RWARE: the planner's y is the row, +x towards +y a turn to the right.
+HEADING = np.array(
+    [{Direction.RIGHT: 0, Direction.DOWN: 1, Direction.LEFT: 2}.get(d, 3) for d in Direction]
+)
 ACTION = {
     Tick.WAIT: Action.NOOP,
     Tick.FORWARD: Action.FORWARD,
@@ -61,7 +63,9 @@ class Planned:
 
     def _home(self, cell):
         """The storage place that a loaded robot may enter: where it stores, or leaves from."""
-        return np.where(self._stores != NONE, self._stores, np.where(self._highway[cell], NONE, cell))
+        return np.where(
+            self._stores != NONE, self._stores, np.where(self._highway[cell], NONE, cell)
+        )
 
     def _goal(self, cell, shelf):
         """The cell that each robot goes to: a requested shelf, a goal, a free storage place."""
@@ -83,7 +87,7 @@ class Planned:
     def _assign(self, waiting, cell, shelf, shelves):
         """The nearest pairs first, of shelves and robots without a load, until one side is out."""
         self._fetches[shelf < 0] = NONE
-        free = [robot for robot in np.flatnonzero(shelf < 0)]
+        free = np.flatnonzero(shelf < 0).tolist()
         pairs = sorted(
             (int(self._apart(cell[robot], shelves[asked])), robot, asked)
             for robot in free
@@ -96,7 +100,7 @@ class Planned:
                 taken.add(asked)
 
     def _place(self, robot, cell, shelves):
-        """The free storage place where a robot puts its shelf: the one it has chosen, or the nearest."""
+        """The free storage place for a robot's shelf: the one it has chosen, or the nearest."""
         if self._stores[robot] == NONE:
             free = np.setdiff1d(np.flatnonzero(~self._highway), shelves)
             free = np.setdiff1d(free, self._stores)

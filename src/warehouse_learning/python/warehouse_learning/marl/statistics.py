@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several trainings say together: intervals by the stratified bootstrap (Agarwal et al., "Deep
-Reinforcement Learning at the Edge of the Statistical Precipice", NeurIPS 2021): seeds are drawn with
-replacement within each task, and the statistic of each draw is looked at."""
+"""What several trainings say together: intervals by the stratified bootstrap (Agarwal et al.,
+"Deep Reinforcement Learning at the Edge of the Statistical Precipice", NeurIPS 2021): seeds
+are drawn with replacement within each task, and the statistic of each draw is looked at."""
 
 from collections.abc import Callable, Sequence
 

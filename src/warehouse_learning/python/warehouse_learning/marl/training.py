@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""IPPO and MAPPO: proximal policy optimisation (Schulman et al., 2017) of one network that all robots
-share. In IPPO (de Witt et al., 2020) a critic judges by what its robot observes, in MAPPO (Yu et
-al., 2022) by what all observe together; it has a value for each robot then."""
+"""IPPO and MAPPO: proximal policy optimisation (Schulman et al., 2017) of one network that all
+robots share. In IPPO (de Witt et al., 2020) a critic judges by what its robot observes, in MAPPO
+(Yu et al., 2022) by what all observe together; it has a value for each robot then."""
 
 import json
 import time
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_learning.marl.encoding import Encoder
+from warehouse_learning.marl.imitation import imitate
 from warehouse_learning.marl.mlp import Adam, Mlp
 from warehouse_learning.marl.policy import ACTIONS, GridPolicy, drawn
 
@@ -35,6 +36,14 @@ class Settings:
     clip: float = 0.2
     entropy: float = 0.01  # falls to a tenth
     hidden: int = 64
+    imitation: int = 0  # steps of the planner that are imitated before
+    warm_up: int = 0  # updates in which the critic alone learns
+
+    def __post_init__(self) -> None:
+        if self.algorithm not in ALGORITHMS:
+            raise ValueError(
+                f"algorithm is {self.algorithm!r}; one of {', '.join(ALGORITHMS)} was expected"
+            )
 
     def falling(self, value: float, done: int) -> float:
         """Returns what is left of a value after `done` steps: a tenth at the end."""
@@ -49,10 +58,6 @@ class Training:
     """
 
     def __init__(self, envs: Any, settings: Settings, seed: int, about: dict[str, Any]) -> None:
-        if settings.algorithm not in ALGORITHMS:
-            raise ValueError(
-                f"algorithm is {settings.algorithm!r}; one of {', '.join(ALGORITHMS)} was expected"
-            )
         self.settings, self.seed, self.about = settings, seed, about
         self.random = np.random.default_rng(seed)
         self._envs = envs
@@ -100,6 +105,10 @@ class Training:
         """
         end = time.monotonic() + 60 * minutes
         told = time.monotonic()
+        if self.settings.imitation and not self.done:
+            begin = time.process_time()
+            imitate(self.actor, self.encoder, self._envs.task, self.settings.imitation, self.seed)
+            self.seconds += time.process_time() - begin
         while self.done < self.settings.steps and time.monotonic() < end:
             begin = time.process_time()
             self._update()
@@ -201,10 +210,12 @@ class Training:
             )
         }
         rate = settings.falling(settings.rate, self.done)
+        per_update = settings.epochs * settings.minibatches
         for _ in range(settings.epochs):
             for rows in np.array_split(self.random.permutation(size), settings.minibatches):
                 part = {name: array[rows] for name, array in flat.items()}
-                self._optimisers[0].step(self._actor_slopes(part), rate)
+                if self._optimisers[1].steps >= settings.warm_up * per_update:
+                    self._optimisers[0].step(self._actor_slopes(part), rate)
                 self._optimisers[1].step(self._critic_slopes(part), rate)
 
     def _actor_slopes(self, part):
@@ -246,7 +257,7 @@ class Training:
             "seed": self.seed,
             "done": self.done,
             "seconds": self.seconds,
-            "updates": self._optimisers[0].steps,
+            "updates": [optimiser.steps for optimiser in self._optimisers],
             "curve": self.curve,
             "random": self.random.bit_generator.state,
         }
@@ -255,21 +266,24 @@ class Training:
         half.replace(path)
 
     def restore(self, path: Path) -> None:
-        """Goes on from a checkpoint; episodes begin again. Raises ValueError for another training's."""
+        """Goes on from a checkpoint; episodes begin again.
+
+        Raises ValueError for that of another training.
+        """
         with np.load(path, allow_pickle=False) as content:
             state = json.loads(str(content["state"]))
             ours = asdict(self.settings)
             for name, value in state["settings"].items():
                 if ours[name] != value:
                     raise ValueError(f"{path}: its {name} is {value}, not {ours[name]}")
-            for name, network, optimiser in zip(
-                ("actor", "critic"), (self.actor, self.critic), self._optimisers
+            for name, network, optimiser, steps in zip(
+                ("actor", "critic"), (self.actor, self.critic), self._optimisers, state["updates"]
             ):
                 parts = network.parameters, optimiser.mean, optimiser.square
                 for kind, arrays in zip(("weight", "mean", "square"), parts):
                     for i, array in enumerate(arrays):
                         array[:] = content[f"{name}_{kind}_{i}"]
-                optimiser.steps = state["updates"]
+                optimiser.steps = steps
         self.done, self.seconds = state["done"], state["seconds"]
         self.curve = [tuple(row) for row in state["curve"]]
         self.random.bit_generator.state = state["random"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""RWARE's task where actions take time: "ideal", robots that accelerate and turn and meet nothing, and
-"bodies", robots of the warehouse's physics, which lift real storage units and could collide.
+"""RWARE's task where actions take time: "ideal", robots that accelerate and turn and meet nothing,
+and "bodies", robots of the warehouse's physics, which lift real storage units and could collide.
 
 An action comes true when it ends; until then its robot stands where it stood for all others, and
 holds the cell that it goes to. Observations, rewards and the random stream are RWARE's own.
@@ -225,7 +225,7 @@ def motion_of(
     is_time = isinstance(decision, int | float) and not isinstance(decision, bool)
     if decision != "action" and not (is_time and STEP <= decision <= LONGEST):
         raise ValueError(
-            f'decision is {decision!r}; "action" or seconds from {STEP} to {LONGEST:g} were expected'
+            f'decision is {decision!r}; "action" or seconds were expected, {STEP} to {LONGEST:g}'
         )
     if physics == "grid":
         return None

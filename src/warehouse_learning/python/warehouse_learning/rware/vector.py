@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many warehouses of RWARE in arrays, stepped on all cores in one call."""
 
+from dataclasses import fields
 from typing import Any
 
 import gymnasium
@@ -52,6 +53,12 @@ class RwareVectorEnv(VectorEnv):
         self._messages = np.zeros((num_envs, task.n_agents, task.msg_bits), np.float32)
         self._ended = np.zeros(num_envs, bool)
         self._is_seeded = np.zeros(num_envs, bool)
+
+    @classmethod
+    def of_task(cls, num_envs: int, task: Task, **options: Any) -> "RwareVectorEnv":
+        """Returns environments of a Task; options as of the class, but for the task's."""
+        known = {f.name: getattr(task, f.name) for f in fields(task) if f.init}
+        return cls(num_envs, **known, **options)
 
     def reset(
         self, *, seed: Any = None, options: dict[str, Any] | None = None

@@ -32,7 +32,7 @@ LATE = 1800.0  # until an order is due, or since it came, that counts as 1 [s]
 
 
 class Decision(NamedTuple):
-    """What is to be decided: `role`, and `rows` (n, FEATURES) float32 of what may be chosen, `keys`.
+    """What is to be decided: `role`, and of what may be chosen, `keys`, `rows` (n, FEATURES).
 
     usual: the index that the default policy of the role would take.
     """
@@ -42,6 +42,14 @@ class Decision(NamedTuple):
     rows: np.ndarray
     usual: int
 
+
+# Straight weights that come along, learnt from the default policies by
+# examples/operations_train.py --size medium --robots 8 --imitated 4 --generations 0.
+TRAINED = {
+    "orders": (7.274, 2.849, -2.778, -0.439, 4.38, -3.059, 17.897, -4.093),
+    "units": (-0.288, 24.193, 5.427, 6.569, -14.594, -25.425, -7.004, 0.0),
+    "robots": (-10.842, -10.842, -1.383, -6.428, -26.658, 0.0, 0.0, 0.0),
+}
 
 Choose = Callable[[Decision], int]  # returns an index into keys
 
@@ -59,7 +67,7 @@ class Units:
 
 
 class Orders:
-    """Chooses a station's next order: those that its units on the way serve best, and urgent ones."""
+    """Chooses a station's next order: those that its units on the way serve, and urgent ones."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -223,11 +231,24 @@ class Scorer:
         )
 
 
+def scorer_of(file: str | Path, role: str) -> Scorer:
+    """Returns the Scorer of a file, or, without one, that which comes along. Raises ValueError."""
+    if file:
+        return load(file, role)
+    return linear(TRAINED[role])
+
+
+def linear(weights: Sequence[float]) -> Scorer:
+    """Returns a Scorer whose scores are linear in what a candidate is like, (FEATURES,) weights."""
+    nothing = np.zeros((FEATURES, 1)), np.zeros(1), np.zeros(1)
+    return Scorer([*nothing, np.array(weights, float)])
+
+
 SHAPES = {"into": (FEATURES, -1), "bias": (-1,), "out": (-1,), "straight": (FEATURES,)}
 
 
 def load(path: str | Path, role: str) -> Scorer:
-    """Returns the Scorer of a file for a role. Raises ValueError that names what is wrong with it."""
+    """Returns the Scorer of a file for a role. Raises ValueError that names what is wrong."""
     try:
         with np.load(path, allow_pickle=False) as content:
             if str(content["format"]) != FORMAT:
@@ -250,28 +271,31 @@ def _checked(array, name):
 class LearnedUnits(Units):
     """Takes the unit that a trained network scores best.
 
-    file: .npz, as KivaOperations-v0's training writes it for `units`.
+    file: .npz, as examples/operations_train.py writes it for `units`; without one, the network
+    that comes along.
     """
 
-    def __init__(self, file: str) -> None:
-        super().__init__(load(file, "units"))
+    def __init__(self, file: str = "") -> None:
+        super().__init__(scorer_of(file, "units"))
 
 
 class LearnedOrders(Orders):
     """Takes the order that a trained network scores best, or none for now.
 
-    file: .npz, as KivaOperations-v0's training writes it for `orders`.
+    file: .npz, as examples/operations_train.py writes it for `orders`; without one, the network
+    that comes along.
     """
 
-    def __init__(self, file: str) -> None:
-        super().__init__(load(file, "orders"))
+    def __init__(self, file: str = "") -> None:
+        super().__init__(scorer_of(file, "orders"))
 
 
 class LearnedRobots(Robots):
     """Gives each task the robot that a trained network scores best.
 
-    file: .npz, as KivaOperations-v0's training writes it for `robots`.
+    file: .npz, as examples/operations_train.py writes it for `robots`; without one, the network
+    that comes along.
     """
 
-    def __init__(self, file: str) -> None:
-        super().__init__(load(file, "robots"))
+    def __init__(self, file: str = "") -> None:
+        super().__init__(scorer_of(file, "robots"))

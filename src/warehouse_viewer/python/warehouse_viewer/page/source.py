@@ -36,7 +36,7 @@ class Feed(Protocol):
         scan<id>      sensor_msgs/LaserScan of that robot
         requested     numbers of the storage units that those who learn are asked for
 
-    The last but one, and the three before it, come only after subscribe_extras() has asked for them, if at all.
+    paths, ways, frames and scans come only after subscribe_extras() has asked for them, if at all.
     """
 
     def __getitem__(self, name: str) -> Any: ...

@@ -123,7 +123,7 @@ class WorldFeed:
 
 
 def _mounts(world):
-    """Where lasers are on robots, laid out as tf2_msgs/TFMessage's transforms; none without them."""
+    """Where lasers are on robots, laid out as a TFMessage's transforms; none without them."""
     if not len(world.fleet) or not world.scans(world.fleet.kiva_id[:1]).shape[1]:
         return []
     place = SimpleNamespace(
