@@ -16,7 +16,8 @@ from wsproto import ConnectionType, WSConnection  # noqa: E402
 from wsproto.events import BytesMessage, Request, TextMessage  # noqa: E402
 
 import warehouse_learning  # noqa: E402
-from warehouse_learning import episodes, watch  # noqa: E402
+from warehouse_learning import episodes, rware, watch  # noqa: E402
+from warehouse_learning.marl import policy  # noqa: E402
 from warehouse_learning.page import Page  # noqa: E402
 from warehouse_learning.warehouses import Warehouses  # noqa: E402
 from warehouse_viewer.page import protocol  # noqa: E402
@@ -174,6 +175,22 @@ def test_a_saved_episode_is_played_as_it_was(tmp_path):
     browser.until(lambda: browser.time >= env.world.time - 1e-9)
     browser.close()
     page.close()
+
+
+def test_a_trained_policy_drives_on_the_page():
+    trained = policy.load("tiny-4ag")
+    env = rware.Warehouse(physics="bodies", **rware.options_of("tiny-4ag") | {"max_steps": 60})
+    env.reset(seed=1)
+    page = Page(env.motion.worlds[0], "tiny-4ag", speed=0)
+    browser = Browser(page.url)
+    try:
+        assert len(browser.told("scene")["units"]) == 32
+        assert watch.drive(page, env, trained, seed=1) >= 1
+        browser.until(lambda: browser.time >= env.motion.time[0] - 1e-9)
+        assert sorted(browser.told("requested")["units"]) != []
+    finally:
+        browser.close()
+        page.close()
 
 
 def test_requests_and_lasers_are_shown():

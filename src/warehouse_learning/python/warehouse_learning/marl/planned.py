@@ -80,8 +80,9 @@ class Planned:
         self._stores[(shelf < 0) | delivers] = NONE
         for robot in np.flatnonzero(delivers):
             goal[robot] = self._goals[self._apart(cell[robot], self._goals).argmin()]
+        standing = np.delete(shelves, shelf[shelf >= 0])
         for robot in np.flatnonzero((shelf >= 0) & ~delivers):
-            goal[robot] = self._place(robot, cell[robot], shelves)
+            goal[robot] = self._place(robot, cell[robot], standing)
         return goal
 
     def _assign(self, waiting, cell, shelf, shelves):
@@ -99,13 +100,11 @@ class Planned:
                 self._fetches[robot] = asked
                 taken.add(asked)
 
-    def _place(self, robot, cell, shelves):
-        """The free storage place for a robot's shelf: the one it has chosen, or the nearest."""
-        if self._stores[robot] == NONE:
-            free = np.setdiff1d(np.flatnonzero(~self._highway), shelves)
+    def _place(self, robot, cell, standing):
+        """The storage place for a robot's shelf, where none stands: as chosen, or the nearest."""
+        if self._stores[robot] == NONE or self._stores[robot] in standing:
+            free = np.setdiff1d(np.flatnonzero(~self._highway), standing)
             free = np.setdiff1d(free, self._stores)
-            if not self._highway[cell]:
-                free = np.append(free, cell)
             self._stores[robot] = free[self._apart(cell, free).argmin()]
         return self._stores[robot]
 
