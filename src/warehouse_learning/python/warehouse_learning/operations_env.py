@@ -55,7 +55,7 @@ class KivaOperationsEnv(gymnasium.Env):
     policy would take, `time` [s] and at the end `kpis`, as in kpis.json.
     """
 
-    metadata = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": []}
 
     def __init__(
         self,
@@ -87,6 +87,7 @@ class KivaOperationsEnv(gymnasium.Env):
         )
         self.action_space = spaces.Discrete(SHORTLIST)
         self._shift: _Shift | None = None
+        self._operations: Operations | None = None
         self._decision: Decision | None = None
 
     def reset(
@@ -100,7 +101,7 @@ class KivaOperationsEnv(gymnasium.Env):
         self.close()
         drawn = int(self.np_random.integers(2**31)) if seed is None else seed
         self._shift = _Shift(self._described(drawn), self.decides, self._policies)
-        self._picked = 0
+        self._operations, self._picked = self._shift.operations, 0
         self._decision = self._shift.next()
         return self._observation(), self._info()
 
@@ -150,7 +151,7 @@ class KivaOperationsEnv(gymnasium.Env):
         return {"role": role, "candidates": candidates, "mask": mask}
 
     def _info(self):
-        operations = self._shift.operations
+        operations: Any = self._operations
         info = {"action_mask": self.action_masks().astype(np.int8), "time": operations.time}
         if self._decision:
             return info | {"usual": self._decision.usual}
@@ -235,7 +236,8 @@ def run_shift(
 ) -> dict[str, Any]:
     """Plays an episode; returns its kpis, with the `return`, the sum of rewards."""
     env.reset(seed=seed)
-    total, info = 0.0, {}
+    total = 0.0
+    info: dict[str, Any] = {}
     while env.decision:
         _, reward, _, _, info = env.step(choose(env.decision))
         total += reward

@@ -104,7 +104,8 @@ def _watch_policy(wanted):
     task = trained.about["task"]
     env = Warehouse(physics="bodies", **options_of(task))
     env.reset(seed=wanted.seed)
-    with _open(env.motion.worlds[0], f"{task}, by {wanted.policy}", wanted.speed) as page:
+    bodies: Any = env.motion
+    with _open(bodies.worlds[0], f"{task}, by {wanted.policy}", wanted.speed) as page:
         for seed in itertools.count(wanted.seed):
             print(f"episode {seed}: {drive(page, env, trained, seed):g} delivered; Ctrl-C ends it")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A network learns what the fleet's planner would do, in states that it comes to itself: DAgger (Ross
-et al., 2011). So a training can begin with robots that deliver, where chance hardly ever does."""
+"""A network learns what the fleet's planner would do, in states that it comes to itself: DAgger
+(Ross et al., 2011). So a training can begin with robots that deliver, where chance hardly ever
+does."""
 
 from typing import Any
 
@@ -19,7 +20,7 @@ LATE_PASSES = 12  # in the end
 
 
 def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> None:
-    """Lets an actor imitate the planner in `steps` steps of RWARE's task, all environments together.
+    """Lets an actor imitate the planner in so many steps of RWARE's task, all environments'.
 
     In the first round the planner drives, then the network more and more.
     """

@@ -213,6 +213,11 @@ def _worlds(task, n, threads):
     return Worlds.of([first, *others], threads), checkpoint
 
 
+def _is_time(decision: Any) -> bool:
+    is_number = isinstance(decision, int | float) and not isinstance(decision, bool)
+    return is_number and bool(STEP <= decision <= LONGEST)
+
+
 def motion_of(
     physics: str, task: Task, warehouses: Any, n: int, decision: float | str, threads: int = 1
 ) -> Motion | None:
@@ -222,8 +227,7 @@ def motion_of(
     """
     if physics not in PHYSICS:
         raise ValueError(f"physics is {physics!r}; one of {', '.join(PHYSICS)} was expected")
-    is_time = isinstance(decision, int | float) and not isinstance(decision, bool)
-    if decision != "action" and not (is_time and STEP <= decision <= LONGEST):
+    if decision != "action" and not _is_time(decision):
         raise ValueError(
             f'decision is {decision!r}; "action" or seconds were expected, {STEP} to {LONGEST:g}'
         )

@@ -8,7 +8,7 @@ A Decision is what such a policy sees: a row of FEATURES numbers for each candid
 doc/how-to/learning.md for what they mean.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -137,7 +137,7 @@ def decision_on_order(station: WorkStation, view: "View") -> Decision:
     return Decision("orders", keys, np.array(rows, np.float32), keys.index(usual))
 
 
-def _orders_near(station, view, usual):
+def _orders_near(station: WorkStation, view: "View", usual: Order | None) -> list[Order]:
     """Up to SHORTLIST - 1 orders in stock, the default's first, then those of inbound SKUs."""
     found: dict[int, Order] = {} if usual is None else {usual.order_id: usual}
     served = (order for sku in station.inbound_stock() for order in view.backlog.with_sku(sku))
@@ -150,7 +150,9 @@ def _orders_near(station, view, usual):
     return list(found.values())
 
 
-def _order_row(order, inbound, here, now):
+def _order_row(
+    order: Order, inbound: Mapping[str, int], here: Mapping[str, int], now: float
+) -> list[float]:
     pieces = max(order.pieces, 1)
     served = sum(min(line.open, inbound.get(line.sku, 0)) for line in order.lines)
     at_once = sum(min(line.open, here.get(line.sku, 0)) for line in order.lines)
@@ -260,7 +262,7 @@ def load(path: str | Path, role: str) -> Scorer:
         raise ValueError(f"file: {path}: {error}") from error
 
 
-def _checked(array, name):
+def _checked(array: np.ndarray, name: str) -> np.ndarray:
     expected = SHAPES[name]
     fits = array.ndim == len(expected) and array.dtype.kind == "f" and np.isfinite(array).all()
     if not fits or (expected[0] == FEATURES and array.shape[0] != FEATURES):
