@@ -36,7 +36,8 @@ DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, const Tab
   }
   prices_.update(edges);
   for (int thread = 0; thread < threads.count(); ++thread) {
-    searches_.push_back(std::make_unique<DistanceSearch>(floor, edges, prices_, options.turn_ticks));
+    searches_.push_back(
+        std::make_unique<DistanceSearch>(floor, edges, prices_, options.turn_ticks));
   }
 }
 

@@ -95,8 +95,8 @@ class DistanceTables {
   const DistanceTable* find(Deck deck, Cell from, Cell goal, bool is_urgent);
 
   /// Renews some of the tables that were found in this step, of so many states, or fewer where new
-  /// tables took much of the step: the urgent and the oldest first, that are older than `max_age` or
-  /// of earlier edges.
+  /// tables took much of the step: the urgent and the oldest first, that are older than `max_age`
+  /// or of earlier edges.
   void renew(int max_age, std::int64_t work);
 
   /// Makes the tables of all regions ahead of need, as long as `goes_on` says so and there is room.

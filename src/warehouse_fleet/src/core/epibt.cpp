@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <string>
@@ -43,7 +43,6 @@ void inRange(const char* name, int value, int least, int most) {
   throw FloorError(std::string(name) + " " + std::to_string(value) + "; " + std::to_string(least) +
                    " to " + std::to_string(most) + " was expected");
 }
-
 
 class Epibt : public Planner {
  public:
@@ -111,8 +110,8 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
       floor, closures_->edges(),
       TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to}, threads_);
   measuring_ = std::make_unique<Measuring>(
-      floor,
-      MeasuringOptions{options_.table_work, options_.renewal_work, options_.renewal_age}, *tables_);
+      floor, MeasuringOptions{options_.table_work, options_.renewal_work, options_.renewal_age},
+      *tables_);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
   yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   dead_ends_ = std::make_unique<DeadEnds>(floor);

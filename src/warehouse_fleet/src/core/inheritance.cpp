@@ -25,8 +25,7 @@ void Inheritance::findRest(int robot) {
   const Begin& begin = begins_[robot];
   bool is_as_planned = false, is_known = false;
   if (begin.state.cell != kNowhere && begin.deck == wish.deck) {
-    rests_[robot] =
-        candidates_.rest(reserved_.path(robot), begin.state, wish, is_as_planned);
+    rests_[robot] = candidates_.rest(reserved_.path(robot), begin.state, wish, is_as_planned);
     is_known = candidates_.canDrive(rests_[robot], wish);
   }
   if (!is_known) rests_[robot] = candidates_.standing(wish);

@@ -16,8 +16,8 @@ namespace fleet {
 class Inheritance {
  public:
   /// All references must outlive it.
-  Inheritance(const std::vector<Wish>& wishes, const Candidates& candidates,
-              Reservations& reserved, const Threads& threads)
+  Inheritance(const std::vector<Wish>& wishes, const Candidates& candidates, Reservations& reserved,
+              const Threads& threads)
       : wishes_(wishes), candidates_(candidates), reserved_(reserved), threads_(threads) {}
 
   /// Gives each robot the rest of its path, if it still can be driven. If a robot is not where its

@@ -55,8 +55,7 @@ void WindowSearch::adopt(const Reservations& reserved, int horizon) {
     WindowPath path;
     path.states[0] = wishes_[robot].state;
     for (int tick = 0; tick < paths_.ticks(); ++tick) {
-      const Action action =
-          tick < horizon ? reserved.path(robot).actions[tick] : Action::kWait;
+      const Action action = tick < horizon ? reserved.path(robot).actions[tick] : Action::kWait;
       path.states[tick + 1] = after(floor_, path.states[tick], action);
     }
     path.cost = costOf(wishes_[robot], path);

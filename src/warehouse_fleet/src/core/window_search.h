@@ -2,8 +2,8 @@
 //
 // For few robots and much time: a large-neighbourhood search over windows of many ticks. Some
 // robots that are in each other's way lose their paths and get others, one after the other by A*
-// among the paths that stay; kept if all paths together cost no more (Jiang et al., Scaling Lifelong
-// Multi-Agent Path Finding to More Realistic Settings, 2024, have windows of that kind).
+// among the paths that stay; kept if all paths together cost no more (Jiang et al., Scaling
+// Lifelong Multi-Agent Path Finding to More Realistic Settings, 2024, have windows of that kind).
 #pragma once
 
 #include <functional>
