@@ -7,8 +7,8 @@ scripts/learning_packages; . devel/setup.bash; .venv/bin/python bench/rware_benc
 
 A TASK is one that rware registers, without rware- and -v2. Both get the same random actions, drawn
 before the clock starts. The same task where actions take time is `ideal` and, with robots of the
-physics, `bodies`, on one thread. By CPU tells how many times the steps of one core are. Beside it stands
-what is asked for and whether that is met; if any is not, it ends with 1.
+physics, `bodies`, on one thread. By CPU tells how many times the steps of one core are. Beside it
+stands what is asked for and whether that is met; if any is not, it ends with 1.
 """
 
 import argparse
