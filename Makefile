@@ -50,6 +50,7 @@ test-long: build  ## fleets at work, seed after seed, with and without faults, a
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
 	../scripts/axe; ../scripts/screens; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
