@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench docs docs-test wheel lint tidy format install clean
+.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -13,7 +13,6 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 JOBS ?= $(shell nproc)
 PREFIX ?= install
 SEEDS ?= 20
-RELEASE ?= trixie
 BUILD = cmake --build build -j$(JOBS)
 # If make is killed, what it started still ends. roslaunch asks for distutils, in whose place it would
 # get all of setuptools, half of its time to start.
@@ -68,7 +67,13 @@ test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half a
 	@scripts/test-sanitizers
 
 test-debian:  ## every test on a bare Debian of another release; make test-debian RELEASE=trixie
-	@scripts/test-debian $(RELEASE)
+	@scripts/test-debian $(or $(RELEASE),trixie)
+
+deb:  ## Debian packages for this release, into dist/deb/
+	@scripts/deb $(RELEASE)
+
+test-deb: deb  ## install the packages on a bare Debian and use them
+	@scripts/test-deb $(RELEASE)
 
 test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install
