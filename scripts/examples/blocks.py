@@ -13,11 +13,11 @@ ROOT = Path(__file__).resolve().parents[2]
 NOTE = re.compile(r"<!-- example: (.*?) -->")
 BLOCK = re.compile(
     r"(?P<notes>(?:^ *<!-- example: .*? -->\s*)*)"
-    r"^(?P<indent> *)```(?P<language>[\w-]*)\n(?P<text>.*?)^ *```$",
+    r"^(?P<indent> *)```(?P<language>[^\n]*)\n(?P<text>.*?)^ *```$",
     re.M | re.S,
 )
 NOTES = ("skip needs file beside ready before start stop wait expect patience").split()
-SHOWN = ("text",)  # drawings, formulas and output: there is nothing to run
+SHOWN = ("text", "dot", "mermaid")  # drawings, formulas and output: there is nothing to run
 
 
 class Example(NamedTuple):
@@ -48,6 +48,8 @@ def examples(of: Iterable[Path]) -> Iterator[Example]:
     for page in of:
         text = page.read_text()
         for found in BLOCK.finditer(text):
+            if found["language"].startswith("{"):  # a directive of Sphinx
+                continue
             line = text.count("\n", 0, found.start("language")) + 1
             body = textwrap.dedent(found["text"])
             one = Example(page, line, found["language"], body, {})
@@ -56,10 +58,10 @@ def examples(of: Iterable[Path]) -> Iterator[Example]:
 
 
 def _note(example, text):
-    name, _, value = text.partition(": ")
+    name, _, value = text.partition(":")
     if name not in NOTES:
         raise ValueError(f"{example.place}: example: {name}: one of {', '.join(NOTES)} expected")
-    return name, value
+    return name, value.strip()
 
 
 def check(example: Example) -> None:

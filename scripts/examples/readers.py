@@ -3,14 +3,16 @@
 
 import contextlib
 import io
+import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from pathlib import Path
 
 import yaml
 
-from examples.blocks import Example, SkippedError, check
+from examples.blocks import ROOT, Example, SkippedError, check
 
 OUTSIDE = ("gymnasium", "pettingzoo", "ray", "torch", "stable_baselines3")  # of Debian
 
@@ -19,21 +21,38 @@ class Pythons:
     """Runs Python; blocks of a page share their names."""
 
     def __init__(self) -> None:
-        self._page, self._names = None, {}
+        self._page, self._names, self._so_far = None, {}, ""
 
     def run(self, example: Example) -> None:
         """Runs a block. Raises what it raises; SkippedError where a package is missing."""
         if example.page != self._page:
-            self._page, self._names = example.page, {"__name__": "example"}
+            self._page, self._names, self._so_far = example.page, {"__name__": "example"}, ""
         check(example)
+        text = f"{example.notes.get('before', '')}\n{example.text}"
+        self._so_far += text
         try:
-            for text in (example.notes.get("before", ""), example.text):
-                with contextlib.redirect_stdout(io.StringIO()):
-                    exec(compile(text, example.place, "exec"), self._names)
+            with contextlib.redirect_stdout(io.StringIO()):
+                exec(compile(text, example.place, "exec"), self._names)
         except ModuleNotFoundError as error:
-            if error.name.partition(".")[0] in OUTSIDE:
-                raise SkippedError(f"{error.name} is not in Debian") from error
-            raise
+            if error.name.partition(".")[0] not in OUTSIDE:
+                raise
+            self._run_outside(error.name)
+
+    def _run_outside(self, package):
+        """Runs the page so far in .venv, where scripts/learning_packages brings what Debian lacks."""
+        python = ROOT / ".venv/bin/python"
+        if not any(ROOT.glob(f".venv/lib/*/site-packages/{package.partition('.')[0]}")):
+            raise SkippedError(f"{package} is not in Debian; scripts/learning_packages brings some")
+        command = [python, "-c", self._so_far]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise ValueError(done.stderr[-2000:])
+
+
+def read_xml(example: Example) -> None:
+    """Parses a part of a world's or a model's file. Raises ParseError."""
+    check(example)
+    ElementTree.fromstring(f"<part>{example.text}</part>")
 
 
 def read_yaml(example: Example) -> None:
@@ -51,6 +70,16 @@ def read_yaml(example: Example) -> None:
         reader(file)
 
 
+@contextlib.contextmanager
+def _found(folder):
+    """Has modules of a folder found."""
+    sys.path.insert(0, folder)
+    try:
+        yield
+    finally:
+        sys.path.remove(folder)
+
+
 def _layout(file):
     from warehouse_layout import file_check, layout_file
 
@@ -60,13 +89,10 @@ def _layout(file):
 
 
 def _policies(file):
-    sys.path.insert(0, "")  # a policy of the page's own
-    try:
-        from warehouse_operations.policies import Policies
+    from warehouse_operations.policies import Policies
 
+    with _found(""):  # a policy of the page's own
         Policies.read(file)
-    finally:
-        sys.path.remove("")
 
 
 def _realism(file):
@@ -93,10 +119,21 @@ def _robots(file):
     read(file)
 
 
+def _planner(file):
+    import numpy as np
+
+    from warehouse_fleet import Floor, Rules
+    from warehouse_fleet.planner_plugins import make_planner
+
+    with _found("src/warehouse_fleet/examples"):
+        make_planner(Floor(np.ones((4, 4), bool)), Rules(), 1, yaml.safe_load(file.read_text()))
+
+
 READERS: dict[str, Callable[[Path], None]] = {
     "layout": _layout,
     "seeds": _sweep,
     "orders": _policies,
     "localisation": _realism,
     "walls": _layers,
+    "planner": _planner,
 }

@@ -231,6 +231,26 @@ def test_each_refusal_is_listed():
     assert "it carries nothing" in written and "is off the grid of … m" in written
 
 
+def test_each_refusal_says_what_to_do():
+    lacking = [
+        f"{package}: {sentence}"
+        for package, found in events.refusals().items()
+        for sentence, _ in found
+        if not events.advice(package, sentence)
+    ]
+    assert not lacking, "scripts/reference/advice.txt has no line for these"
+
+
+def test_each_advice_is_of_use():
+    given = {
+        events.advice(package, sentence)
+        for package, found in events.refusals().items()
+        for sentence, _ in found
+    }
+    assert {told for _, told in events.advices()} <= given
+    assert "" == events.advice("warehouse_fleet", "green cheese")
+
+
 def test_each_key_of_a_layout_file_is_listed():
     text = (ROOT / "doc/reference/layouts.md").read_text()
     from warehouse_layout import layout_reader
