@@ -129,6 +129,12 @@ def _planner(file):
         make_planner(Floor(np.ones((4, 4), bool)), Rules(), 1, yaml.safe_load(file.read_text()))
 
 
+def _prices(file):
+    from warehouse_operations.sizing import prices
+
+    prices.read(file)
+
+
 READERS: dict[str, Callable[[Path], None]] = {
     "layout": _layout,
     "seeds": _sweep,
@@ -136,4 +142,5 @@ READERS: dict[str, Callable[[Path], None]] = {
     "localisation": _realism,
     "walls": _layers,
     "planner": _planner,
+    "robot": _prices,
 }
