@@ -16,7 +16,19 @@ BLOCK = re.compile(
     r"^(?P<indent> *)```(?P<language>[^\n]*)\n(?P<text>.*?)^ *```$",
     re.M | re.S,
 )
-NOTES = ("skip needs file beside ready before start stop wait expect patience").split()
+NOTES = (
+    "skip",
+    "needs",
+    "file",
+    "beside",
+    "ready",
+    "before",
+    "start",
+    "stop",
+    "wait",
+    "expect",
+    "patience",
+)
 SHOWN = ("text", "dot", "mermaid")  # drawings, formulas and output: there is nothing to run
 
 

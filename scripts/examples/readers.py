@@ -39,7 +39,7 @@ class Pythons:
             self._run_outside(error.name)
 
     def _run_outside(self, package):
-        """Runs the page so far in .venv, where scripts/learning_packages brings what Debian lacks."""
+        """Runs the page so far in .venv, into which scripts/learning_packages brings packages."""
         python = ROOT / ".venv/bin/python"
         if not any(ROOT.glob(f".venv/lib/*/site-packages/{package.partition('.')[0]}")):
             raise SkippedError(f"{package} is not in Debian; scripts/learning_packages brings some")

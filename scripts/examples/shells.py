@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs commands as a person would: a page is a session, beside a warehouse that runs.
 
-A block with the note `start: COMMAND` has programs that run until Ctrl-C, a line each. They begin in
-the background, and the page goes on once COMMAND succeeds. They end with the page, or before its
+A block with the note `start: COMMAND` has programs that run until Ctrl-C, a line each. They begin
+in the background, and the page goes on once COMMAND succeeds. They end with the page, or before its
 next `start` that begins another warehouse.
 """
 
@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import running
+
 from examples.blocks import ROOT, Example, check
 
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
@@ -110,7 +111,8 @@ class Session:
                     launched += f" viewer_port:={self.page}"
             program = self._begin(launched)
             self._programs.append(program)
-            self._wait(program, lambda: not begins_world(command) or self._has_master(), patience)
+            if begins_world(command):
+                self._wait(program, self._has_master, patience)
         self._wait(self._programs[-1], lambda: not self._try(ready), patience)
 
     def begin(self, command: str, ready: str, patience: float) -> Program:
@@ -182,8 +184,15 @@ class Session:
     def _try(self, command):
         """Returns how a command ends."""
         tried = ["bash", "-c", self._local(command)]
-        quiet = {"stdin": subprocess.DEVNULL, "capture_output": True, "check": False}
-        return subprocess.run(tried, env=self.environment, timeout=60, **quiet).returncode
+        done = subprocess.run(
+            tried,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+            timeout=60,
+        )
+        return done.returncode
 
     def _wait(self, program, true, patience):
         end = time.monotonic() + patience

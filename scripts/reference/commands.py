@@ -65,9 +65,7 @@ def is_command(program: Path) -> bool:
 def written() -> str:
     """Returns the page of command lines: what each prints on --help."""
     called = [
-        (f"rosrun {package(one)} {one.name}", [str(one)])
-        for one in programs()
-        if is_command(one)
+        (f"rosrun {package(one)} {one.name}", [str(one)]) for one in programs() if is_command(one)
     ]
     called += [(f"python3 -m {one}", ["-m", one]) for one in modules()]
     called.append(("scripts/film", [str(ROOT / "scripts/film")]))

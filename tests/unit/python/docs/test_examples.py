@@ -9,8 +9,9 @@ from paths import ROOT
 
 sys.path.append(str(ROOT / "scripts"))
 
-from examples import links
 from examples.blocks import SHOWN, SkippedError, check, examples, pages
+
+from examples import links
 
 KNOWN = {*SHOWN, "python", "yaml", "xml", "cpp", "console", "bash"}
 
