@@ -22,7 +22,7 @@ import running
 from examples.blocks import ROOT, Example, check
 
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
-ENDING = 40.0  # until a program that got Ctrl-C is killed [s]
+ENDING = 20.0  # until a program that got Ctrl-C is asked in another way [s]
 LAUNCHED = re.compile(r"^(?:make run(?: ARGS=\"(?P<run>[^\"]*)\")?|make operate)(?: +#.*)?$")
 WORLDS = re.compile(r"\b(?:warehouse|operations)\.launch\b|empty_world\.launch\b")
 COMMON = 'make run ARGS="coordinator:=true"'  # beside pages that start none
@@ -60,14 +60,13 @@ class Program:
             raise ValueError(f"$ {self.command}\nhas ended with {self._process.returncode}\n{told}")
 
     def end(self) -> None:
-        """Presses Ctrl-C, and waits."""
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGINT)
-        try:
-            self._process.wait(ENDING)
-        except subprocess.TimeoutExpired:
-            os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
+        """Presses Ctrl-C, and waits. What does not end is terminated, then killed."""
+        for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self._process.pid, sent)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(ENDING)
+                return
 
 
 class Session:
