@@ -22,6 +22,7 @@ import running
 from examples.blocks import ROOT, Example, check
 
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
+TRIED = 10.0  # how long a command may take that tells whether a program is ready [s]
 ENDING = 20.0  # until a program that got Ctrl-C is asked in another way [s]
 LAUNCHED = re.compile(r"^(?:make run(?: ARGS=\"(?P<run>[^\"]*)\")?|make operate)(?: +#.*)?$")
 WORLDS = re.compile(r"\b(?:warehouse|operations)\.launch\b|empty_world\.launch\b")
@@ -182,14 +183,12 @@ class Session:
 
     def _try(self, command):
         """Returns how a command ends."""
-        tried = ["bash", "-c", self._local(command)]
         done = subprocess.run(
-            tried,
+            ["timeout", f"{TRIED:g}", "bash", "-c", self._local(command)],
             env=self.environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
             check=False,
-            timeout=60,
         )
         return done.returncode
 
