@@ -21,6 +21,7 @@ import running
 
 from examples.blocks import ROOT, Example, check
 
+LATE = 124  # exit code of `timeout`
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
 TRIED = 10.0  # how long a command may take that tells whether a program is ready [s]
 ENDING = 20.0  # until a program that got Ctrl-C is asked in another way [s]
@@ -138,14 +139,15 @@ class Session:
         told = "trap 'echo \"this failed: $BASH_COMMAND\" >&2' ERR"
         script = f"set -e\n{before}\n{told}\n{body}\nenv -0 >{kept}\n"
         done = subprocess.run(
-            ["bash", "-c", script],
+            ["timeout", "--kill-after=5", f"{patience:g}", "bash", "-c", script],
             env=self.environment,
             stdin=subprocess.DEVNULL,
             text=True,
             capture_output=True,
             check=False,
-            timeout=patience,
         )
+        if done.returncode == LATE:
+            raise ValueError(f"it took longer than {patience:g} s\n{done.stdout[-2000:]}")
         if done.returncode or re.search(r"\bsuccess: False", done.stdout):
             raise ValueError(f"{done.stderr[-3000:]}{done.stdout[-2000:]}")
         entries = kept.read_text().split("\0")
