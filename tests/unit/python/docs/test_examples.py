@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Examples that need no warehouse run as they stand; `make docs-test` runs the others."""
 
+import os
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ from paths import ROOT
 sys.path.append(str(ROOT / "scripts"))
 
 from examples.blocks import SHOWN, SkippedError, check, examples, pages
+from examples.shells import Session
 
 from examples import links
 
@@ -82,3 +84,36 @@ def test_addresses_elsewhere_are_found(tmp_path):
 def test_an_address_that_is_not_reached_is_told(tmp_path):
     (answer,) = links.answers(["http://127.0.0.1:9/"], timeout=2)
     assert answer.status == 0 and "refused" in answer.text.lower()
+
+
+@pytest.fixture
+def session(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    one = Session(tmp_path)
+    yield one
+    one.end()
+
+
+def test_a_session_keeps_what_a_block_exports(session):
+    session.run("export GREETING=hello", "", 10)
+    assert session.run("echo $GREETING", "", 10) == "hello\n"
+    session.leave()
+    assert session.run("echo $GREETING", "", 10) == "\n"
+
+
+def test_a_command_that_fails_or_takes_too_long_is_told(session):
+    with pytest.raises(ValueError, match="this failed: ls nowhere"):
+        session.run("ls nowhere\necho never", "", 10)
+    with pytest.raises(ValueError, match=r"it took longer than 0\.2 s"):
+        session.run("sleep 9", "", 0.2)
+
+
+def test_a_program_is_started_until_it_is_ready_and_ends_with_the_page(session, tmp_path):
+    session.start('bash -c "sleep 0.3; echo $$ >pid; sleep 99"', "test -s pid", 10)
+    number = int((tmp_path / "pid").read_text())
+    os.kill(number, 0)
+    session.leave()
+    with pytest.raises(ProcessLookupError):
+        os.kill(number, 0)
+    with pytest.raises(ValueError, match="has ended with 3"):
+        session.start('sh -c "exit 3"', "false", 10)
