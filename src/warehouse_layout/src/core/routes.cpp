@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "warehouse_layout/routes.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -26,11 +27,12 @@ struct Queue {
 
 class Search {
  public:
-  Search(const RouteGraph& graph, Cell start) : graph_(graph), start_(start) {
+  Search(const RouteGraph& graph, Cell start, bool keeps_before)
+      : graph_(graph), start_(start), keeps_before_(keeps_before) {
     const std::size_t nodes = static_cast<std::size_t>(graph.cells) * kHeadings;
     out_.seconds.assign(nodes, std::numeric_limits<double>::infinity());
     out_.steps.assign(nodes, 0);
-    out_.before.assign(nodes, -1);
+    if (keeps_before) out_.before.assign(nodes, -1);
   }
 
   Routes run() {
@@ -65,18 +67,33 @@ class Search {
     if (seconds >= out_.seconds[node]) return;
     out_.seconds[node] = seconds;
     out_.steps[node] = out_.steps[from.node] + steps;
-    out_.before[node] = from.node;
+    if (keeps_before_) out_.before[node] = from.node;
     queue.found.push_back({seconds, node});
   }
 
   const RouteGraph& graph_;
   Cell start_;
+  bool keeps_before_;
   Routes out_;
   Queue steps_, turns_;
 };
 
 }  // namespace
 
-Routes routesFrom(const RouteGraph& graph, Cell start) { return Search(graph, start).run(); }
+Routes routesFrom(const RouteGraph& graph, Cell start) { return Search(graph, start, true).run(); }
+
+Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends) {
+  const Routes all = Search(graph, start, false).run();
+  Ways out;
+  out.seconds.reserve(ends.size());
+  out.steps.reserve(ends.size());
+  for (const Cell end : ends) {
+    const auto first = all.seconds.begin() + static_cast<std::ptrdiff_t>(end) * kHeadings;
+    const auto found = std::min_element(first, first + kHeadings);
+    out.seconds.push_back(*found);
+    out.steps.push_back(all.steps[found - all.seconds.begin()]);
+  }
+  return out;
+}
 
 }  // namespace layout

@@ -9,6 +9,7 @@ from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.robot_table import NOWHERE
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.travel import Travel
+from warehouse_operations.units_by_id import UnitCells
 
 
 class Whereabouts:
@@ -25,7 +26,7 @@ class Whereabouts:
         travel: Travel | None = None,
     ) -> None:
         self.plan, self.robots, self.units = plan, dict(robots), dict(units)
-        self.cells = dict(units)
+        self.cells = UnitCells(units)
         self._travel = travel or Travel(plan, Kinematics())
         self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
         self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
@@ -41,7 +42,7 @@ class Whereabouts:
 
     def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
         """Returns seconds_to() of units, (n,) [s]."""
-        cells = np.array([self.cells.get(unit, NOWHERE) for unit in units.tolist()], np.int64)
+        cells = self.cells.of(units)
         seconds = self._travel.seconds_from_all(cells, self._service[station])
         return np.where(cells == NOWHERE, np.inf, seconds)
 
@@ -61,9 +62,8 @@ class Whereabouts:
         places = np.flatnonzero(self.plan.storage)
         seconds = np.full(len(places), np.inf)
         for name in self._picking:
-            seconds = np.minimum(
-                seconds, self._travel.loaded_to(self._service[name]).seconds[places]
-            )
+            ways = self._travel.seconds_from_all(places, self._service[name])
+            seconds = np.minimum(seconds, ways)
         rank = np.ones(self.plan.passable.size)
         rank[places[np.argsort(seconds, kind="stable")]] = np.linspace(0, 1, len(places))
         return rank

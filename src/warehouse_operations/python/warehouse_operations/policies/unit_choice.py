@@ -30,37 +30,65 @@ class Nearest:
         return int(units[np.argmin(view.seconds_to_all(station.name, units))])
 
 
+REACH = 120.0  # [s]: farther than that no preset has a unit
+
+
 class MostLines:
     """Chooses the unit that completes most lines; of equals, the one with most pieces for others.
 
-    A station without units on the way gets the nearest one: it stands idle until then.
+    reach: how much longer than the nearest unit it may take [s]; on a wide floor there is always a
+    unit with more, far away. A station without units on the way gets the nearest one: it stands
+    idle until then. Raises ValueError for a reach below 0.
     """
+
+    def __init__(self, reach: float = REACH) -> None:
+        self.reach = _checked(reach)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
+        seconds = view.seconds_to_all(station.name, candidates.units)
         if not station.coming:
-            return Nearest().choose(station, candidates, view)
-        completes_most = candidates.completes == candidates.completes.max()
-        return _most_work(np.flatnonzero(completes_most), station, candidates, view)
+            return int(candidates.units[np.argmin(seconds)])
+        near = _within(self.reach, seconds)
+        completes = candidates.completes[near]
+        return _most_work(near[completes == completes.max()], seconds, candidates, view)
 
 
 class MostWork:
-    """Chooses the unit with most pieces for the station's orders and the backlog."""
+    """Chooses the unit with most pieces for the station's orders and the backlog.
+
+    reach: how much longer than the nearest unit it may take [s]. Raises ValueError for one below 0.
+    """
+
+    def __init__(self, reach: float = REACH) -> None:
+        self.reach = _checked(reach)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
-        return _most_work(np.arange(len(candidates)), station, candidates, view)
+        seconds = view.seconds_to_all(station.name, candidates.units)
+        return _most_work(_within(self.reach, seconds), seconds, candidates, view)
+
+
+def _checked(reach: float) -> float:
+    if not reach >= 0:
+        raise ValueError(f"reach is {reach}; 0 s or more was expected")
+    return reach
+
+
+def _within(reach: float, seconds: np.ndarray) -> np.ndarray:
+    """Returns the indices of units that take at most `reach` longer than the nearest one, (m,)."""
+    return np.flatnonzero(seconds <= seconds.min() + reach)
 
 
 def _most_work(
-    among: np.ndarray, station: WorkStation, candidates: Candidates, view: "View"
+    among: np.ndarray, seconds: np.ndarray, candidates: Candidates, view: "View"
 ) -> int:
     """Returns the unit, of those at the indices `among`, with most pieces for the station and the
     backlog; of equals the nearest, then that of the lowest number."""
-    units = candidates.units[among]
-    work = candidates.pieces[among] + [view.work(unit) for unit in units.tolist()]
-    best = units[work == work.max()]
-    return int(best[np.argmin(view.seconds_to_all(station.name, best))])
+    units = candidates.units[among].tolist()
+    work = candidates.pieces[among] + [view.work(unit) for unit in units]
+    best = among[work == work.max()]
+    return int(candidates.units[best[np.argmin(seconds[best])]])
 
 
 NAMES: dict[str, type] = {
