@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace layout {
 namespace {
@@ -27,15 +26,15 @@ struct Queue {
 
 class Search {
  public:
-  Search(const RouteGraph& graph, Cell start, bool keeps_before)
-      : graph_(graph), start_(start), keeps_before_(keeps_before) {
+  Search(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
+      : graph_(graph), start_(start), keeps_before_(keeps_before), out_(*out) {
     const std::size_t nodes = static_cast<std::size_t>(graph.cells) * kHeadings;
     out_.seconds.assign(nodes, std::numeric_limits<double>::infinity());
     out_.steps.assign(nodes, 0);
     if (keeps_before) out_.before.assign(nodes, -1);
   }
 
-  Routes run() {
+  void run() {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const std::int32_t node = start_ * kHeadings + heading;
       out_.seconds[node] = 0;
@@ -46,7 +45,6 @@ class Search {
       const Found found = queue.found[queue.first++];
       if (found.seconds <= out_.seconds[found.node]) goOn(found);
     }
-    return std::move(out_);
   }
 
  private:
@@ -74,16 +72,22 @@ class Search {
   const RouteGraph& graph_;
   Cell start_;
   bool keeps_before_;
-  Routes out_;
+  Routes& out_;
   Queue steps_, turns_;
 };
 
 }  // namespace
 
-Routes routesFrom(const RouteGraph& graph, Cell start) { return Search(graph, start, true).run(); }
+Routes routesFrom(const RouteGraph& graph, Cell start) {
+  Routes out;
+  Search(graph, start, true, &out).run();
+  return out;
+}
 
 Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends) {
-  const Routes all = Search(graph, start, false).run();
+  // Kept: on a large floor fresh memory takes as long as the search.
+  thread_local Routes all;
+  Search(graph, start, false, &all).run();
   Ways out;
   out.seconds.reserve(ends.size());
   out.steps.reserve(ends.size());
