@@ -103,9 +103,10 @@ void bindRoutes(py::module_& module) {
 next: (cells, 4) int32, the cell beside each in each heading, or -1. end: (cells,), where ways end.
 step, turn: from a cell to the next, and by a quarter [s]. Returns (seconds, steps, before), each
 (4 * cells,) by cell * 4 + heading: infinite where no way leads, how many cells, the one before.)");
-  module.def("ways", &makeWays, py::arg("next"), py::arg("end"), py::arg("start"), py::arg("step"),
-             py::arg("turn"), py::arg("to"),
-             R"(Returns the same to the cells `to`, (n,), alone, each in the heading that is reached first.
+  module.def(
+      "ways", &makeWays, py::arg("next"), py::arg("end"), py::arg("start"), py::arg("step"),
+      py::arg("turn"), py::arg("to"),
+      R"(Returns the same to the cells `to`, (n,), alone, each in the heading that is reached first.
 
 Returns (seconds, steps), (n,) each.)");
 }

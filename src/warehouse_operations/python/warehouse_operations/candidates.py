@@ -18,9 +18,7 @@ class Candidates(Mapping[int, Mapping[Line, int]]):
     each has for all lines, (n,).
     """
 
-    def __init__(
-        self, lines: Collection[Line], inventory: Inventory, free_units: UnitSet
-    ) -> None:
+    def __init__(self, lines: Collection[Line], inventory: Inventory, free_units: UnitSet) -> None:
         self._lines = list(lines)
         found = [self._of_line(number, inventory) for number in range(len(self._lines))]
         units, line, pieces, completes = (np.concatenate(parts) for parts in zip(*found))

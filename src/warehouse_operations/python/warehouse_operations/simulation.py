@@ -58,7 +58,7 @@ class Description:
     seed: int = 1
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
-    threads: int = 0  # that step the world, and that plan; 0: one, and one less than there are cores
+    threads: int = 0  # that step the world, and that plan; 0: one, and all cores but one
 
     @property
     def config(self) -> dict[str, Any]:

@@ -80,9 +80,7 @@ def _within(reach: float, seconds: np.ndarray) -> np.ndarray:
     return np.flatnonzero(seconds <= seconds.min() + reach)
 
 
-def _most_work(
-    among: np.ndarray, seconds: np.ndarray, candidates: Candidates, view: "View"
-) -> int:
+def _most_work(among: np.ndarray, seconds: np.ndarray, candidates: Candidates, view: "View") -> int:
     """Returns the unit, of those at the indices `among`, with most pieces for the station and the
     backlog; of equals the nearest, then that of the lowest number."""
     units = candidates.units[among].tolist()
