@@ -11,6 +11,9 @@ from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.travel import Travel
 from warehouse_operations.units_by_id import UnitCells
 
+WIDE = 10_000  # storage units, above which not all are worth their way to any station
+REACH = 60.0  # [s] there: so far from a station are as many units as in all of a smaller warehouse
+
 
 class Whereabouts:
     """The cells of units and robots on a FloorPlan, by id; `units` and `robots` as they began.
@@ -31,6 +34,12 @@ class Whereabouts:
         self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
         self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
         self._place_rank: np.ndarray | None = None
+
+    @property
+    def reach(self) -> float:
+        """How much longer than the nearest unit one may take to a station [s]: on a wide floor there
+        is always a better one, far away."""
+        return REACH if len(self.units) > WIDE else np.inf
 
     def seconds_to(self, station: str, unit: int) -> float:
         """Returns the time [s] from a unit's place to a station's service cell; inf while it is

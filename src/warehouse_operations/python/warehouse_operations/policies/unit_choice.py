@@ -30,18 +30,15 @@ class Nearest:
         return int(units[np.argmin(view.seconds_to_all(station.name, units))])
 
 
-REACH = 120.0  # [s]: farther than that no preset has a unit
-
-
 class MostLines:
     """Chooses the unit that completes most lines; of equals, the one with most pieces for others.
 
-    reach: how much longer than the nearest unit it may take [s]; on a wide floor there is always a
-    unit with more, far away. A station without units on the way gets the nearest one: it stands
-    idle until then. Raises ValueError for a reach below 0.
+    reach: how much longer than the nearest unit it may take [s]; None: as Whereabouts.reach says. A
+    station without units on the way gets the nearest one: it stands idle until then. Raises
+    ValueError for a reach below 0.
     """
 
-    def __init__(self, reach: float = REACH) -> None:
+    def __init__(self, reach: float | None = None) -> None:
         self.reach = _checked(reach)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
@@ -49,7 +46,7 @@ class MostLines:
         seconds = view.seconds_to_all(station.name, candidates.units)
         if not station.coming:
             return int(candidates.units[np.argmin(seconds)])
-        near = _within(self.reach, seconds)
+        near = _within(self.reach, seconds, view)
         completes = candidates.completes[near]
         return _most_work(near[completes == completes.max()], seconds, candidates, view)
 
@@ -57,26 +54,28 @@ class MostLines:
 class MostWork:
     """Chooses the unit with most pieces for the station's orders and the backlog.
 
-    reach: how much longer than the nearest unit it may take [s]. Raises ValueError for one below 0.
+    reach: as that of MostLines. Raises ValueError for one below 0.
     """
 
-    def __init__(self, reach: float = REACH) -> None:
+    def __init__(self, reach: float | None = None) -> None:
         self.reach = _checked(reach)
 
     def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
         """Returns the unit, one of candidates, that is brought to a station."""
         seconds = view.seconds_to_all(station.name, candidates.units)
-        return _most_work(_within(self.reach, seconds), seconds, candidates, view)
+        return _most_work(_within(self.reach, seconds, view), seconds, candidates, view)
 
 
-def _checked(reach: float) -> float:
-    if not reach >= 0:
+def _checked(reach: float | None) -> float | None:
+    if reach is not None and not reach >= 0:
         raise ValueError(f"reach is {reach}; 0 s or more was expected")
     return reach
 
 
-def _within(reach: float, seconds: np.ndarray) -> np.ndarray:
+def _within(reach: float | None, seconds: np.ndarray, view: "View") -> np.ndarray:
     """Returns the indices of units that take at most `reach` longer than the nearest one, (m,)."""
+    if reach is None:
+        reach = view.floor.reach
     return np.flatnonzero(seconds <= seconds.min() + reach)
 
 
