@@ -2,6 +2,7 @@
 """Read by catkin_python_setup; not meant to be run."""
 
 from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from setuptools import find_packages, setup
 
-setup(**generate_distutils_setup(packages=["warehouse_client"], package_dir={"": "python"}))
+contents = {"packages": find_packages("python"), "package_data": {"": ["py.typed"]}}
+setup(**generate_distutils_setup(package_dir={"": "python"}, **contents))

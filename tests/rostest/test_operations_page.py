@@ -237,16 +237,19 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(axe.findings(self.page), [])
 
     def test_7_fingers_spread_the_last_hour(self):
+        self.addCleanup(self.overview)
         self.page.be_phone(*PHONE)
+        self.show()
+        self.page.until("page.gantt.rows.length === 7")
         x, y = self.page.bring("gantt")
         left, right = [(x - i, y) for i in (20, 60, 100)], [(x + i, y) for i in (20, 60, 100)]
         self.page.swipe(left, right)
         self.page.until("!page.gantt.view.isWhole")
         self.page.tap_on("gantt-all")
         self.page.until("page.gantt.view.isWhole")
-        self.page.be_desktop()
 
     def test_7_the_last_hour_is_read_by_keys_and_alarms_are_told(self):
+        self.page.until("page.gantt.rows.length === 7")
         self.page.read("page.gantt.box.focus()")
         told = "document.getElementById('gantt-told').textContent"
         self.page.until(f"{told}.startsWith('pick1: ')")

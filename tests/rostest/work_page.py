@@ -42,6 +42,10 @@ class WorkPageTest(PageTest):
     def overview(self):
         """Shows the page /operations."""
         self.page.be_desktop()
+        self.show()
+
+    def show(self):
+        """Opens the page in a window as it is."""
         self.page.open(address() + self.path)
         self.page.until(self.ready)
 

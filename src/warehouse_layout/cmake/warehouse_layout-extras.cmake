@@ -1,5 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 
+# Installs a library of the C++ API, whose headers lie in include/, for programs with and without ROS:
+# the latter find it by the CMake package kiva_world. Its interface may change with each minor
+# version, so that is in its name.
+function(install_library target)
+  set(version ${${PROJECT_NAME}_VERSION})
+  string(REGEX MATCH "^[0-9]+\\.[0-9]+" minor "${version}")
+  set_target_properties(${target} PROPERTIES VERSION ${version} SOVERSION ${minor}
+    INSTALL_RPATH "$ORIGIN")  # where they lie all, whatever was sourced
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CATKIN_GLOBAL_INCLUDE_DESTINATION}>)
+  install(TARGETS ${target} EXPORT kiva_world DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+endfunction()
+
 # Builds the Python package of this catkin package: the files of python/<package>, and beside them
 # the module _core, made of SOURCES and linked with LIBRARIES. In the devel space the files are links,
 # so that a change needs no build.

@@ -2,11 +2,13 @@
 """Commands to try first: such as work in the very warehouse that stands."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 from warehouse_client.routes import elbow, point
 from warehouse_client.survey import Survey
 
+SYSTEM = Path("/usr/lib")  # Python and ROS find what is in it by themselves
 NEAREST = 20  # units tried for each robot
 
 _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
@@ -78,4 +80,9 @@ def greeting(title: str, pairs: Any) -> str:
     wide = max(len(command) for command, _ in pairs)
     lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]
     how = "Try in another terminal, each line once the one before is done:"
-    return "\n".join(["", title, "", how, "", "    source devel/setup.bash", *lines, ""])
+    return "\n".join(["", title, "", how, "", *_to_source(), *lines, ""])
+
+
+def _to_source() -> list[str]:
+    """The line that another terminal needs first; none where Debian's packages are installed."""
+    return [] if SYSTEM in Path(__file__).parents else ["    source devel/setup.bash"]

@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 from xmlrpc.client import ServerProxy
 
 from warehouse_layout import files
@@ -16,6 +17,7 @@ from warehouse_sim.launch_arguments import Place
 TIMEOUT = 3.0  # for a world to say that it is there [s, wall]
 SHARE = files.share(__file__)  # the folder with launch/
 ENGINE = "/gazebo"
+LOCAL = re.compile(r"localhost|127\..*")  # names of this machine
 OURS = "$(find warehouse_sim)/"  # how a launch file names files of this package
 
 
@@ -120,6 +122,18 @@ def master_of(caller: Caller, environment: Mapping[str, str]) -> str | None:
             if part.startswith(option) and part.removeprefix(option).lstrip("=").isdigit():
                 return f"http://localhost:{part.removeprefix(option).lstrip('=')}"
     return environment.get("ROS_MASTER_URI", "http://localhost:11311")
+
+
+def openness(caller: Caller, environment: Mapping[str, str]) -> str:
+    """Returns a sentence if master and nodes of a launch listen to other machines, too; else ""."""
+    master = master_of(caller, environment)
+    host = urlsplit(master or "").hostname or ""
+    if {"ROS_HOSTNAME", "ROS_IP"} & {*environment} or not LOCAL.fullmatch(host):
+        return ""
+    return (
+        "Master and nodes listen to every network of this machine. To keep them to it:"
+        " export ROS_HOSTNAME=localhost"
+    )
 
 
 def check_master(uri: str, connect: Callable[[str], Any] = ServerProxy) -> None:

@@ -2,6 +2,7 @@
 """The commands a person is told to try must work in the very warehouse that stands."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -72,6 +73,11 @@ def test_greeting_reads_well():
     text = hints.greeting("small: 4 robots", [("a b", "first"), ("abc d", "second")])
     assert "    a b     # first\n    abc d   # second\n" in text
     assert "source devel/setup.bash" in text
+
+
+def test_nothing_is_sourced_where_the_system_finds_packages(monkeypatch):
+    monkeypatch.setattr(hints, "SYSTEM", Path(hints.__file__).parents[1])
+    assert "setup.bash" not in hints.greeting("small: 4 robots", [("a b", "first")])
 
 
 def test_a_survey_says_what_it_found():

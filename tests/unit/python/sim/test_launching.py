@@ -40,6 +40,21 @@ def test_rostest_brings_a_master_of_its_own():
     assert master_of(caller("roslaunch.test", program=rostest), {}) is None
 
 
+@pytest.mark.parametrize(
+    ("environment", "open_"),
+    [
+        ({}, True),
+        ({"ROS_MASTER_URI": "http://127.0.0.1:11312"}, True),
+        ({"ROS_HOSTNAME": "localhost"}, False),
+        ({"ROS_IP": "10.0.0.1"}, False),
+        ({"ROS_MASTER_URI": "http://robots:11311"}, False),
+    ],
+)
+def test_a_launch_that_other_machines_reach_is_told(environment, open_):
+    told = launching.openness(caller("warehouse_sim", "warehouse.launch"), environment)
+    assert ("ROS_HOSTNAME=localhost" in told) == open_
+
+
 def of_ours():
     return sorted(LAUNCH.glob("*.launch"))
 

@@ -23,7 +23,7 @@ from warehouse_viewer.whatif.scenario import Scenario, ScenarioError
 from warehouse_viewer.whatif.standalone import application
 from warehouse_viewer.whatif.workshop import Workshop
 
-PATIENCE = 120.0  # with a machine that has much to do [s, wall]
+PATIENCE = 300.0  # runs yield to all else that the machine has to do [s, wall]
 SHORT = {"layout": "small", "minutes": 2, "seeds": 2}
 SMALL = layout_file.text_of(generator.of_request(PRESETS["small"], "own"))
 # Stands for a run: tells its progress, and goes on until its input ends.

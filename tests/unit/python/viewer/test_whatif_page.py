@@ -17,7 +17,7 @@ from browser import browser  # noqa: E402
 from warehouse_layout import generator, layout_file  # noqa: E402
 from warehouse_layout.request import PRESETS  # noqa: E402
 
-PATIENCE = 120.0  # with a machine that has much to do [s, wall]
+PATIENCE = 300.0  # runs yield to all else that the machine has to do [s, wall]
 WHATIF = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "whatif"
 CARDS = "[...document.querySelectorAll('.scenario')].map((c) => c.dataset.name)"
 DONE = "page.scenarios?.length && page.scenarios.every((one) => one.state === 'done')"
