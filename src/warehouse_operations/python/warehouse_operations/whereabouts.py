@@ -37,8 +37,8 @@ class Whereabouts:
 
     @property
     def reach(self) -> float:
-        """How much longer than the nearest unit one may take to a station [s]: on a wide floor there
-        is always a better one, far away."""
+        """How much longer than the nearest unit one may take to a station [s]: on a wide floor
+        there is always a better one, far away."""
         return REACH if len(self.units) > WIDE else np.inf
 
     def seconds_to(self, station: str, unit: int) -> float:
