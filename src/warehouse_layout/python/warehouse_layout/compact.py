@@ -23,6 +23,7 @@ from warehouse_layout.stations import STEPS
 
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes
+APART = 1  # free cells between them where stations are on several sides: many share a street
 BELT_CELLS = 2
 MOST_EDGE = 100  # of a block, in cells
 
@@ -96,17 +97,22 @@ def _plans(request: Request, replenish: int, style: Style) -> Iterator["_Plan"]:
     for rows in _row_counts(blocks, kinds, style):
         columns = math.ceil(blocks / rows)
         plan = _Plan(request, style, kinds, rows, columns)
-        least = LANE * max(len(kinds.get(1, ())), len(kinds.get(3, ())))
+        least = _pitch(style) * max(len(kinds.get(1, ())), len(kinds.get(3, ())))
         missing = least - len(plan.street_x) - plan.columns * style.block[1]
         if missing > 0:
             columns += math.ceil(missing / (style.block[1] + 1))
         yield _Plan(request, style, kinds, rows, columns)
 
 
+def _pitch(style: Style) -> int:
+    """Returns how many cells of a side each station has at least."""
+    return LANE + (APART if style.sides > 1 else 0)
+
+
 def _row_counts(blocks: int, kinds: dict[int, list[_Kind]], style: Style) -> Iterator[int]:
     """Yields numbers of rows of blocks with which the lanes at both ends have room."""
     depth = style.block[0]
-    least = LANE * max(len(kinds.get(0, ())), len(kinds.get(2, ())))
+    least = _pitch(style) * max(len(kinds.get(0, ())), len(kinds.get(2, ())))
     first = max(1, math.ceil((least - 1) / (depth + 1)))
     most = max(first, math.ceil(math.sqrt(blocks) * (style.block[1] + 1)))
     return iter(range(first, most + 1))
