@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian build build-tests packages deps bench docs docs-test wheel lint tidy format install clean
+.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -13,7 +13,6 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 JOBS ?= $(shell nproc)
 PREFIX ?= install
 SEEDS ?= 20
-RELEASE ?= trixie
 BUILD = cmake --build build -j$(JOBS)
 # If make is killed, what it started still ends. roslaunch asks for distutils, in whose place it would
 # get all of setuptools, half of its time to start.
@@ -50,6 +49,7 @@ test-long: build  ## fleets at work, seed after seed, with and without faults, a
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
 	../scripts/axe; ../scripts/screens; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
@@ -67,7 +67,13 @@ test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half a
 	@scripts/test-sanitizers
 
 test-debian:  ## every test on a bare Debian of another release; make test-debian RELEASE=trixie
-	@scripts/test-debian $(RELEASE)
+	@scripts/test-debian $(or $(RELEASE),trixie)
+
+deb:  ## Debian packages for this release, into dist/deb/
+	@scripts/deb $(RELEASE)
+
+test-deb: deb  ## install the packages on a bare Debian and use them
+	@scripts/test-deb $(RELEASE)
 
 test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install

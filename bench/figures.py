@@ -140,6 +140,19 @@ def _shifts(measured, scale):
     return out
 
 
+def _plans(measured, scale):
+    out = []
+    for f in measured:
+        limit = {1000: "<= 10", 10000: "<= 300"}[f["robots"]]
+        what = f"planning {f['robots']:,} robots on {f['threads']} threads"
+        out += [
+            scale.time(f"{what}: a step, p99, by the clock", f["ms_p99"], "ms", limit),
+            scale.time(f"{what}: a step, median, by the clock", f["ms_p50"], "ms"),
+            Figure(f"{what}: memory", f["memory_mb"] / 1000, "GB", "<= 2"),
+        ]
+    return out
+
+
 def _others(measured, scale):
     return [scale.speed(name(f), f["rtf_cpu"], wall=f["rtf"]) for f in measured if "engine" in f]
 
@@ -271,6 +284,7 @@ OF_PART = {
     "work": _work,
     "shifts": _shifts,
     "ten_thousand": _shifts,
+    "plans": _plans,
     "recreations": _recreations,
     "start": _start,
     "build": _build,

@@ -6,7 +6,8 @@ scripts/learning_packages; . devel/setup.bash; .venv/bin/python bench/rware_benc
     [--worlds 64] [--seconds 5] [TASK ...]
 
 A TASK is one that rware registers, without rware- and -v2. Both get the same random actions, drawn
-before the clock starts. By CPU tells how many times the steps of one core are.
+before the clock starts. By CPU tells how many times the steps of one core are. Beside it stands
+what is asked for and whether that is met; if any is not, it ends with 1.
 """
 
 import argparse
@@ -23,6 +24,7 @@ import warehouse_learning.rware
 REGISTERED = rware, warehouse_learning.rware  # importing them does that
 TASKS = ("tiny-2ag", "tiny-4ag", "small-4ag", "medium-10ag")
 DRAWN = 4096  # steps, again and again
+LIMITS = {"alone": 30, "many": 150}  # times the package's agent steps, by CPU
 
 
 def alone(name):
@@ -58,6 +60,7 @@ def main():
     parser.add_argument("--seconds", type=int, default=5, help="of each case")
     wanted = parser.parse_args()
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    is_met = True
     for task in wanted.tasks:
         ours = f"kiva-rware-{task}-v2"
         runners = {
@@ -73,7 +76,12 @@ def main():
         for name, runner in runners.items():
             rates = runner.rates
             text = f"{task}, {name}: {rates[0]:,.0f} agent steps/s, {rates[0] / wall:.0f} x"
-            print(f"{text}; by CPU {rates[1] / cpu:.0f} x", flush=True)
+            times = rates[1] / cpu
+            limit = 0 if name == "the package" else LIMITS.get(name, LIMITS["many"])
+            told = f" (asked {limit}: {'met' if times >= limit else 'not met'})" if limit else ""
+            is_met &= times >= limit
+            print(f"{text}; by CPU {times:.0f} x{told}", flush=True)
+    raise SystemExit(not is_met)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ from wsproto import ConnectionType, WSConnection  # noqa: E402
 from wsproto.events import BytesMessage, Request, TextMessage  # noqa: E402
 
 import warehouse_learning  # noqa: E402
-from warehouse_learning import episodes, watch  # noqa: E402
+from warehouse_learning import episodes, rware, watch  # noqa: E402
+from warehouse_learning.marl import policy  # noqa: E402
 from warehouse_learning.page import Page  # noqa: E402
 from warehouse_learning.warehouses import Warehouses  # noqa: E402
 from warehouse_viewer.page import protocol  # noqa: E402
@@ -24,6 +25,7 @@ from warehouse_viewer.page import protocol  # noqa: E402
 PATIENCE = 60  # with a machine that has much to do [s, wall]
 PAUSED = 0.3  # that nothing happens [s, wall]
 STAMP, COUNT, HEAD = 8, 20, 40  # places in an update, of warehouse_viewer.protocol
+RAYS = 32  # and in a scan
 FORWARD, LEFT = 1, 2
 
 
@@ -38,6 +40,7 @@ class Browser:
         self._socket.sendall(self._connection.send(Request(host=host, target="/live")))
         self._part, self._told = None, {}
         self.time, self.robots, self.events = 0.0, {}, set()  # (x, y) by index; kinds
+        self.scans = {}  # (rays,) [m] by robot
 
     def until(self, holds):
         """Reads until holds() does."""
@@ -51,8 +54,15 @@ class Browser:
         self.until(lambda: kind in self._told)
         return self._told[kind]
 
+    def watch(self, **wishes):
+        """Asks for extras, such as scans=[ids]."""
+        self._send({"watch": wishes})
+
     def close(self):
         self._socket.close()
+
+    def _send(self, message):
+        self._socket.sendall(self._connection.send(TextMessage(json.dumps(message))))
 
     def _take(self, event):
         if not isinstance(event, TextMessage | BytesMessage):
@@ -69,7 +79,12 @@ class Browser:
 
     def _see(self, update):
         """Takes an update in, and answers as a page does."""
-        self._socket.sendall(self._connection.send(TextMessage('{"ack": 1}')))
+        if update[0] == protocol.SCAN:
+            self.scans[int(np.frombuffer(update, "<u4", 1, 4)[0])] = np.frombuffer(
+                update, "<f4", -1, RAYS
+            )
+            return
+        self._send({"ack": 1})
         self.time = float(np.frombuffer(update, "<f8", 1, STAMP)[0])
         count = int(np.frombuffer(update, "<u4", 1, COUNT)[0])
         for row in np.frombuffer(update, protocol.ROBOT, count, HEAD):
@@ -160,3 +175,42 @@ def test_a_saved_episode_is_played_as_it_was(tmp_path):
     browser.until(lambda: browser.time >= env.world.time - 1e-9)
     browser.close()
     page.close()
+
+
+def test_a_trained_policy_drives_on_the_page():
+    trained = policy.load("tiny-4ag")
+    env = rware.Warehouse(physics="bodies", **rware.options_of("tiny-4ag") | {"max_steps": 60})
+    env.reset(seed=1)
+    page = Page(env.motion.worlds[0], "tiny-4ag", speed=0)
+    browser = Browser(page.url)
+    try:
+        assert len(browser.told("scene")["units"]) == 32
+        assert watch.drive(page, env, trained, seed=1) >= 1
+        browser.until(lambda: browser.time >= env.motion.time[0] - 1e-9)
+        assert sorted(browser.told("requested")["units"]) != []
+    finally:
+        browser.close()
+        page.close()
+
+
+def test_requests_and_lasers_are_shown():
+    env = warehouse_learning.parallel_env(size="tiny", lasers=True, render_mode="human")
+    env.reset(seed=1)
+    browser = Browser(env.page.url)
+    try:
+        post(f"{env.page.url}api/v1/simulation/speed", factor=0)
+        requested = browser.told("requested")["units"]
+        browser.watch(scans=[2])
+        assert len(requested) == 3
+        assert requested == env._in.units_requested(0)
+        for _ in range(100):
+            env.step(dict.fromkeys(env.agents, LEFT))
+            browser.until(lambda: browser.time >= env.world.time - 1e-9)
+            if 2 in browser.scans:
+                break
+        shown = browser.scans[2]
+        assert shown.shape == (121,)
+        assert (shown > 0).all() and (shown < 5).any()
+    finally:
+        browser.close()
+        env.close()

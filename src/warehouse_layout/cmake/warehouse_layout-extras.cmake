@@ -35,7 +35,7 @@ function(add_python_package)
 
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/python/${PROJECT_NAME})
   file(GLOB_RECURSE files RELATIVE ${folder} CONFIGURE_DEPENDS
-    ${folder}/*.py ${folder}/*.pyi ${folder}/py.typed)
+    ${folder}/*.py ${folder}/*.pyi ${folder}/*.npz ${folder}/py.typed)
   foreach(file ${files})
     cmake_path(GET file PARENT_PATH parent)
     file(MAKE_DIRECTORY ${package}/${parent})

@@ -3,6 +3,7 @@
 // Floors with hardly a free cell: all robots get to their goals, by rings, and by coming out of
 // dead ends before others go in.
 #include "planner_shift.h"
+#include "pockets.h"
 
 namespace fleet::test {
 namespace {
@@ -146,6 +147,65 @@ TEST(FullFloor, RobotsComeOutOfADeadEndBeforeAnotherGoesIn) {
     }
   }
   EXPECT_LT(ticks, 60);
+}
+
+/// Drawn as the floor is, 'p' where a pocket is.
+std::vector<std::string> withPockets(std::vector<std::string> rows, int most) {
+  const auto is_pocket = pockets(Floor(drawn(rows)), most);
+  const std::size_t width = rows[0].size();
+  for (std::size_t cell = 0; cell < is_pocket.size(); ++cell) {
+    if (is_pocket[cell]) rows[cell / width][cell % width] = 'p';
+  }
+  return rows;
+}
+
+TEST(Pockets, AreWhatASingleCellHoldsToTheRest) {
+  const std::vector<std::string> rows = {"....#..", ".......", "....###", "###.###"};
+  EXPECT_EQ(withPockets(rows, 24),
+            (std::vector<std::string>{"....#pp", "....ppp", "....###", "###p###"}));
+  EXPECT_EQ(withPockets(rows, 2),
+            (std::vector<std::string>{"....#..", ".......", "....###", "###p###"}));
+}
+
+TEST(Pockets, AreTheSmallerPart) {
+  const std::vector<std::string> halves = {"...#...", ".......", "...#..."};
+  for (const std::string& row : withPockets(halves, 24)) {
+    EXPECT_EQ(row.find('p'), std::string::npos) << row;
+  }
+}
+
+TEST(FullFloor, RobotsComeOutOfARoomBehindAPassageBeforeAnotherGoesIn) {
+  const std::vector<std::string> rows = {"....#..", ".......", "....###"};
+  const Floor floor(drawn(rows));
+  const Cell before = 10, inside = 6;
+  Fleet fleet;
+  for (const Cell cell : cellsOf(rows, '.')) {
+    if (cell > 3) fleet.cell.push_back(cell);
+  }
+  fleet.heading.assign(fleet.size(), 0);
+  fleet.goal.assign(fleet.size(), 0);  // all want to where one at a time can be
+  const auto entering = std::find(fleet.cell.begin(), fleet.cell.end(), before);
+  const auto robot = entering - fleet.cell.begin();
+  fleet.goal[robot] = inside;
+  EpibtOptions options;
+  options.pursuing = 0.01;
+  Rules rules;
+  rules.rings = true;
+  const auto planner = makeEpibt(options);
+  planner->start(floor, rules, 1);
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell[robot] != inside && ticks < 200; ++ticks) {
+    planner->plan(fleet, {0, 0}, plan);
+    ASSERT_TRUE(validate(floor, fleet, plan, rules).empty());
+    for (int one = 0; one < fleet.size(); ++one) {
+      const State state = after(floor, {fleet.cell[one], fleet.heading[one]}, plan.at(one, 0));
+      fleet.cell[one] = state.cell;
+      fleet.heading[one] = state.heading;
+      if (state.cell == fleet.goal[one] && one != robot) fleet.goal[one] = state.cell == 0 ? 14 : 0;
+    }
+  }
+  EXPECT_LT(ticks, 200);
 }
 
 TEST(FullFloor, RefusesAFleetOfWhichNoneMayPursueItsGoal) {

@@ -144,8 +144,9 @@ TEST(Threads, AnyNumberGivesTheSamePlans) {
     EpibtOptions options;
     options.threads = threads;
     options.whole_up_to = 0;
-    Shift shift(blocks(12, 10, 1), 120, 3, {}, options);
-    ASSERT_TRUE(shift.run(60, {0, 200}));
+    // So many robots that each thread has some.
+    Shift shift(blocks(20, 20, 1), 1100, 3, {}, options);
+    ASSERT_TRUE(shift.run(25, {0, 200}));
     EXPECT_GT(shift.arrivals, 0);
     cells.push_back(shift.fleet.cell);
   }

@@ -25,6 +25,9 @@ struct EpibtOptions {
   /// How many robots may pursue their goals at a time, over the passable cells. Where there are
   /// more, the others yield: they go where they are pushed until it is their turn.
   double pursuing = 0.5;
+  /// Ticks of the windows in which few robots with much time are planned, 7 to 31; 0: 15, if there
+  /// are three cells a robot and the first step has time for it; -1: none are.
+  int window = 0;
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept

@@ -58,6 +58,8 @@ class Candidates {
 
   /// The cell in front of one who stands in `cell`, on its deck or its own storage place.
   Cell next(const Wish& wish, Cell cell, int heading) const;
+  /// Whether a robot may turn in a cell.
+  bool mayTurn(const Wish& wish, Cell cell) const { return edges_.mayTurn(wish.deck, cell); }
   /// How far it is to the goal from there, in kTickCost: an estimate while there is no table.
   int distance(const Wish& wish, State state) const;
 

@@ -1,55 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dead_ends.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+
+#include "pockets.h"
 
 namespace fleet {
 namespace {
 
 constexpr int kNear = 6;  // cells from the entrance to a robot for which others come out
 
-std::vector<Cell> beside(const Floor& floor, Cell cell) {
-  std::vector<Cell> cells;
-  for (int heading = 0; heading < kHeadings; ++heading) {
-    const Cell next = floor.next(Deck::kUnder, cell, heading);
-    if (next != kNowhere) cells.push_back(next);
-  }
-  return cells;
-}
+constexpr int kMostCells = 24;  // of a dead end or pocket: into a larger one many go at a time
 
 }  // namespace
 
-/// Takes away cell after cell that has but one neighbour left.
+/// The way out of a pocket is the shortest.
 DeadEnds::DeadEnds(const Floor& floor)
     : floor_(floor),
       out_(floor.size(), kNowhere),
       outside_(floor.size(), kNowhere),
       served_(floor.size(), -1),
       standing_(floor.size(), -1) {
-  std::vector<int> open(floor.size());
-  std::vector<Cell> ends;
+  const std::vector<std::uint8_t> is_inside = pockets(floor, kMostCells);
+  std::vector<Cell> cells;
   for (Cell cell = 0; cell < floor.size(); ++cell) {
-    open[cell] = static_cast<int>(beside(floor, cell).size());
-    if (open[cell] == 1) ends.push_back(cell);
+    if (floor.isPassable(cell) && !is_inside[cell]) cells.push_back(cell);
   }
-  std::vector<std::uint8_t> is_end(floor.size());
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (open[ends[i]] != 1) continue;  // the last cell of a floor without any ring
-    is_end[ends[i]] = 1;
-    for (const Cell next : beside(floor, ends[i])) {
-      if (is_end[next]) continue;
-      out_[ends[i]] = next;
-      if (--open[next] == 1) ends.push_back(next);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const Cell next : neighbours(floor, cells[i])) {
+      if (!is_inside[next] || out_[next] != kNowhere) continue;
+      out_[next] = cells[i];
+      cells.push_back(next);
+      if (!is_inside[cells[i]]) outside_[cells[i]] = roomiest(cells[i], is_inside);
     }
   }
-  for (const Cell end : ends) {
-    const Cell gate = out_[end];
-    if (gate == kNowhere || is_end[gate]) continue;
-    for (const Cell next : beside(floor, gate)) {
-      const Cell best = outside_[gate];
-      if (!is_end[next] && (best == kNowhere || open[next] > open[best])) outside_[gate] = next;
-    }
+}
+
+/// The cell beside an entrance, outside, that has the most cells beside it; kNowhere if there is
+/// none.
+Cell DeadEnds::roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) const {
+  Cell best = kNowhere;
+  std::ptrdiff_t most = -1;
+  for (const Cell cell : neighbours(floor_, gate)) {
+    const std::vector<Cell> around = neighbours(floor_, cell);
+    const auto open =
+        std::count_if(around.begin(), around.end(), [&](Cell one) { return !is_inside[one]; });
+    if (is_inside[cell] || open <= most) continue;
+    most = open;
+    best = cell;
   }
+  return best;
 }
 
 /// The cell before a dead end.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dead ends: cells that one can't leave but by the cells before them. A robot that is to go into
-// one where others stand would push them to its end and stand before them for ever; so those in its
-// way come out first, the outermost first, past the robot, which makes way for them.
+// Dead ends, and pockets behind a passage: cells that one can't leave but by a single cell before
+// them. A robot that is to go into one where others stand would push them to its end and stand
+// before them for ever; so those in its way come out first, the outermost first, past the robot,
+// which makes way for them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "candidates.h"
@@ -24,6 +26,7 @@ class DeadEnds {
  private:
   void serve(int robot, DistanceTables& tables, Candidates& candidates, std::vector<Wish>& wishes);
   Cell entrance(Cell cell) const;
+  Cell roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) const;
 
   const Floor& floor_;
   std::vector<Cell> out_;      ///< by cell: the next on the way out; kNowhere: in no dead end

@@ -21,9 +21,22 @@ Window around(const Floor& floor, Cell cell, int reach) {
   return {left, top, right - left, bottom - top};
 }
 
-DistanceSearch::DistanceSearch(const Floor& floor, const Edges& edges, int turn_ticks)
+void Prices::update(const Edges& edges) {
+  const std::vector<std::uint8_t>& costs = *edges.costs;
+  for (int deck = 0; deck < 2; ++deck) {
+    const std::vector<Cell>& next = edges.next[deck];
+    of[deck].resize(next.size());
+    for (std::size_t edge = 0; edge < next.size(); ++edge) {
+      of[deck][edge] = next[edge] == kNowhere ? 0 : costs[edge];
+    }
+  }
+}
+
+DistanceSearch::DistanceSearch(const Floor& floor, const Edges& edges, const Prices& prices,
+                               int turn_ticks)
     : floor_(floor),
       edges_(edges),
+      prices_(prices),
       turn_cost_(turn_ticks * kTickCost),
       step_{1, floor.width(), -1, -floor.width()},
       cost_(floor.size() * kHeadings),
@@ -34,7 +47,8 @@ DistanceSearch::DistanceSearch(const Floor& floor, const Edges& edges, int turn_
 void DistanceSearch::run(Deck deck, Cell goal, const Window& window, bool is_entered) {
   deck_ = deck;
   goal_ = goal;
-  next_ = edges_.next[static_cast<int>(deck)].data();
+  price_ = prices_.of[static_cast<int>(deck)].data();
+  turns_everywhere_ = edges_.mayTurnEverywhere(deck);
   // A goal may be a storage place, which the aisles' deck does not lead into.
   into_goal_ = is_entered ? floor_.edges(deck).data() : edges_.next[0].data();
   open(window);
@@ -73,7 +87,7 @@ inline void DistanceSearch::push(int state, int cost) {
 inline void DistanceSearch::relax(int state, int cost) {
   const Cell cell = state / kHeadings;
   const int heading = state % kHeadings;
-  if (edges_.mayTurn(deck_, cell)) {
+  if (turns_everywhere_ || edges_.mayTurn(deck_, cell)) {
     push(cell * kHeadings + turned(heading, 1), cost + turn_cost_);
     push(cell * kHeadings + turned(heading, -1), cost + turn_cost_);
   }
@@ -85,13 +99,19 @@ inline void DistanceSearch::enter(Cell cell, int heading, int cost) {
   const Cell from = cell - step_[heading];
   if (from < 0 || from >= floor_.size()) return;
   const int edge = from * kHeadings + heading;
-  if ((cell == goal_ ? into_goal_ : next_)[edge] != cell) return;
-  int price = (*edges_.costs)[edge];
+  int price = this->price(cell, edge);
+  if (price == 0) return;
   if (has_lanes_ && floor_.isLane(cell) && !floor_.isLane(from)) {
     if (!floor_.isLane(goal_)) return;
     price = kMaxEdgeCost;  // nor for a short cut to another station's lane
   }
   push(edge, cost + price);
+}
+
+/// Of the edge into a cell; 0 if it is closed.
+inline int DistanceSearch::price(Cell cell, int edge) const {
+  if (cell != goal_) return price_[edge];
+  return into_goal_[edge] == cell ? (*edges_.costs)[edge] : 0;
 }
 
 void DistanceSearch::pack(std::vector<std::uint32_t>& words) const {

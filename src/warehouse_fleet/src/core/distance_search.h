@@ -24,6 +24,15 @@ struct Edges {
   bool mayTurn(Deck deck, Cell cell) const { return mayTurnEverywhere(deck) || !is_tight[cell]; }
 };
 
+/// What it costs to drive along each edge, by deck; by cell and heading; 0: there is none. Searches
+/// read one byte an edge instead of where it leads and what it costs.
+struct Prices {
+  std::vector<std::uint8_t> of[2];
+
+  /// Computes them for the edges as they are now.
+  void update(const Edges& edges);
+};
+
 /// A rectangle of cells.
 struct Window {
   int left = 0, top = 0, columns = 0, rows = 0;
@@ -39,8 +48,8 @@ Window around(const Floor& floor, Cell cell, int reach);
 /// What one thread needs for its searches.
 class DistanceSearch {
  public:
-  /// A quarter turn costs `turn_ticks`.
-  DistanceSearch(const Floor& floor, const Edges& edges, int turn_ticks);
+  /// A quarter turn costs `turn_ticks`. All references must outlive it.
+  DistanceSearch(const Floor& floor, const Edges& edges, const Prices& prices, int turn_ticks);
 
   /// Finds what it costs to get to `goal` from each cell and heading in a window, by ways within
   /// the window. With `is_entered` the goal can be reached even if it is closed.
@@ -61,9 +70,11 @@ class DistanceSearch {
   void push(int state, int cost);
   void relax(int state, int cost);
   void enter(Cell cell, int heading, int cost);
+  int price(Cell cell, int edge) const;
 
   const Floor& floor_;
   const Edges& edges_;
+  const Prices& prices_;
   const int turn_cost_;
   int step_[kHeadings];
   bool has_lanes_ = false;
@@ -74,7 +85,8 @@ class DistanceSearch {
   Window window_;
   Deck deck_ = Deck::kUnder;
   Cell goal_ = kNowhere;
-  const Cell* next_ = nullptr;  ///< of the deck
+  bool turns_everywhere_ = true;
+  const std::uint8_t* price_ = nullptr;  ///< of the deck
   const Cell* into_goal_ = nullptr;
 };
 

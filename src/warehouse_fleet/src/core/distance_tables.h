@@ -94,8 +94,9 @@ class DistanceTables {
   /// not there. It is urgent to a robot that makes no progress.
   const DistanceTable* find(Deck deck, Cell from, Cell goal, bool is_urgent);
 
-  /// Renews some of the tables that were found in this step, of so many states: the urgent and the
-  /// oldest first, that are older than `max_age` or of earlier edges.
+  /// Renews some of the tables that were found in this step, of so many states, or fewer where new
+  /// tables took much of the step: the urgent and the oldest first, that are older than `max_age`
+  /// or of earlier edges.
   void renew(int max_age, std::int64_t work);
 
   /// Makes the tables of all regions ahead of need, as long as `goes_on` says so and there is room.
@@ -105,6 +106,9 @@ class DistanceTables {
   /// wrong, for example that they were made for another floor.
   void save(std::ostream& out) const;
   void load(std::istream& in);
+  /// The same with the file at a path, which what is thrown names.
+  void save(const std::string& path) const;
+  void load(const std::string& path);
 
   bool hasRegions() const { return regions_ != nullptr; }
   /// Returns whether one of two cells is among those that a table around the other has.
@@ -155,6 +159,7 @@ class DistanceTables {
 
   const Floor& floor_;
   const Edges& edges_;
+  Prices prices_;
   const TableOptions options_;
   const Threads& threads_;
   std::unique_ptr<Regions> regions_;  ///< nullptr: each table has all cells

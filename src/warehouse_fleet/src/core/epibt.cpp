@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <random>
-#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "candidates.h"
 #include "chain_search.h"
@@ -19,12 +18,15 @@
 #include "dead_ends.h"
 #include "distance_tables.h"
 #include "guidance.h"
+#include "inheritance.h"
 #include "making_way.h"
+#include "measuring.h"
 #include "priorities.h"
 #include "push_search.h"
 #include "reservations.h"
 #include "spacing.h"
 #include "threads.h"
+#include "window_search.h"
 #include "yielding.h"
 
 namespace fleet {
@@ -42,13 +44,6 @@ void inRange(const char* name, int value, int least, int most) {
                    " to " + std::to_string(most) + " was expected");
 }
 
-/// What is remembered of a robot from step to step.
-struct Memory {
-  Cell goal = kNowhere;
-  State planned;  ///< where its path begins
-  Deck deck = Deck::kUnder;
-};
-
 class Epibt : public Planner {
  public:
   explicit Epibt(const EpibtOptions& options) : options_(options), threads_(options.threads) {
@@ -57,6 +52,7 @@ class Epibt : public Planner {
       inRange("horizon", options_.horizon, std::max(1, options_.depth), kMaxHorizon);
     }
     inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
+    if (options_.window > 0) inRange("window", options_.window, kMaxHorizon, kMostWindow);
   }
 
   void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
@@ -67,14 +63,13 @@ class Epibt : public Planner {
 
  private:
   void beginSearch(const Fleet& fleet, const Budget& budget);
+  void chooseWindow(const Fleet& fleet, const Budget& budget);
   void updateFleet(const Fleet& fleet);
   void wish(const Fleet& fleet);
-  void measure();
-  std::int64_t tableWork(std::int64_t a_robot) const;
-  void inherit(const Fleet& fleet);
-  void resume(const std::vector<Path>& rests);
   void replan(bool is_crowded);
-  void improve(const Budget& budget, double deadline);
+  std::function<bool()> limit(const Budget& budget) const;
+  void search(bool is_crowded, const std::function<bool()>& goes_on);
+  void improve(const std::function<bool()>& goes_on);
   void answer(const Fleet& fleet, Plan& plan);
 
   EpibtOptions options_;
@@ -82,8 +77,10 @@ class Epibt : public Planner {
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Closures> closures_;
   std::unique_ptr<DistanceTables> tables_;
+  std::unique_ptr<Measuring> measuring_;
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Reservations> reserved_;
+  std::unique_ptr<Inheritance> inheritance_;
   std::unique_ptr<Spacing> spacing_;
   std::unique_ptr<MakingWay> way_;
   std::unique_ptr<Yielding> yielding_;
@@ -91,13 +88,15 @@ class Epibt : public Planner {
   Rules rules_;
   const Floor* floor_ = nullptr;
   std::mt19937_64 random_;
+  double begin_ = 0;  ///< of this step, in computing time [s]
   int now_ = 0;
-  std::vector<Memory> memory_;
+  std::vector<Cell> goals_;   ///< by robot: in the last step
   std::vector<int> waiting_;  ///< by robot: ticks since it was given its goal, or reached it
   std::vector<Wish> wishes_;
   Priorities priorities_;
   std::unique_ptr<PushSearch> search_;
   std::unique_ptr<ChainSearch> chains_;
+  std::unique_ptr<WindowSearch> windows_;
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
@@ -110,6 +109,9 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   tables_ = std::make_unique<DistanceTables>(
       floor, closures_->edges(),
       TableOptions{options_.turn_ticks, options_.table_bytes, options_.whole_up_to}, threads_);
+  measuring_ = std::make_unique<Measuring>(
+      floor, MeasuringOptions{options_.table_work, options_.renewal_work, options_.renewal_age},
+      *tables_);
   way_ = std::make_unique<MakingWay>(floor, options_.patience);
   yielding_ = std::make_unique<Yielding>(floor, options_.pursuing);
   dead_ends_ = std::make_unique<DeadEnds>(floor);
@@ -125,15 +127,33 @@ void Epibt::beginSearch(const Fleet& fleet, const Budget& budget) {
   const int horizon = options_.horizon;
   candidates_ = std::make_unique<Candidates>(*floor_, closures_->edges(), options_.depth, horizon);
   reserved_ = std::make_unique<Reservations>(*floor_, rules_, horizon);
+  inheritance_ = std::make_unique<Inheritance>(wishes_, *candidates_, *reserved_, threads_);
   spacing_ = std::make_unique<Spacing>(horizon);
   search_ = std::make_unique<PushSearch>(wishes_, priorities_, *candidates_, *reserved_,
                                          options_.revisits);
   chains_ = std::make_unique<ChainSearch>(*floor_, rules_, horizon, wishes_, priorities_,
                                           *candidates_, *reserved_, *search_);
+  chooseWindow(fleet, budget);
+}
+
+/// Has few robots with much time planned in windows, if no option says so.
+void Epibt::chooseWindow(const Fleet& fleet, const Budget& budget) {
+  constexpr double kMuch = 0.04e-3;  // [s] a robot
+  constexpr int kFew = 3;            // passable cells for each robot, at least
+  constexpr int kTicks = 15;
+  if (options_.window == 0) {
+    int passable = 0;
+    for (Cell cell = 0; cell < floor_->size(); ++cell) passable += floor_->isPassable(cell);
+    const bool are_few = kFew * fleet.size() <= passable;
+    options_.window = are_few && budget.seconds > kMuch * fleet.size() ? kTicks : -1;
+  }
+  if (options_.window < 0) return;
+  windows_ = std::make_unique<WindowSearch>(*floor_, rules_, options_.window, wishes_, priorities_,
+                                            *candidates_);
 }
 
 void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
-  const double deadline = threadSeconds() + budget.seconds;
+  begin_ = threadSeconds();
   check(*floor_, fleet);
   if (search_ == nullptr) beginSearch(fleet, budget);
   updateFleet(fleet);
@@ -142,28 +162,25 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   const bool is_crowded = yielding_->choose(waiting_, *candidates_, wishes_);
   if (is_crowded) dead_ends_->empty(*tables_, *candidates_, wishes_);
   way_->direct(fleet, !is_crowded, *candidates_, wishes_);
-  inherit(fleet);
+  inheritance_->begin(fleet);
   priorities_.assign(wishes_, waiting_, *candidates_, *way_);
-  candidates_->find(wishes_, threads_);
-  replan(is_crowded);
-  improve(budget, deadline);
+  search(is_crowded, limit(budget));
   answer(fleet, plan);
   ++now_;
 }
 
 /// Learns from what has become of the last plan.
 void Epibt::updateFleet(const Fleet& fleet) {
-  if (fleet.size() < static_cast<int>(memory_.size())) {
-    memory_.clear();
+  if (fleet.size() < static_cast<int>(goals_.size())) {
+    goals_.clear();
     waiting_.clear();
   }
-  memory_.resize(fleet.size());
+  goals_.resize(fleet.size(), kNowhere);
   waiting_.resize(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
-    Memory& memory = memory_[robot];
     ++waiting_[robot];
-    if (memory.goal != fleet.goal[robot] || fleet.cell[robot] == memory.goal) waiting_[robot] = 0;
-    memory.goal = fleet.goal[robot];
+    const Cell goal = std::exchange(goals_[robot], fleet.goal[robot]);
+    if (goal != fleet.goal[robot] || fleet.cell[robot] == goal) waiting_[robot] = 0;
     if (static_cast<int>(wishes_.size()) <= robot) continue;
     const State& was = wishes_[robot].state;
     if (was.cell != fleet.cell[robot]) {
@@ -196,44 +213,8 @@ void Epibt::wish(const Fleet& fleet) {
       wish.commitment[tick] = fleet.commitment(robot, tick);
     }
   }
-  measure();
+  measuring_->measure(now_, closures_->version(), *way_, wishes_);
   candidates_->begin(fleet.size());
-}
-
-/// Finds each robot the table to its goal.
-void Epibt::measure() {
-  tables_->begin(now_, closures_->version(), tableWork(options_.table_work));
-  const auto needs = [](const Wish& wish) { return wish.goal != kNowhere && !wish.stopped; };
-  for (const bool is_near : {true, false}) {
-    for (const Wish& wish : wishes_) {
-      if (needs(wish) && tables_->areNear(wish.state.cell, wish.goal) == is_near) {
-        tables_->need(wish.deck, wish.goal);
-      }
-    }
-  }
-  tables_->make();
-  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
-  for (int robot = 0; robot < static_cast<int>(wishes_.size()); ++robot) {
-    Wish& wish = wishes_[robot];
-    if (!needs(wish)) continue;
-    const bool waits = way_->still(robot) >= kImpatient && !floor_->isLane(wish.state.cell);
-    wish.table = tables_->find(wish.deck, wish.state.cell, wish.goal, waits);
-    if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) continue;
-    // Perhaps there is a way by now.
-    tables_->find(wish.deck, wish.state.cell, wish.goal, true);
-    wish.goal = kNowhere;
-  }
-  tables_->renew(options_.renewal_age, tableWork(options_.renewal_work));
-}
-
-/// Returns how many states tables that are made in one step may have.
-std::int64_t Epibt::tableWork(std::int64_t a_robot) const {
-  constexpr std::int64_t kLeast = 60000;
-  // On large floors most of a table is shared, so that less does.
-  constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 400;
-  if (tables_->hasRegions()) a_robot = std::min(a_robot, kMostARobot);
-  const auto work = std::max(kLeast, a_robot * static_cast<std::int64_t>(wishes_.size()));
-  return tables_->hasRegions() ? std::min(kMostAtOnce, work) : work;
 }
 
 void Epibt::prepare(double seconds) {
@@ -241,69 +222,30 @@ void Epibt::prepare(double seconds) {
   tables_->prepare([&] { return std::chrono::steady_clock::now() < end; });
 }
 
-void Epibt::save(const std::string& path) const {
-  std::ofstream file(path, std::ios::binary);
-  if (file) tables_->save(file);
-  file.close();
-  if (!file) throw std::runtime_error(path + ": the tables could not be written");
+void Epibt::save(const std::string& path) const { tables_->save(path); }
+
+void Epibt::load(const std::string& path) { tables_->load(path); }
+
+/// Returns what tells before each attempt to improve the plan whether it may be made.
+std::function<bool()> Epibt::limit(const Budget& budget) const {
+  constexpr int kBetweenLooks = 8;
+  return [budget, deadline = begin_ + budget.seconds, attempt = -1]() mutable {
+    if (++attempt == budget.attempts) return false;
+    if (budget.seconds <= 0) return budget.attempts >= 0;
+    return attempt % kBetweenLooks != 0 || threadSeconds() < deadline;
+  };
 }
 
-void Epibt::load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": no such file, or it can't be read");
-  try {
-    tables_->load(file);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
+void Epibt::search(bool is_crowded, const std::function<bool()>& goes_on) {
+  const bool in_windows = windows_ != nullptr && !is_crowded && windows_->canPlan();
+  if (!in_windows || !windows_->inherit()) {
+    candidates_->find(wishes_, threads_);
+    replan(is_crowded);
+    if (in_windows) windows_->adopt(*reserved_, options_.horizon);
   }
-}
-
-/// Everybody begins with what is left of the last plan, if it still can be driven.
-void Epibt::inherit(const Fleet& fleet) {
-  std::vector<Path> rests(fleet.size());
-  bool all_as_planned = true;
-  for (int robot = 0; robot < fleet.size(); ++robot) {
-    const Wish& wish = wishes_[robot];
-    const Memory& memory = memory_[robot];
-    bool is_as_planned = false, is_known = false;
-    if (memory.planned.cell != kNowhere && memory.deck == wish.deck) {
-      const Path& path = reserved_->path(robot);
-      rests[robot] = candidates_->rest(path, memory.planned, wish, is_as_planned);
-      is_known = candidates_->canDrive(rests[robot], wish);
-    }
-    if (!is_known) rests[robot] = candidates_->standing(wish);
-    if (!is_known || !is_as_planned) all_as_planned = false;
-  }
-  reserved_->begin(fleet);
-  if (!all_as_planned) return resume(rests);
-  for (int robot = 0; robot < fleet.size(); ++robot) reserved_->place(robot, rests[robot]);
-}
-
-/// Has all robots stand but the committed ones; a robot that blocks no other takes up its path
-/// again.
-void Epibt::resume(const std::vector<Path>& rests) {
-  const int robots = static_cast<int>(rests.size());
-  for (const bool is_committed : {true, false}) {
-    for (int robot = 0; robot < robots; ++robot) {
-      if ((wishes_[robot].committed > 0) != is_committed) continue;
-      const Path standing = candidates_->standing(wishes_[robot]);
-      const bool can_stand = reserved_->conflict(robot, standing) == Reservations::kNobody;
-      reserved_->place(robot, can_stand ? standing : rests[robot]);
-    }
-  }
-  std::vector<int> waiting(robots), still;
-  std::iota(waiting.begin(), waiting.end(), 0);
-  do {
-    still.clear();
-    for (const int robot : waiting) {
-      const Path standing = reserved_->path(robot);
-      reserved_->remove(robot);
-      const bool is_free = reserved_->conflict(robot, rests[robot]) == Reservations::kNobody;
-      reserved_->place(robot, is_free ? rests[robot] : standing);
-      if (!is_free) still.push_back(robot);
-    }
-    waiting.swap(still);
-  } while (waiting.size() < still.size());
+  if (!in_windows) return improve(goes_on);
+  windows_->improve(goes_on, random_);
+  windows_->write(*reserved_, options_.horizon);
 }
 
 /// Looks for a better operation for each robot, by rank. On a crowded floor robots that yield keep
@@ -319,16 +261,12 @@ void Epibt::replan(bool is_crowded) {
 }
 
 /// A large-neighbourhood search: moves robots aside where all together gain by it.
-void Epibt::improve(const Budget& budget, double deadline) {
+void Epibt::improve(const std::function<bool()>& goes_on) {
   std::vector<int> order;
   std::copy_if(priorities_.order().begin(), priorities_.order().end(), std::back_inserter(order),
                [this](int robot) { return !wishes_[robot].yields; });
   if (order.empty()) return;
-  constexpr int kBetweenLooks = 8;
-  const bool is_timed = budget.seconds > 0;
-  if (!is_timed && budget.attempts < 0) return;
-  for (int attempt = 0; attempt != budget.attempts; ++attempt) {
-    if (is_timed && attempt % kBetweenLooks == 0 && threadSeconds() >= deadline) return;
+  for (std::size_t attempt = 0; goes_on(); ++attempt) {
     if (attempt % order.size() == 0) {
       search_->beginPass();
       std::shuffle(order.begin(), order.end(), random_);
@@ -344,9 +282,8 @@ void Epibt::answer(const Fleet& fleet, Plan& plan) {
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Path& path = reserved_->path(robot);
     std::copy_n(path.actions.begin(), plan.horizon, plan.actions.begin() + robot * plan.horizon);
-    memory_[robot].planned = wishes_[robot].state;
-    memory_[robot].deck = wishes_[robot].deck;
   }
+  inheritance_->remember();
   if (!rules_.following) plan.actions = spacing_->space(fleet, *floor_, *reserved_);
 }
 

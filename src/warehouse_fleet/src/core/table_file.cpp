@@ -2,6 +2,7 @@
 //
 // Tables of regions in a file: a line of text that says what they were made for, their number, and
 // for each its key and its words as they lie in memory.
+#include <fstream>
 #include <istream>
 #include <ostream>
 #include <sstream>
@@ -101,6 +102,23 @@ void DistanceTables::load(std::istream& in) {
     entry->table.words_.resize(floor_.size());
     get(in, entry->table.words_.data(), entry->table.words_.size());
     entry->is_made = true;
+  }
+}
+
+void DistanceTables::save(const std::string& path) const {
+  std::ofstream file(path, std::ios::binary);
+  if (file) save(file);
+  file.close();
+  if (!file) throw std::runtime_error(path + ": the tables could not be written");
+}
+
+void DistanceTables::load(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": no such file, or it can't be read");
+  try {
+    load(file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
   }
 }
 

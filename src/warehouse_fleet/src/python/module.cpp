@@ -201,6 +201,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("exchanges", options.exchanges);
   set("patience", options.patience);
   set("pursuing", options.pursuing);
+  set("window", options.window);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
   set("whole_up_to", options.whole_up_to);
@@ -251,10 +252,10 @@ their tables in time. seconds: by the clock at most [s]; without it equal plans 
 It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
 by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5; 0: 4, or 5 where the
 first step has time for it), horizon (ticks of a plan, up to 7; 0: depth), turn_ticks, revisits, pushes,
-exchanges, patience [ticks], pursuing (share of the passable cells), goals_are_stops, table_bytes,
-whole_up_to [cells], threads (0: one a core), table_work, renewal_work, renewal_age [ticks], against,
-crowd, resting, at_lanes,
-memory [ticks]. TypeError for another option.)");
+exchanges, patience [ticks], pursuing (share of the passable cells), window (ticks of the windows for
+few robots with much time, 7 to 31; 0: 15 where the first step has time for it; -1: none),
+goals_are_stops, table_bytes, whole_up_to [cells], threads (0: one a core), table_work, renewal_work,
+renewal_age [ticks], against, crowd, resting, at_lanes, memory [ticks]. TypeError for another option.)");
   module.def(
       "load_planner",
       [](const std::string& path, const std::string& class_name, std::shared_ptr<Floor> floor,

@@ -62,6 +62,10 @@ def _register():
             vector_entry_point="warehouse_learning.robots_env:KivaRobotsVectorEnv",
             kwargs=options,
         )
+    register(
+        id="KivaOperations-v0",
+        entry_point="warehouse_learning.operations_env:KivaOperationsEnv",
+    )
 
 
 _register()

@@ -16,7 +16,7 @@ from warehouse_learning.options import Options
 def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
     """Returns (Worlds, checkpoint): n worlds before an episode, and that state to return to."""
     with tempfile.TemporaryDirectory() as folder:
-        _write_kiva(Path(folder), options)
+        write_kiva(Path(folder), options.acceleration, options.lift_time, options.lasers)
         laid, hall = _laid_out(options, folder)
         first = World.of_layout(laid, world=hall, model_paths=[folder])
     first.step_size = options.physics_step
@@ -48,15 +48,16 @@ def _part(element: ElementTree.Element, tag: str) -> ElementTree.Element:
     return found
 
 
-def _write_kiva(folder, options):
-    """The Kiva of worlds/models with another lift, another acceleration, and maybe no laser."""
+def write_kiva(folder: Path, acceleration: float, lift_time: float, lasers: bool) -> None:
+    """Writes the Kiva of worlds/models with another lift, another acceleration [m/s², s], and maybe
+    without a laser, as folder/kiva."""
     own = worlds_folder() / "models" / "kiva"
     document = ElementTree.parse(own / "model.sdf")
     model = _part(document.getroot(), "model")
     plugins = {plugin.get("name"): plugin for plugin in model.findall("plugin")}
-    _part(plugins["motion"], "acceleration").text = repr(float(options.acceleration))
-    _part(plugins["lift"], "time").text = repr(float(options.lift_time))
-    if not options.lasers:
+    _part(plugins["motion"], "acceleration").text = repr(float(acceleration))
+    _part(plugins["lift"], "time").text = repr(float(lift_time))
+    if not lasers:
         model.remove(plugins["laser"])
     (folder / "kiva").mkdir()
     document.write(folder / "kiva" / "model.sdf", encoding="unicode")

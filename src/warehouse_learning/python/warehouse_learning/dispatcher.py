@@ -62,7 +62,8 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._grid = Grid(FloorPlan.of_world(self._world), 0)
         self._scene = SimpleNamespace(worlds=[self._world], robots=robots, grid=self._grid)
         page = lambda: Page(self._world, self.options.title)  # noqa: E731
-        self._screen = Screen(render_mode, lambda: Picture(self._scene), page)
+        asked = lambda: [task["shelf"] for task in self._tasks]  # noqa: E731
+        self._screen = Screen(render_mode, lambda: Picture(self._scene), page, asked)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

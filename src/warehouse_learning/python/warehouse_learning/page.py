@@ -50,6 +50,10 @@ class Page:
         self._feed.update()
         self._server.hub.notify()
 
+    def requested(self, units: Iterable[int]) -> None:
+        """Marks the storage units of these numbers, and no others, as requested."""
+        self._feed.request(int(unit) for unit in units)
+
     def moved(self) -> None:
         """Shows the world if a browser has the page open, and waits until time may go on."""
         if self.watchers:

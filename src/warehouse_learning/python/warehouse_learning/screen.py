@@ -16,15 +16,21 @@ FRAMES = 4  # a second, of a film
 class Screen:
     """Shows an environment: pictures from `make_picture()`, a page from `make_page()`.
 
-    Each is made when it is first needed. Raises ValueError for an unknown mode.
+    Each is made when it is first needed. requested() tells the numbers of the storage units that
+    are asked for, which the page marks. Raises ValueError for an unknown mode.
     """
 
     def __init__(
-        self, mode: str | None, make_picture: Callable[[], Picture], make_page: Callable[[], Page]
+        self,
+        mode: str | None,
+        make_picture: Callable[[], Picture],
+        make_page: Callable[[], Page],
+        requested: Callable[[], Iterable[int]],
     ) -> None:
         if mode not in (None, *RENDER_MODES):
             raise ValueError(f"render_mode is {mode!r}; None or one of {RENDER_MODES} was expected")
         self.mode, self._make_picture, self._make_page = mode, make_picture, make_page
+        self._requested = requested
         self._picture: Picture | None = None
         self._page: Page | None = None
 
@@ -45,6 +51,7 @@ class Screen:
     def render(self) -> np.ndarray | None:
         """Returns the picture, (height, width, 3) uint8; shows it and returns None for "human"."""
         if self.is_watched:
+            self._shown().requested(self._requested())
             self._shown().show()
         elif self.mode == "rgb_array":
             self._picture = self._picture or self._make_picture()

@@ -26,7 +26,8 @@ class Stage:
         self._see = Observer(self._in)
         self.fields, self.state_fields = self._see.fields, self._see.state_fields
         page = lambda: Page(self._in.worlds[0], self.options.title)  # noqa: E731
-        self._screen = Screen(render_mode, lambda: Picture(self._in), page)
+        picture = lambda: Picture(self._in)  # noqa: E731
+        self._screen = Screen(render_mode, picture, page, lambda: self._in.units_requested(0))
         if self._screen.is_watched:
             self._in.on_moved = self._screen.moved
 

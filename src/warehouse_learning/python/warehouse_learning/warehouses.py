@@ -51,6 +51,7 @@ class Warehouses:
         self.robots, self.units = options.robots, options.shelves
         self._kiva_id = self.worlds[0].fleet.kiva_id
         units = self.worlds.storage_units[0]
+        self._shelf_id = units["shelf_id"].copy()
         self._street = np.flatnonzero(grid.street)
         self._first_cells = grid.cell_of(units["x"], units["y"])
         self.task = Task(
@@ -125,6 +126,10 @@ class Warehouses:
             self._masks = self.task.possible()
             self._masks.flags.writeable = False
         return self._masks
+
+    def units_requested(self, w: int) -> list[int]:
+        """Returns the numbers of the storage units that are requested in world w."""
+        return self._shelf_id[self.requested[w]].tolist()
 
     def check(self, actions: Any) -> np.ndarray:
         """Returns actions as (n, robots) or, for wheels, (n, robots, 3). Raises ActionError."""

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a saved episode on the warehouse's page, on this machine, once the page is open.
+"""Plays a saved episode, or lets robots drive by a trained policy, on the warehouse's page, on this
+machine, once the page is open.
 
 python3 -m warehouse_learning.watch episode.json [--speed 5]
+python3 -m warehouse_learning.watch --policy tiny-4ag
 """
 
 import argparse
+import contextlib
+import itertools
 import sys
 import time
 from typing import Any
@@ -27,33 +31,94 @@ def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
 
     warehouses.on_moved = moved
     for action in actions:
+        page.requested(warehouses.units_requested(0))
         warehouses.step(action[None])
     page.show()
     return int(warehouses.delivered.sum())
 
 
+def drive(page: Page, env: Any, policy: Any, seed: int) -> float:
+    """Lets an environment's robots drive by a policy for an episode; returns what they earned."""
+
+    def moved(events: Any) -> None:
+        page.show_events(events)
+        page.moved()
+
+    env.motion.on_moved = moved
+    random = np.random.default_rng(seed)
+    observations, _ = env.reset(seed=seed)
+    total, ends = 0.0, False
+    while not ends:
+        page.requested(env.requested)
+        actions = policy.act(np.stack(observations), random)
+        observations, rewards, ends, _, _ = env.step(actions.tolist())
+        total += sum(rewards)
+    page.show()
+    return total
+
+
 def main() -> None:
-    """Plays the episode of the command line."""
-    parser = argparse.ArgumentParser("python3 -m warehouse_learning.watch", description=__doc__)
-    parser.add_argument("file", help="episode written by save_episode()")
+    """Plays what the command line names."""
+    parser = argparse.ArgumentParser(
+        "python3 -m warehouse_learning.watch",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("file", nargs="?", help="episode written by save_episode()")
+    parser.add_argument("--policy", help="file, or one that is shipped, that examples/ trained")
+    parser.add_argument("--seed", type=int, default=0, help="of the policy's first episode (0)")
     speed = "simulated seconds a wall second, 0: as fast as possible (5); the page can change it"
     parser.add_argument("--speed", type=float, default=SPEED, help=speed)
     wanted = parser.parse_args()
+    if (wanted.file is None) == (wanted.policy is None):
+        parser.error("an episode's file or --policy was expected, one of them")
+    try:
+        (_watch_policy if wanted.policy else _watch_episode)(wanted)
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+def _watch_episode(wanted):
     try:
         options, seed, actions = episodes.load(wanted.file)
     except episodes.EpisodeError as error:
         sys.exit(f"watch: {error}")
     warehouses = Warehouses(1, options)
     warehouses.reset([0], [seed])
-    page = Page(warehouses.worlds[0], options.title, speed=wanted.speed)
-    try:
-        while not page.watchers:
-            time.sleep(POLL)
+    with _open(warehouses.worlds[0], options.title, wanted.speed) as page:
         delivered = play(page, warehouses, actions)
         print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
         while True:
             time.sleep(3600)
-    except KeyboardInterrupt:
+
+
+def _watch_policy(wanted):
+    from warehouse_learning.marl import policy
+    from warehouse_learning.rware import options_of
+    from warehouse_learning.rware.env import Warehouse
+
+    try:
+        trained = policy.load(wanted.policy)
+    except policy.PolicyError as error:
+        sys.exit(f"watch: {error}")
+    task = trained.about["task"]
+    env = Warehouse(physics="bodies", **options_of(task))
+    env.reset(seed=wanted.seed)
+    bodies: Any = env.motion
+    with _open(bodies.worlds[0], f"{task}, by {wanted.policy}", wanted.speed) as page:
+        for seed in itertools.count(wanted.seed):
+            print(f"episode {seed}: {drive(page, env, trained, seed):g} delivered; Ctrl-C ends it")
+
+
+@contextlib.contextmanager
+def _open(world, title, speed):
+    """A Page, once a browser has it open, and until then."""
+    page = Page(world, title, speed=speed)
+    try:
+        while not page.watchers:
+            time.sleep(POLL)
+        yield page
+    finally:
         page.close()
 
 

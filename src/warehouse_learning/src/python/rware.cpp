@@ -12,6 +12,7 @@
 #include "core/parallel/workers.h"
 #include "python/arrays.h"
 #include "rware/observer.h"
+#include "rware/undertaking.h"
 #include "rware/warehouse.h"
 
 namespace learning::python {
@@ -114,6 +115,44 @@ class Rware {
     write(
         "features", given, {count(), agents_, rware::kFeatures}, rware::kFeatures,
         [this](int i, int agent, float* out) { rware::writeFeatures(warehouses_[i], agent, out); });
+  }
+
+  void begin(const py::object& given_which, const py::object& given_actions, bool bodies,
+             const py::object& given_current) {
+    const auto which = checked<bool>("which", given_which, {count()});
+    const auto actions = checked<std::int8_t>("actions", given_actions, {count(), agents_});
+    auto current = checked<std::int8_t>("current", given_current, {count(), agents_});
+    checkActions(actions);
+    const bool* begins = which.data();
+    const std::int8_t* action = actions.data();
+    std::int8_t* out = current.mutable_data();
+    const py::gil_scoped_release release;
+    workers_.share(count(), kWorth, [&](int begin, int end) {
+      rware::Undertaking undertaking(bodies);
+      for (int i = begin; i < end; ++i) {
+        const auto first = std::ptrdiff_t{i} * agents_;
+        if (begins[i]) undertaking.begin(warehouses_[i], action + first, out + first);
+      }
+    });
+  }
+
+  /// (count, agents, 3): cell, direction, shelf carried or -1.
+  void where(const py::object& given) {
+    auto array = checked<int>("out", given, {count(), agents_, 3});
+    int* out = array.mutable_data();
+    for (const rware::Warehouse& warehouse : warehouses_) {
+      for (const rware::Agent& agent : warehouse.agents()) {
+        for (const int value : {agent.cell, agent.direction, agent.shelf}) *out++ = value;
+      }
+    }
+  }
+
+  std::vector<int> shelfAt(int i) {
+    std::vector<int> cells(at(i).layout().size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      cells[cell] = at(i).shelfAt(static_cast<int>(cell));
+    }
+    return cells;
   }
 
   /// (agents, 4) of a warehouse: cell, direction, shelf carried or -1, whether it has delivered it.
@@ -249,6 +288,16 @@ actions: a sequence of one an agent, without messages; written: rewards, (1, age
   rware.def("images", &Rware::images, py::arg("out"),
             "out: (count, agents, layers, width, width) float32.");
   rware.def("features", &Rware::features, py::arg("out"), "out: (count, agents, 6) float32.");
+  rware.def(
+      "begin", &Rware::begin, py::arg("which"), py::arg("actions"), py::arg("bodies"),
+      py::arg("current"),
+      R"(Lets agents that are at nothing begin an action that takes time, where that is possible.
+
+actions, current: (count, agents) int8; current, 0 where an agent is at nothing, is written. What
+ends is told to step(), which makes it come true. bodies: neighbours turn one after the other.)");
+  rware.def("where", &Rware::where, py::arg("out"),
+            "out: (count, agents, 3) int32: cell, direction, shelf carried or -1.");
+  rware.def("shelf_at", &Rware::shelfAt, py::arg("i"), "By cell: the shelf there, or -1.");
   rware.def("agents", &Rware::agents, py::arg("i"),
             "(agents, 4) int32: cell, direction, shelf carried or -1, whether that was delivered.");
   rware.def("shelves", &Rware::shelves, py::arg("i"), "The cell of each shelf.");

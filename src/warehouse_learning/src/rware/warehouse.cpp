@@ -65,7 +65,6 @@ bool Warehouse::step(const std::int8_t* actions, double* rewards) {
          (options_.max_steps && steps_ >= options_.max_steps);
 }
 
-/// The cell before an agent; its own at the edge of the floor.
 int Warehouse::ahead(const Agent& agent) const {
   const int x = layout_->x(agent.cell), y = layout_->y(agent.cell);
   switch (agent.direction) {

@@ -52,9 +52,10 @@ class Warehouse {
   bool isRequested(int shelf) const { return requested_[shelf]; }
   const std::vector<int>& requests() const { return requests_; }  ///< Shelves.
   int shelfCell(int shelf) const { return shelf_cell_[shelf]; }
+  /// The cell before an agent; its own at the edge of the floor.
+  int ahead(const Agent& agent) const;
 
  private:
-  int ahead(const Agent& agent) const;
   Wish wish(const Agent& agent, int action) const;
   void turn(Agent* agent, int action) const;
   void toggleLoad(Agent* agent, double* reward) const;

@@ -23,6 +23,7 @@ import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
 import { momentOf } from './replay/link.js';
 import { Timeline } from './replay/timeline.js';
+import { Requested } from './requested.js';
 import { SceneKeys, speak } from './scene_keys.js';
 import { Signs } from './signs.js';
 import { Stage } from './stage.js';
@@ -50,6 +51,7 @@ class Page {
     this.placers = [this.builder, this.people];
     this.fallen = new FallenItems(this.world, () => this.selected,
       (request) => this.builder.attempt(request));
+    this.requested = new Requested(this.world);
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
     this.drawers = new Drawers(() => this.fitPanels());
@@ -73,6 +75,7 @@ class Page {
       scan: (scan) => this.takeScan(scan),
       fleet: ({ fleet }) => this.takeFleet(fleet),
       ways: ({ ways }) => this.takeWays(ways),
+      requested: ({ units }) => this.requested.take(units),
     }, (act) => this.soon(act));
     this.timeline = new Timeline(this);
   }
@@ -209,7 +212,8 @@ class Page {
     this.drawn = now;
     const isUnsettled = this.actors.fill(this.stage.camera, innerHeight, now);
     this.labels.draw(this.actors.view, this.named(), [
-      ...this.signs.labels(this.actors.view), ...this.where.draw(), ...this.fallen.labels()]);
+      ...this.signs.labels(this.actors.view), ...this.where.draw(), ...this.fallen.labels(),
+      ...this.requested.labels()]);
     return flies || isUnsettled || this.world.moving.size > 0;
   }
 

@@ -11,7 +11,7 @@ import rospy
 from fake_ros import FakeRos
 from pydantic import ValidationError
 from std_msgs.msg import Header
-from test_viewer_hub import Socket, hub_of
+from test_viewer_hub import Socket, Told, hub_of
 from test_viewer_model import World, fleet
 
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, TransportEvent
@@ -44,15 +44,6 @@ def paths(stamp=1.0):
 
 def state(stamp=1.0, **fields):
     return CoordinatorState(header=Header(stamp=rospy.Time(stamp)), **fields)
-
-
-class Told(dict):
-    """Stands in for a Feed that has heard these messages."""
-
-    coordinator = None
-
-    def __missing__(self, name):
-        return None
 
 
 def test_ways_are_of_the_wanted_robots_and_as_described():

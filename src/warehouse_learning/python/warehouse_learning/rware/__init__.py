@@ -36,6 +36,7 @@ __all__ = [
     "Warehouse",
     "full_registration",
     "image_registration",
+    "options_of",
     "parallel_env",
 ]
 
@@ -53,14 +54,19 @@ def full_registration() -> None:
 def parallel_env(name: str | None = None, **options: Any) -> Any:
     """A PettingZoo ParallelEnv of a registered task, by RWARE's name or with kiva- before it, or of
     options as of Warehouse; an option beside a name replaces the task's."""
-    import gymnasium
-
     from warehouse_learning.rware.parallel import RwareParallelEnv
 
-    known = {}
-    if name is not None:
-        known = gymnasium.spec(name if name.startswith("kiva-") else f"kiva-{name}").kwargs
-    return RwareParallelEnv(**known | options)
+    return RwareParallelEnv(**(options_of(name) if name else {}) | options)
+
+
+def options_of(name: str) -> dict[str, Any]:
+    """Returns the options of a registered task, as Warehouse takes them: kiva-rware-tiny-4ag-v2,
+    rware-tiny-4ag-v2 or tiny-4ag."""
+    import gymnasium
+
+    if "rware-" not in name:
+        name = f"rware-{name}-v2"
+    return dict(gymnasium.spec(name if name.startswith("kiva-") else f"kiva-{name}").kwargs)
 
 
 ids.register_all(ids.plain())

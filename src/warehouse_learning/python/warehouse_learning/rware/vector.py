@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many warehouses of RWARE in arrays, stepped on all cores in one call."""
 
+from dataclasses import fields
 from typing import Any
 
 import gymnasium
@@ -10,6 +11,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from warehouse_learning.rware.env import RENDERING
+from warehouse_learning.rware.motion import motion_of
 from warehouse_learning.rware.observations import Observer
 from warehouse_learning.rware.picture import picture
 from warehouse_learning.rware.task import FEATURES, Action, ObservationType, Task, seed_of
@@ -21,7 +23,8 @@ class RwareVectorEnv(VectorEnv):
     Observations are (num_envs, agents, …) float32, or with IMAGE_DICT a dictionary of two such;
     DICT is no array and refused. Rewards are (num_envs, agents) float64, actions (num_envs, agents)
     or, with messages, (num_envs, agents, 1 + msg_bits). Each warehouse draws from its own stream:
-    environment i with seed s gives what a Warehouse with seed s + i does.
+    environment i with seed s gives what a Warehouse with seed s + i does. physics, decision: as of
+    Warehouse; infos hold arrays then, (num_envs,) and (num_envs, agents).
     """
 
     def __init__(
@@ -30,6 +33,8 @@ class RwareVectorEnv(VectorEnv):
         render_mode: str | None = None,
         threads: int = 0,
         autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
+        physics: str = "grid",
+        decision: float | str = "action",
         **options: Any,
     ) -> None:
         self.task = task = Task(**options)
@@ -42,11 +47,18 @@ class RwareVectorEnv(VectorEnv):
         self.single_action_space = _action_space(task)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._warehouses = task.warehouses(num_envs, threads)
-        self._observer = Observer(task, self._warehouses, num_envs)
+        self.warehouses = task.warehouses(num_envs, threads)
+        self.motion = motion_of(physics, task, self.warehouses, num_envs, decision, threads)
+        self._observer = Observer(task, self.warehouses, num_envs)
         self._messages = np.zeros((num_envs, task.n_agents, task.msg_bits), np.float32)
         self._ended = np.zeros(num_envs, bool)
         self._is_seeded = np.zeros(num_envs, bool)
+
+    @classmethod
+    def of_task(cls, num_envs: int, task: Task, **options: Any) -> "RwareVectorEnv":
+        """Returns environments of a Task; options as of the class, but for the task's."""
+        known = {f.name: getattr(task, f.name) for f in fields(task) if f.init}
+        return cls(num_envs, **known, **options)
 
     def reset(
         self, *, seed: Any = None, options: dict[str, Any] | None = None
@@ -63,12 +75,12 @@ class RwareVectorEnv(VectorEnv):
         for i in np.flatnonzero(which).tolist():
             number = seeds[i] if seeds is seed or seed is None else seed + i
             if number is not None or not self._is_seeded[i]:
-                self._warehouses.seed(i, *seed_of(None if number is None else int(number)))
+                self.warehouses.seed(i, *seed_of(None if number is None else int(number)))
         self._is_seeded |= which
         if not self._is_seeded.all():
             raise gymnasium.error.ResetNeeded("all are to be reset at first")
         self._begin(which)
-        return self._observer.arrays(), {}
+        return self._observer.arrays(), self._infos()
 
     def step(self, actions: Any) -> tuple[Any, ...]:
         """Observations, rewards, terminated, truncated (never), infos; see the class.
@@ -82,13 +94,15 @@ class RwareVectorEnv(VectorEnv):
         rewards = np.empty((self.num_envs, self.task.n_agents))
         ends = np.empty(self.num_envs, bool)
         chosen = self._chosen(actions)
-        self._warehouses.step(~begins, chosen, self._messages, rewards, ends)
+        if self.motion:
+            chosen = self.motion.pass_time(~begins, chosen)
+        self.warehouses.step(~begins, chosen, self._messages, rewards, ends)
         if begins.any():
             self._begin(begins)
         self._ended = ends.copy()
-        observations, infos = self._observer.arrays(), {}
+        observations, infos = self._observer.arrays(), self._infos()
         if self.autoreset_mode == AutoresetMode.SAME_STEP and ends.any():
-            infos = {"final_obs": observations, "_final_obs": ends.copy()}
+            infos |= {"final_obs": observations, "_final_obs": ends.copy()}
             self._begin(ends)
             observations = self._observer.arrays()
         return observations, rewards, ends, np.zeros(self.num_envs, bool), infos
@@ -97,7 +111,7 @@ class RwareVectorEnv(VectorEnv):
         """Returns the first one's picture with render_mode "rgb_array"."""
         if self.render_mode != "rgb_array" or not self._is_seeded.all():
             return None
-        return (picture(self.task, self._warehouses, 0),)
+        return (picture(self.task, self.warehouses, 0),)
 
     def _beginning(self):
         if self.autoreset_mode == AutoresetMode.NEXT_STEP:
@@ -109,8 +123,13 @@ class RwareVectorEnv(VectorEnv):
 
     def _begin(self, which):
         self._messages[which] = 0
-        self._warehouses.reset(which)
+        self.warehouses.reset(which)
+        if self.motion:
+            self.motion.reset(which)
         self._ended[which] = False
+
+    def _infos(self):
+        return self.motion.infos() if self.motion else {}
 
     def _chosen(self, actions):
         given = np.asarray(actions)

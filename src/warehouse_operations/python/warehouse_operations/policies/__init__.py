@@ -22,6 +22,7 @@ from warehouse_operations.orders import Bundle, Line, Order
 from warehouse_operations.policies import (
     bins,
     idle,
+    learned,
     order_assignment,
     replenishment,
     robots,
@@ -121,12 +122,12 @@ class ChargingPolicy(Protocol):
 
 
 ROLES: dict[str, dict[str, Any]] = {
-    "orders": order_assignment.NAMES,
-    "units": unit_choice.NAMES,
+    "orders": order_assignment.NAMES | {"learned": learned.LearnedOrders},
+    "units": unit_choice.NAMES | {"learned": learned.LearnedUnits},
     "storage": storage.NAMES,
     "bins": bins.NAMES,
     "replenishment": replenishment.NAMES,
-    "robots": robots.NAMES,
+    "robots": robots.NAMES | {"learned": learned.LearnedRobots},
     "idle": idle.NAMES,
     "charging": charging.NAMES,
 }

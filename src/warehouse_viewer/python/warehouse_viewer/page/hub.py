@@ -45,6 +45,7 @@ class Page:
         self.gap = 0.0  # that it asks for between two updates [s, wall]
         self.scans: set[int] = set()
         self.sent_scans: dict[int, Any] = {}
+        self.sent_requested: Any = None
         self.paths: set[int] = set()
         self.sent_paths: dict[int, Any] = {}
         self.ways: set[int] | None = set()  # of these robots, None: of all
@@ -268,6 +269,10 @@ class Hub:
                 page.sent_scans[kiva_id] = scan
                 rays = (scan.angle_min, scan.angle_increment, scan.ranges)
                 await page.socket.send_bytes(protocol.scan(kiva_id, mount, *rays))
+        requested = self._feed["requested"]
+        if requested is not None and requested != page.sent_requested:
+            page.sent_requested = requested
+            await page.send_json({"type": "requested", "units": requested})
         paths = paths_of(self._feed["paths"], page.paths) if page.paths else {}
         if paths != page.sent_paths:
             page.sent_paths = paths

@@ -34,8 +34,9 @@ class Feed(Protocol):
         ways          warehouse_msgs/CoordinatorPaths, with numpy arrays
         frames        tf2_msgs/TFMessage, where the lasers are mounted
         scan<id>      sensor_msgs/LaserScan of that robot
+        requested     numbers of the storage units that those who learn are asked for
 
-    The last four come only after subscribe_extras() has asked for them, if at all.
+    paths, ways, frames and scans come only after subscribe_extras() has asked for them, if at all.
     """
 
     def __getitem__(self, name: str) -> Any: ...

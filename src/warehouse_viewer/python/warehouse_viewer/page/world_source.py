@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world of this process as a Source, without ROS."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,6 +17,8 @@ PLACES = ("x", "y", "yaw", "vx", "vy", "yaw_rate")
 COLUMNS = (*PLACES, "kiva_id", "shelf_id", "status", "state", "last_end", "failures", "charge")
 TRACKED = {"kiva", "storage_unit", "item"}  # every other model is scenery
 UNAVAILABLE = ("reset", "reset_poses", "checkpoint", "restore", "undo", "create", "person")
+# The laser of worlds/models/kiva: which way it sees to each side [rad], and x, z on its robot [m].
+LASER_REACH, LASER_AT = math.pi / 3, (0.38, 0.2)
 DECIDES = "the program that steps this warehouse decides that"
 
 
@@ -39,9 +42,19 @@ class WorldFeed:
     def __init__(self, world: Any, pace: Pace) -> None:
         self._world = world
         self._units = [f"storage_unit{n}" for n in world.storage_units["shelf_id"]]
-        still = {"objects": self._objects(), "scenery": self._scenery()}
+        self._scanned: Sequence[int] = ()
+        self._mounts = _mounts(world)
+        still = {
+            "objects": self._objects(),
+            "scenery": self._scenery(),
+            "frames": SimpleNamespace(transforms=self._mounts),
+        }
         self._now: dict[str, Any] = {"performance": pace, **still}
         self.update()
+
+    def request(self, units: Iterable[int]) -> None:
+        """Tells which storage units are requested, by number."""
+        self._now = self._now | {"requested": sorted(units)}
 
     def update(self) -> None:
         """Copies the world's present state."""
@@ -57,7 +70,21 @@ class WorldFeed:
         }
         new = {"fleet": {"stamp": stamp, "load_limit": [], **fleet}, "states": states}
         # One assignment: a reader in another thread sees the old or the new state, never a mixture.
-        self._now = self._now | {name: SimpleNamespace(**of) for name, of in new.items()}
+        states = {name: SimpleNamespace(**of) for name, of in new.items()}
+        self._now = self._now | states | self._scans_now()
+
+    def _scans_now(self):
+        """Scans of the robots whose lasers a page shows."""
+        if not self._scanned or not self._mounts:
+            return {}
+        ranges = self._world.scans(np.array(self._scanned, np.int32))
+        step = 2 * LASER_REACH / (ranges.shape[1] - 1)
+        return {
+            f"scan{kiva_id}": SimpleNamespace(
+                angle_min=-LASER_REACH, angle_increment=step, ranges=row.copy()
+            )
+            for kiva_id, row in zip(self._scanned, ranges)
+        }
 
     def __getitem__(self, name: str) -> Any:
         return self._now.get(name)
@@ -76,7 +103,9 @@ class WorldFeed:
         return False
 
     def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
-        """Does nothing: such a world has neither paths nor scans."""
+        """Asks for the scans of these robots with the next state; such a world has no paths."""
+        known = set(self._world.fleet.kiva_id.tolist())
+        self._scanned = [kiva_id for kiva_id in scans if kiva_id in known]
 
     def _objects(self) -> SimpleNamespace:
         return SimpleNamespace(
@@ -91,6 +120,20 @@ class WorldFeed:
 
     def _scenery(self) -> SimpleNamespace:
         return scenery_of(self._world, Looks(self._world), self._units, [])
+
+
+def _mounts(world):
+    """Where lasers are on robots, laid out as a TFMessage's transforms; none without them."""
+    if not len(world.fleet) or not world.scans(world.fleet.kiva_id[:1]).shape[1]:
+        return []
+    place = SimpleNamespace(
+        translation=SimpleNamespace(x=LASER_AT[0], y=0.0, z=LASER_AT[1]),
+        rotation=SimpleNamespace(x=0.0, y=0.0, z=0.0, w=1.0),
+    )
+    return [
+        SimpleNamespace(child_frame_id=f"kiva{kiva_id}/laser", transform=place)
+        for kiva_id in world.fleet.kiva_id.tolist()
+    ]
 
 
 def scenery_of(

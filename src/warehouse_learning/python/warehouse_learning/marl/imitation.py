@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A network learns what the fleet's planner would do, in states that it comes to itself: DAgger
+(Ross et al., 2011). So a training can begin with robots that deliver, where chance hardly ever
+does."""
+
+from typing import Any
+
+import numpy as np
+
+from warehouse_learning.marl.encoding import Encoder
+from warehouse_learning.marl.mlp import Adam, Mlp
+from warehouse_learning.marl.planned import Planned
+from warehouse_learning.marl.policy import drawn
+
+ENVIRONMENTS = 16
+ROUND = 50  # steps of each between two times of learning
+BATCH, RATE = 1024, 2e-3
+PASSES = 4  # over what was seen, a round
+LATE_PASSES = 12  # in the end
+
+
+def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> None:
+    """Lets an actor imitate the planner in so many steps of RWARE's task, all environments'.
+
+    In the first round the planner drives, then the network more and more.
+    """
+    from warehouse_learning.rware.vector import RwareVectorEnv
+
+    random = np.random.default_rng(seed)
+    envs = RwareVectorEnv.of_task(ENVIRONMENTS, task)
+    seen, told = [], []
+    observations, _ = envs.reset(seed=seed)
+    planned = [Planned(task, envs.warehouses, i) for i in range(ENVIRONMENTS)]
+    adam = Adam(actor.parameters)
+    rounds = max(1, steps // (ROUND * ENVIRONMENTS))
+    for number in range(rounds):
+        for _ in range(ROUND):
+            rows = encoder.encode(observations)
+            wanted = np.stack([one.act() for one in planned])
+            seen.append(rows.reshape(-1, encoder.size))
+            told.append(wanted.ravel())
+            own = drawn(actor.forward(seen[-1])[0], random).reshape(wanted.shape)
+            leads = random.random(ENVIRONMENTS) < number / rounds
+            actions = np.where(leads[:, None], own, wanted).astype(np.int8)
+            observations = envs.step(actions)[0]
+        passes = LATE_PASSES if number == rounds - 1 else PASSES
+        _learn(actor, adam, np.concatenate(seen), np.concatenate(told), passes, random)
+
+
+def _learn(actor, adam, seen, told, passes, random):
+    """Makes what was told more likely, by cross entropy."""
+    for _ in range(passes * min(len(told), 20 * BATCH) // BATCH):
+        rows = random.integers(len(told), size=BATCH)
+        logits, kept = actor.forward(seen[rows])
+        slopes = np.exp(logits - logits.max(1, keepdims=True))
+        slopes /= slopes.sum(1, keepdims=True)
+        slopes[np.arange(BATCH), told[rows]] -= 1
+        adam.step(actor.backward(kept, slopes / np.float32(BATCH)), RATE)

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Policies as files: the weights of one network that all robots share, and for which task they are.
+
+numpy's .npz, of a few hundred kilobytes; nothing but numpy is needed to load and to use one.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from warehouse_learning.marl.encoding import Encoder
+from warehouse_learning.marl.mlp import Mlp
+
+FORMAT = "kiva-policy 1"
+SHIPPED = Path(__file__).parent / "weights"
+ACTIONS = 5
+
+
+class PolicyError(ValueError):
+    """A file that is no policy; the message names it and what was expected."""
+
+
+def drawn(logits: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    """Returns (m,) actions, each drawn with the chances that a row of logits (m, 5) means."""
+    noise = random.standard_exponential(logits.shape, np.float32)
+    return (logits - np.log(noise + 1e-20)).argmax(-1)  # Gumbel's trick
+
+
+class GridPolicy:
+    """Which action each robot takes in RWARE's task. `about`: the task, and how it was trained."""
+
+    def __init__(self, network: Mlp, encoder: Encoder, about: dict[str, Any]) -> None:
+        self.network, self.encoder, self.about = network, encoder, about
+
+    def logits(self, observations: np.ndarray) -> np.ndarray:
+        """Returns (…, agents, 5) of RWARE's vectors (…, agents, size)."""
+        rows = self.encoder.encode(observations)
+        out, _ = self.network.forward(rows.reshape(-1, rows.shape[-1]))
+        return out.reshape(*rows.shape[:-1], ACTIONS)
+
+    def act(self, observations: np.ndarray, random: np.random.Generator) -> np.ndarray:
+        """Returns (…, agents) actions, drawn as they were in the training."""
+        return drawn(self.logits(observations), random)
+
+    def save(self, path: Any) -> None:
+        """Writes it; load() reads it again. Weights are stored as float16."""
+        encoder = self.encoder
+        about = self.about | {
+            "format": FORMAT,
+            "floor": [encoder.width, encoder.height, encoder.agents],
+        }
+        weights = {f"p{i}": p.astype(np.float16) for i, p in enumerate(self.network.parameters)}
+        np.savez_compressed(path, about=json.dumps(about), **weights)
+
+
+def find(name: str) -> Path:
+    """Returns the file of a policy: a path, or the name of one that is shipped.
+
+    Raises PolicyError that lists those.
+    """
+    if Path(name).is_file():
+        return Path(name)
+    shipped = SHIPPED / f"{name}.npz"
+    if shipped.is_file():
+        return shipped
+    known = ", ".join(sorted(path.stem for path in SHIPPED.glob("*.npz")))
+    raise PolicyError(f"{name}: there is no such file, and no such policy; there are {known}")
+
+
+def load(name: Any) -> GridPolicy:
+    """Returns the policy of a file, or a shipped one by its name. Raises PolicyError."""
+    path = find(str(name))
+    try:
+        with np.load(path, allow_pickle=False) as content:
+            about = json.loads(str(content["about"]))
+            parameters = [content[f"p{i}"].astype(np.float32) for i in range(len(content) - 1)]
+        if about.pop("format", None) != FORMAT:
+            raise PolicyError(f"{path}: its format is not {FORMAT!r}")
+        return _assembled(parameters, about)
+    except (OSError, KeyError, ValueError, EOFError) as error:
+        if isinstance(error, PolicyError):
+            raise
+        raise PolicyError(f"{path} is no policy: {error}") from error
+
+
+def _assembled(parameters, about):
+    width, height, agents = about.pop("floor")
+    network = Mlp([], 1.0, np.random.default_rng(0))
+    network.parameters = parameters
+    sizes = len(parameters[0])
+    encoder = Encoder(width, height, agents, sizes - width - height - agents + 2)
+    return GridPolicy(network, encoder, about)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Policies that were learnt: what they see, their files, and shifts by them."""
+
+import numpy as np
+import pytest
+from operations_site import site
+
+from warehouse_operations import Operations, Policies, PolicyError
+from warehouse_operations.policies import learned
+from warehouse_operations.protocols import Task
+
+ROLES = "orders", "units", "robots"
+
+
+def shift(policies):
+    """Its figures, but for those of the clock."""
+    ops = Operations(site=site(robots=6), physics=False, policies=policies)
+    ops.run(minutes=8)
+    figures = ops.kpis()
+    return {name: figures[name] for name in figures.keys() - {"wall_s", "real_time_factor"}}
+
+
+@pytest.mark.parametrize("role", ROLES)
+def test_what_takes_the_usual_is_the_default_policy(role, monkeypatch):
+    """To the piece: the shortlist has it always."""
+    monkeypatch.setattr(learned.Scorer, "__call__", lambda self, decision: decision.usual)
+    figures = shift({role: "learned"})
+    assert figures["items_picked"] > 30
+    assert figures == shift({})
+
+
+@pytest.mark.parametrize("role", ROLES)
+def test_a_file_decides(role, tmp_path):
+    learned.linear(np.random.default_rng(1).standard_normal(learned.FEATURES)).save(
+        tmp_path / "mine.npz", role
+    )
+    told = {role: {"name": "learned", "file": str(tmp_path / "mine.npz")}}
+    assert shift(told) != shift({})
+
+
+def test_scores_are_those_of_the_network():
+    weights = np.zeros((8, 2)), np.array([0.5, -1.0]), np.array([2.0, 1.0]), np.zeros(8)
+    weights[0][1, 0] = 1.0
+    weights[3][2] = 3.0
+    rows = np.zeros((2, 8), np.float32)
+    rows[1, 1:3] = 0.25, 1.0
+    scores = learned.Scorer(weights).scores(rows)
+    assert scores[0] == pytest.approx(2 * np.tanh(0.5) + np.tanh(-1.0))
+    assert scores[1] == pytest.approx(2 * np.tanh(0.75) + np.tanh(-1.0) + 3)
+
+
+def test_a_robot_is_chosen_of_those_that_are_free():
+    task = Task(1, 7, "pick1", 2, 3)
+    seconds = np.array([[30.0, 5.0, 60.0], [1.0, 90.0, 90.0]])
+    decision = learned.decision_on_robot(task, seconds, np.array([0, 2]))
+    assert decision.keys == [0, 2] and decision.usual == 0
+    assert decision.rows[:, 0].tolist() == [0.5, 1.0]
+    assert decision.rows[:, 2] == pytest.approx([1 / 60, 1.5])
+    assert decision.rows[0, 5:7].tolist() == [0.5, 0.5]
+
+
+def bad_files(folder):
+    good = learned.linear(np.zeros(8))
+    good.save(folder / "orders.npz", "orders")
+    (folder / "text.npz").write_text("hello")
+    np.savez(folder / "other.npz", format="else")
+    weights = {"into": np.zeros((3, 1)), "bias": np.zeros(1), "out": np.zeros(1)}
+    np.savez(
+        folder / "small.npz", format=learned.FORMAT, role="units", straight=np.zeros(8), **weights
+    )
+
+
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [
+        ("none.npz", "No such file"),
+        ("text.npz", "text.npz: "),
+        ("other.npz", "its format is not 'kiva-dispatcher 1'"),
+        ("orders.npz", "it was learnt for the role orders, not units"),
+        ("small.npz", "into is float64 of shape (3, 1), not numbers (8, -1)"),
+    ],
+)
+def test_wrong_files_are_told(file, said, tmp_path):
+    bad_files(tmp_path)
+    (tmp_path / "p.yaml").write_text(f"units: {{name: learned, file: {tmp_path}/{file}}}\n")
+    with pytest.raises(PolicyError) as error:
+        Policies.read(tmp_path / "p.yaml")
+    assert said in str(error.value) and "p.yaml: units: learned: file: " in str(error.value)
