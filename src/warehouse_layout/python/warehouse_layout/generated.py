@@ -7,7 +7,6 @@ from warehouse_layout.layout import SEED, Layout
 from warehouse_layout.layout_file import LayoutFile
 from warehouse_layout.request import MOST_ON_A_SIDE, Request
 
-
 # Short blocks: a street to a side for every few of its stations.
 STYLE = compact.Style(sides=4, block=(2, 4))
 
