@@ -29,7 +29,9 @@ def main():
     for file in sorted(folder.glob("*.json")):
         record = json.loads(file.read_text())
         if "curve" in record:
-            trained[record["task"], record["settings"]["algorithm"]].append(file)
+            on = record.get("physics", "grid")
+            kind = record["settings"]["algorithm"] + ("" if on == "grid" else f" on {on}")
+            trained[record["task"], kind].append(file)
     if not trained:
         raise SystemExit(f"{folder}: there is no training; examples/rware_train.py TASK makes one")
     print("| task | who | physics | seeds | steps each | return | 95 % | seconds an episode |")

@@ -6,6 +6,7 @@ examples/rware_train.py tiny-4ag                                # MAPPO, 20 mill
 examples/rware_train.py small-4ag --algorithm ippo --seeds 5 --out results
 examples/rware_train.py tiny-2ag --minutes 10                   # a part; the same command goes on
 examples/rware_train.py tiny-4ag --imitate 20000                # from the planner's example
+examples/rware_train.py tiny-4ag --physics bodies --from results/tiny-4ag-mappo-0.npz
 
 Each seed writes OUT/TASK-ALGORITHM-SEED.npz, a policy that warehouse_learning.watch shows, a
 .checkpoint.npz, from which the same command goes on, and .json, its learning curve.
@@ -21,20 +22,24 @@ import gymnasium
 from gymnasium.vector import AutoresetMode
 
 import warehouse_learning.rware  # noqa: F401  registers the tasks
+from warehouse_learning.marl import policy
 from warehouse_learning.marl.training import ALGORITHMS, Settings, Training
+from warehouse_learning.rware.motion import PHYSICS
 
 
 def main():
     wanted = arguments()
     out = Path(wanted.out)
-    out.mkdir(parents=True, exist_ok=True)
-    settings = Settings(algorithm=wanted.algorithm, steps=wanted.steps)
-    if wanted.imitate:
-        # Gently: what was imitated is soon unlearnt.
-        gentle = {"imitation": wanted.imitate, "warm_up": 30, "rate": 7e-4, "entropy": 0.003}
-        settings = replace(settings, **gentle)
+    settings = Settings(algorithm=wanted.algorithm, steps=wanted.steps, imitation=wanted.imitate)
+    try:
+        begin = policy.load(wanted.policy) if wanted.policy else None
+    except policy.PolicyError as error:
+        raise SystemExit(f"rware_train: {error}") from error
+    if wanted.imitate or begin:
+        # Gently: what was learnt is soon unlearnt.
+        settings = replace(settings, warm_up=30, rate=7e-4, entropy=0.003)
     for seed in range(wanted.first_seed, wanted.first_seed + wanted.seeds):
-        train(wanted.task, settings, seed, out, wanted.minutes)
+        train(wanted, settings, seed, out, begin)
 
 
 def arguments():
@@ -53,6 +58,10 @@ def arguments():
         metavar="STEPS",
         help="begin by imitating the fleet's planner (DAgger) in so many steps; 20000 will do",
     )
+    parser.add_argument("--physics", choices=PHYSICS, default="grid", help="trained on (grid)")
+    parser.add_argument(
+        "--from", dest="policy", metavar="POLICY", help="begin with a trained one, a file or a name"
+    )
     parser.add_argument("--seeds", type=int, default=1, help="how many (1)")
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument(
@@ -62,20 +71,31 @@ def arguments():
     return parser.parse_args()
 
 
-def train(task, settings, seed, out, minutes):
+def train(wanted, settings, seed, out, begin):
     """One seed, from its checkpoint if there is one."""
+    task, physics = wanted.task, wanted.physics
+    if f"kiva-rware-{task}-v2" not in gymnasium.registry:
+        raise SystemExit(f"rware_train: there is no task {task!r}; tiny-4ag or small-2ag-hard are")
     envs = gymnasium.make_vec(
         f"kiva-rware-{task}-v2",
         num_envs=settings.environments,
         threads=1,
         autoreset_mode=AutoresetMode.SAME_STEP,
+        physics=physics,
     )
-    about = {"task": task}
+    about = {"task": task, "physics": physics, "from": wanted.policy}
     training = Training(envs, settings, seed, about)
-    name = f"{task}-{settings.algorithm}-{seed}"
+    on = "" if physics == "grid" else f"-{physics}"
+    name = f"{task}-{settings.algorithm}{on}-{seed}"
     checkpoint = out / f"{name}.checkpoint.npz"
-    if checkpoint.is_file():
-        training.restore(checkpoint)
+    try:
+        if begin:
+            training.take(begin)
+        if checkpoint.is_file():
+            training.restore(checkpoint)
+    except ValueError as error:
+        raise SystemExit(f"rware_train: {error}; --out names another folder") from error
+    out.mkdir(parents=True, exist_ok=True)
     saved = [0.0]
 
     def keep():
@@ -93,7 +113,7 @@ def train(task, settings, seed, out, minutes):
             keep()
 
     try:
-        training.run(minutes, report)
+        training.run(wanted.minutes, report)
     except KeyboardInterrupt:
         print(f"{name}: stopped; the same command goes on from {checkpoint}")
         raise SystemExit(130) from None

@@ -75,6 +75,18 @@ def test_a_training_goes_on_from_its_checkpoint(tmp_path):
         training(steps=4096, hidden=8).restore(tmp_path / "c.npz")
 
 
+def test_a_training_begins_with_a_policy(tmp_path):
+    first = training(steps=4096)
+    first.run()
+    first.policy.save(tmp_path / "p.npz")
+    other = training(seed=3)
+    other.take(policy.load(tmp_path / "p.npz"))
+    for mine, theirs in zip(first.actor.parameters, other.actor.parameters):
+        assert np.allclose(mine, theirs, atol=2e-3)
+    with pytest.raises(ValueError, match="of another task"):
+        training(hidden=8).take(policy.load(tmp_path / "p.npz"))
+
+
 def test_the_planner_delivers_more_than_chance_and_without_a_stop():
     options = options_of("tiny-2ag") | {"max_steps": 200}
     returns = evaluation.episodes(evaluation.by_planner, 4, 3, **options)["returns"]

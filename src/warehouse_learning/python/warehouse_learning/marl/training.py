@@ -75,6 +75,14 @@ class Training:
         self.curve: list[tuple[int, float]] = []
         self._begin()
 
+    def take(self, policy: GridPolicy) -> None:
+        """Begins with what a policy of this task knows. Raises ValueError for another task's."""
+        theirs = policy.network.parameters
+        if [p.shape for p in theirs] != [p.shape for p in self.actor.parameters]:
+            raise ValueError("the policy is of another task, or of a network of another size")
+        for mine, other in zip(self.actor.parameters, theirs):
+            mine[:] = other
+
     def _begin(self):
         """Episodes that begin at different times: a rollout has all parts of an episode in it."""
         observations, _ = self._envs.reset(seed=int(self.random.integers(2**31)))
