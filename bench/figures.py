@@ -120,6 +120,9 @@ def _unread(measured, _):
     return out
 
 
+FAULTS = ("collisions", "blocked", "watchdog")
+
+
 def _shifts(measured, scale):
     out = []
     for f in measured:
@@ -128,8 +131,10 @@ def _shifts(measured, scale):
         out += [
             scale.speed(what, f["rtf_cpu"], limit=limit, wall=f["rtf"]),
             Figure(f"{what}: CPU time of orders and stock, of all", f["shift_share"]),
-            Figure(f"{what}: of the stations' bound, last minute", f["share_of_bound"]),
-            Figure(f"{what}: collisions", f["collisions"], "", "<= 0"),
+            Figure(
+                f"{what}: of the stations' bound, last minute", f["share_of_bound"], "", ">= 0.85"
+            ),
+            *(Figure(f"{what}: {kind}", f[kind], "", "<= 0") for kind in FAULTS),
             Figure(f"{what}: memory", f["memory_gb"], "GB", "<= 3"),
         ]
     return out
@@ -278,6 +283,7 @@ OF_PART = {
     "unheard": _unheard,
     "work": _work,
     "shifts": _shifts,
+    "ten_thousand": _shifts,
     "plans": _plans,
     "recreations": _recreations,
     "start": _start,

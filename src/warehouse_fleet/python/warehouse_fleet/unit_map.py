@@ -99,9 +99,9 @@ class UnitMap:
         """Returns the cells in which units stand off the storage places."""
         return list(self._streets)
 
-    def in_order(self, cells: np.ndarray) -> np.ndarray:
-        """Returns cells with units, (n,), in the order in which the units came there."""
-        return cells[np.argsort(self._order[cells])]
+    def first_in(self, cells: np.ndarray) -> int:
+        """Returns that of some cells with units, (n,), to which its unit came first."""
+        return int(cells[self._order[cells].argmin()])
 
     def is_in_reach(self, cell: int) -> bool:
         """Returns whether a robot can come to a unit's cell; NOWHERE counts as reachable."""

@@ -45,8 +45,9 @@ void Measuring::find(bool waits, Wish& wish) {
 /// Returns how many states tables that are made in one step may have.
 std::int64_t Measuring::work(std::int64_t a_robot, std::size_t robots) const {
   constexpr std::int64_t kLeast = 60000;
-  // On large floors most of a table is shared, so that less does.
-  constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 400;
+  // On large floors most of a table is shared, so that less does: with 400 no more robots arrive,
+  // and the slowest steps take a fifth longer.
+  constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 140;
   if (tables_.hasRegions()) a_robot = std::min(a_robot, kMostARobot);
   const auto work = std::max(kLeast, a_robot * static_cast<std::int64_t>(robots));
   return tables_.hasRegions() ? std::min(kMostAtOnce, work) : work;

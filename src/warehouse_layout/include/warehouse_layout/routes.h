@@ -32,4 +32,14 @@ struct Routes {
 /// the cell.
 Routes routesFrom(const RouteGraph& graph, Cell start);
 
+/// By cell of those asked for, in the heading that is reached first: how long the way takes [s],
+/// infinity if there is none; and how many steps it has.
+struct Ways {
+  std::vector<double> seconds;
+  std::vector<std::int32_t> steps;
+};
+
+/// Returns the quickest ways from a cell to others, as routesFrom() finds them.
+Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends);
+
 }  // namespace layout

@@ -102,7 +102,7 @@ def _generated(args: argparse.Namespace) -> LayoutFile:
     if like_preset and args.replenish in (None, _replenishments(like_preset)):
         return like_preset
     replenish = generated.replenishing(request) if args.replenish is None else args.replenish
-    default = compact.Style(sides=1 if generated.is_regular(request) else 4)
+    default = compact.Style() if generated.is_regular(request) else generated.STYLE
     return compact.of_request(request, replenish, style or default, name)
 
 

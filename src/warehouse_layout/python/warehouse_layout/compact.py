@@ -23,6 +23,7 @@ from warehouse_layout.stations import STEPS
 
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes
+APART = 1  # free cells between them where stations are on several sides: many share a street
 BELT_CELLS = 2
 MOST_EDGE = 100  # of a block, in cells
 
@@ -96,17 +97,22 @@ def _plans(request: Request, replenish: int, style: Style) -> Iterator["_Plan"]:
     for rows in _row_counts(blocks, kinds, style):
         columns = math.ceil(blocks / rows)
         plan = _Plan(request, style, kinds, rows, columns)
-        least = LANE * max(len(kinds.get(1, ())), len(kinds.get(3, ())))
+        least = _pitch(style) * max(len(kinds.get(1, ())), len(kinds.get(3, ())))
         missing = least - len(plan.street_x) - plan.columns * style.block[1]
         if missing > 0:
             columns += math.ceil(missing / (style.block[1] + 1))
         yield _Plan(request, style, kinds, rows, columns)
 
 
+def _pitch(style: Style) -> int:
+    """Returns how many cells of a side each station has at least."""
+    return LANE + (APART if style.sides > 1 else 0)
+
+
 def _row_counts(blocks: int, kinds: dict[int, list[_Kind]], style: Style) -> Iterator[int]:
     """Yields numbers of rows of blocks with which the lanes at both ends have room."""
     depth = style.block[0]
-    least = LANE * max(len(kinds.get(0, ())), len(kinds.get(2, ())))
+    least = _pitch(style) * max(len(kinds.get(0, ())), len(kinds.get(2, ())))
     first = max(1, math.ceil((least - 1) / (depth + 1)))
     most = max(first, math.ceil(math.sqrt(blocks) * (style.block[1] + 1)))
     return iter(range(first, most + 1))
@@ -174,7 +180,6 @@ class _Plan:
         floor = np.full(self.shape, lf.NO_FLOOR, "<U1")
         column, row = self.corner
         inside = floor[row:, column:][: self.street_y[-1] + 1, : self.street_x[-1] + 1]
-        inside[:] = lf.PARKING
         self._draw_streets(inside)
         self._draw_places(inside)
         stations = [s for side in self.kinds for s in self._stations(side)]
@@ -203,16 +208,39 @@ class _Plan:
                     inside[y, x] = up if is_ahead else down
 
     def _draw_places(self, inside: np.ndarray) -> None:
-        """Draws parking in the blocks at low x, storage in those at high x."""
+        """Draws storage in the blocks nearest to the stations, and parking behind it.
+
+        Stations on several sides need a longer edge than storage needs room: what no robot parks
+        on in the middle is no floor then.
+        """
         blocks = np.ones(inside.shape, bool)
         blocks[self.street_y] = blocks[:, self.street_x] = False
         cells = np.argwhere(blocks.T)[:, ::-1]
-        places = places_for(self.request.shelves)
-        storage, parking = cells[len(cells) - places :], cells[: len(cells) - places]
+        cells = cells[np.argsort(-self._far(*cells.T), kind="stable")]
+        storage, others = np.split(cells[::-1], [places_for(self.request.shelves)])
+        parking = others[::-1] if self.style.sides == 1 else others[: self.request.robots][::-1]
         inside[tuple(storage.T)] = lf.STORAGE
+        inside[tuple(parking.T)] = lf.PARKING
         count = min(math.ceil(CHARGED * self.request.robots - 1e-9), len(parking))
         charging = parking[np.arange(count) * len(parking) // max(count, 1)]
         inside[tuple(charging.T)] = lf.CHARGING
+        if len(parking) < len(others):
+            used = np.concatenate([storage, parking])
+            self._draw_hole(inside, int(self._far(*used.T).max()))
+
+    def _far(self, y: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Returns how many cells lie between cells and the nearest side with stations."""
+        ends = self.street_x[-1] - x, self.street_y[-1] - y, x, y
+        return np.min([ends[side] for side in SIDES[: self.style.sides]], axis=0)
+
+    def _draw_hole(self, inside: np.ndarray, depth: int) -> None:
+        """Leaves out the streets that are more than `depth` cells away from all stations."""
+        y, x = np.ogrid[: inside.shape[0], : inside.shape[1]]
+        rows, columns = np.nonzero(self._far(*np.broadcast_arrays(y, x)) > depth)
+        within_y = self.street_y[np.isin(self.street_y, rows)]
+        within_x = self.street_x[np.isin(self.street_x, columns)]
+        if len(within_y) and len(within_x):
+            inside[within_y[0] + 1 : within_y[-1], within_x[0] + 1 : within_x[-1]] = lf.NO_FLOOR
 
     def _stations(self, side: int) -> Iterator[StationEntry]:
         """Yields the stations of a side, evenly spread along it."""

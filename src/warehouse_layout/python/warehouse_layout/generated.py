@@ -7,12 +7,15 @@ from warehouse_layout.layout import SEED, Layout
 from warehouse_layout.layout_file import LayoutFile
 from warehouse_layout.request import MOST_ON_A_SIDE, Request
 
+# Short blocks: a street to a side for every few of its stations.
+STYLE = compact.Style(sides=4, block=(2, 4))
+
 
 def file_of(request: Request, name: str = "") -> LayoutFile:
     """Returns the layout file of a resolved Request."""
     if is_regular(request):
         return generator.of_request(request, name)
-    return compact.of_request(request, replenishing(request), compact.Style(sides=4), name)
+    return compact.of_request(request, replenishing(request), STYLE, name)
 
 
 def plan(request: Request, seed: int = SEED) -> Layout:
@@ -28,5 +31,6 @@ def is_regular(request: Request) -> bool:
 
 
 def replenishing(request: Request) -> int:
-    """Returns how many stations for replenishing a compact floor has, unless they are told."""
-    return -(-request.belts // 2)
+    """Returns how many stations for replenishing a compact floor has, unless they are told: enough
+    where all of them are at work, more where one may be far from a unit."""
+    return -(-request.belts // (2 if is_regular(request) else 4))

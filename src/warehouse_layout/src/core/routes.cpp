@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "warehouse_layout/routes.h"
 
+#include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace layout {
 namespace {
@@ -26,14 +26,15 @@ struct Queue {
 
 class Search {
  public:
-  Search(const RouteGraph& graph, Cell start) : graph_(graph), start_(start) {
+  Search(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
+      : graph_(graph), start_(start), keeps_before_(keeps_before), out_(*out) {
     const std::size_t nodes = static_cast<std::size_t>(graph.cells) * kHeadings;
     out_.seconds.assign(nodes, std::numeric_limits<double>::infinity());
     out_.steps.assign(nodes, 0);
-    out_.before.assign(nodes, -1);
+    if (keeps_before) out_.before.assign(nodes, -1);
   }
 
-  Routes run() {
+  void run() {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const std::int32_t node = start_ * kHeadings + heading;
       out_.seconds[node] = 0;
@@ -44,7 +45,6 @@ class Search {
       const Found found = queue.found[queue.first++];
       if (found.seconds <= out_.seconds[found.node]) goOn(found);
     }
-    return std::move(out_);
   }
 
  private:
@@ -65,18 +65,39 @@ class Search {
     if (seconds >= out_.seconds[node]) return;
     out_.seconds[node] = seconds;
     out_.steps[node] = out_.steps[from.node] + steps;
-    out_.before[node] = from.node;
+    if (keeps_before_) out_.before[node] = from.node;
     queue.found.push_back({seconds, node});
   }
 
   const RouteGraph& graph_;
   Cell start_;
-  Routes out_;
+  bool keeps_before_;
+  Routes& out_;
   Queue steps_, turns_;
 };
 
 }  // namespace
 
-Routes routesFrom(const RouteGraph& graph, Cell start) { return Search(graph, start).run(); }
+Routes routesFrom(const RouteGraph& graph, Cell start) {
+  Routes out;
+  Search(graph, start, true, &out).run();
+  return out;
+}
+
+Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends) {
+  // Kept: on a large floor fresh memory takes as long as the search.
+  thread_local Routes all;
+  Search(graph, start, false, &all).run();
+  Ways out;
+  out.seconds.reserve(ends.size());
+  out.steps.reserve(ends.size());
+  for (const Cell end : ends) {
+    const auto first = all.seconds.begin() + static_cast<std::ptrdiff_t>(end) * kHeadings;
+    const auto found = std::min_element(first, first + kHeadings);
+    out.seconds.push_back(*found);
+    out.steps.push_back(all.steps[found - all.seconds.begin()]);
+  }
+  return out;
+}
 
 }  // namespace layout

@@ -60,16 +60,37 @@ void bindFloor(py::module_& module) {
           py::arg("loaded") = false);
 }
 
-py::tuple makeRoutes(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start,
+RouteGraph makeGraph(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start,
                      double step, double turn) {
   const auto cells = static_cast<Cell>(end.size());
   if (next.size() != end.size() * kHeadings || start < 0 || start >= cells) {
     throw py::value_error("next (cells, 4), end (cells,) and a cell as start were expected");
   }
+  return {next.data(), end.data(), cells, step, turn};
+}
+
+py::tuple makeWays(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start, double step,
+                   double turn, const Array<Cell>& to) {
+  const RouteGraph graph = makeGraph(next, end, start, step, turn);
+  const std::vector<Cell> ends = copied<Cell>(to);
+  for (const Cell cell : ends) {
+    if (cell < 0 || cell >= graph.cells) throw py::value_error("to holds what is no cell");
+  }
+  Ways ways;
+  {
+    py::gil_scoped_release others_may_run;
+    ways = waysFrom(graph, start, ends);
+  }
+  return py::make_tuple(array(ways.seconds), array(ways.steps));
+}
+
+py::tuple makeRoutes(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell start,
+                     double step, double turn) {
+  const RouteGraph graph = makeGraph(next, end, start, step, turn);
   Routes routes;
   {
     py::gil_scoped_release others_may_run;
-    routes = routesFrom({next.data(), end.data(), cells, step, turn}, start);
+    routes = routesFrom(graph, start);
   }
   return py::make_tuple(array(routes.seconds), array(routes.steps), array(routes.before));
 }
@@ -82,6 +103,12 @@ void bindRoutes(py::module_& module) {
 next: (cells, 4) int32, the cell beside each in each heading, or -1. end: (cells,), where ways end.
 step, turn: from a cell to the next, and by a quarter [s]. Returns (seconds, steps, before), each
 (4 * cells,) by cell * 4 + heading: infinite where no way leads, how many cells, the one before.)");
+  module.def(
+      "ways", &makeWays, py::arg("next"), py::arg("end"), py::arg("start"), py::arg("step"),
+      py::arg("turn"), py::arg("to"),
+      R"(Returns the same to the cells `to`, (n,), alone, each in the heading that is reached first.
+
+Returns (seconds, steps), (n,) each.)");
 }
 
 void bindLayout(py::module_& module) {

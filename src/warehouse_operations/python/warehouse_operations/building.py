@@ -5,7 +5,7 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     from warehouse_operations.site import Site
 
 
-def world_of(site: "Site", seed: int = 1, realism: str = "") -> "tuple[World, Site]":
+def world_of(site: "Site", **options: Any) -> "tuple[World, Site]":
     """Returns a kiva_plugin_cpp.World of a Site, and the Site as it stands there.
 
-    Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
+    Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x. options:
+    those of World.of_layout().
     """
     from kiva_plugin_cpp import World, worlds_folder
     from warehouse_layout import layout
@@ -48,9 +49,7 @@ def world_of(site: "Site", seed: int = 1, realism: str = "") -> "tuple[World, Si
         for part in (folder / "models" / "kiva").iterdir():
             (robot / part.name).write_bytes(part.read_bytes())
         _set_kinematics(robot / "model.sdf", site.kinematics)
-        world = World.of_layout(
-            laid, world=world_file, seed=seed, model_paths=[made], realism=realism or None
-        )
+        world = World.of_layout(laid, world=world_file, model_paths=[made], **options)
     return world, replace(site, plan=plan)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from warehouse_operations.inventory import Inventory
 from warehouse_operations.orders import Line
+from warehouse_operations.units_by_id import UnitSet
 
 
 class Candidates(Mapping[int, Mapping[Line, int]]):
@@ -17,14 +18,12 @@ class Candidates(Mapping[int, Mapping[Line, int]]):
     each has for all lines, (n,).
     """
 
-    def __init__(
-        self, lines: Collection[Line], inventory: Inventory, free_units: Collection[int]
-    ) -> None:
+    def __init__(self, lines: Collection[Line], inventory: Inventory, free_units: UnitSet) -> None:
         self._lines = list(lines)
         found = [self._of_line(number, inventory) for number in range(len(self._lines))]
         units, line, pieces, completes = (np.concatenate(parts) for parts in zip(*found))
         self.units, rows = np.unique(units, return_inverse=True)
-        is_free = np.array([unit in free_units for unit in self.units.tolist()], bool)
+        is_free = free_units.among(self.units)
         kept = is_free[rows]
         rows = (np.cumsum(is_free) - 1)[rows[kept]]
         self._rows, self._line, self._pieces = rows, line[kept], pieces[kept]

@@ -30,8 +30,9 @@ class Operations:
     world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
     warehouse; None: the world's own. orders: fill, fill:N, poisson:PER_HOUR, FILE.csv or none.
     policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
-    SQLite file, in which everything is kept; a shift that it holds goes on. The same seed gives
-    the same shift, to the last event. Raises what open_shift raises.
+    SQLite file, in which everything is kept; a shift that it holds goes on. threads: that plan, see
+    PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.
+    Raises what open_shift raises.
     """
 
     def __init__(
@@ -44,11 +45,12 @@ class Operations:
         physics: bool = True,
         settings: Settings | None = None,
         site: Site | None = None,
+        threads: int = 0,
     ) -> None:
         self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
             policies = Policies.read(policies) if isinstance(policies, str) else Policies(policies)
-        self.fleet = self._fleet(world, physics, seed)
+        self.fleet = self._fleet(world, physics, seed, threads)
         self.database = _opened(database) if database else None
         with contextlib.ExitStack() as unless_open:
             if self.database:
@@ -68,11 +70,13 @@ class Operations:
         self.wall_s = 0.0
         self.driven_m: dict[int, float] = {}  # by all robots up to the end of each kpis.INTERVAL
 
-    def _fleet(self, world: Any, physics: bool, seed: int) -> "IdealFleet | WorldFleet":
+    def _fleet(
+        self, world: Any, physics: bool, seed: int, threads: int
+    ) -> "IdealFleet | WorldFleet":
         if physics and world is not None:
             from warehouse_operations.world_fleet import WorldFleet
 
-            return WorldFleet(world, self.site, seed)
+            return WorldFleet(world, self.site, seed, threads)
         site = self.site
         return IdealFleet(site.plan, site.robots, site.units, kinematics=site.kinematics)
 

@@ -34,6 +34,7 @@ from warehouse_operations.shift import Shift
 from warehouse_operations.shift_services import ShiftServices
 from warehouse_operations.site import Site
 from warehouse_operations.tasks import KEPT
+from warehouse_operations.units_by_id import UnitCells
 
 FAREWELL = 1.0  # the last notice is offered to subscribers for this long [s, wall]
 CYCLE = 0.1  # between two steps of the shift [s]
@@ -202,7 +203,8 @@ class OperationsNode:
 
     def _step(self, now: float) -> None:
         if now >= self._next_stations:
-            self._shift.floor.cells = self._warehouse.standing_units(self._site.plan)
+            standing = self._warehouse.standing_units(self._site.plan)
+            self._shift.floor.cells = UnitCells(standing)
             if self._warehouse.is_known:
                 self._shift.update_units(set(unit_ids(self._warehouse.objects)))
         self._shift.fallen.update(self._warehouse.fallen_items)

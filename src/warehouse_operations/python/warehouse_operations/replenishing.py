@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from itertools import islice
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from warehouse_operations.inventory import Bin
 from warehouse_operations.message_enums import Mode
 from warehouse_operations.orders import Bundle
@@ -65,7 +67,7 @@ class Replenishing:
 
     def _fetch(self, station: WorkStation) -> bool:
         for bundle in islice(self.bundles.values(), LOOK_AHEAD):
-            candidates = self._candidates(bundle)
+            candidates = self._within_reach(station, self._candidates(bundle))
             if candidates:
                 one = self.shift.policies.bins.choose(bundle, candidates, self.shift.view)
                 visit = self.shift.visits.request(one.unit, station, replenishes=True)
@@ -90,6 +92,15 @@ class Replenishing:
             for one in bins
             if one.unit in free and inventory.takes(one, bundle.sku, bundle.quantity)
         ]
+
+    def _within_reach(self, station: WorkStation, bins: list[Bin]) -> list[Bin]:
+        """Returns those of some bins whose units are not too far from a station."""
+        floor = self.shift.floor
+        if not bins or np.isinf(floor.reach):
+            return bins
+        seconds = floor.seconds_to_all(station.name, np.array([one.unit for one in bins]))
+        is_near = seconds <= seconds.min() + floor.reach
+        return [one for one, near in zip(bins, is_near.tolist()) if near]
 
     def _fill_up(self, visit: Visit) -> None:
         """Adds other waiting bundles that have a place on the same unit to its visit."""

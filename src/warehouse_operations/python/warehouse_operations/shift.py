@@ -30,6 +30,7 @@ from warehouse_operations.replenishing import PERIOD, Replenishing
 from warehouse_operations.settings import Settings
 from warehouse_operations.stations import Visit, WorkStation
 from warehouse_operations.tasks import Tasks
+from warehouse_operations.units_by_id import UnitSet
 from warehouse_operations.view import PolicyHooks, View
 from warehouse_operations.visits import Visits
 from warehouse_operations.whereabouts import Whereabouts
@@ -273,7 +274,7 @@ class Shift:
     # Units.
 
     @property
-    def free_units(self) -> set[int]:
+    def free_units(self) -> UnitSet:
         """The ids of units that stand in storage and may be asked for."""
         return self.visits.free_units
 

@@ -58,6 +58,7 @@ class Description:
     seed: int = 1
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
+    threads: int = 0  # that step the world, and that plan; 0: one, and all cores but one
 
     @property
     def config(self) -> dict[str, Any]:
@@ -148,7 +149,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
             if jams := _jams(description.instance, site):
                 raise InstanceError(jams)
             with _told_as_ours():
-                world, site = world_of(site, description.seed, description.realism)
+                world, site = world_of(site, **_options(description))
     elif description.units:
         world = _generated(description)
         site = Site.of_world(world, description.site_name)
@@ -168,6 +169,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
         policies=description.chosen_policies,
         database=database,
         physics=description.physics,
+        threads=description.threads,
     )
     if description.stations:
         ops.shift.open_picking(description.stations)
@@ -253,8 +255,7 @@ def _of_layout(description: Description) -> "World":
         return World.layout(
             description.layout or description.size,
             robots=description.robots or None,
-            seed=description.seed,
-            realism=description.realism or None,
+            **_options(description),
         )
 
 
@@ -262,16 +263,17 @@ def _generated(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
     if not description.robots:
-        raise InstanceError("units, but no robots for them; both were expected")
+        raise InstanceError("units without robots; both were expected")
     if description.layout:
-        raise InstanceError("units: a layout has its own; without one a warehouse is generated")
+        raise InstanceError(
+            "units: a layout has its own; leave out the layout to have a warehouse generated"
+        )
     with _told_as_ours():
         return World.create(
             robots=description.robots,
             shelves=description.units,
             items=items_for(description.units),
-            seed=description.seed,
-            realism=description.realism or None,
+            **_options(description),
         )
 
 
@@ -279,9 +281,16 @@ def _preset(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
     with _told_as_ours():
-        return World.preset(
-            description.size, seed=description.seed, realism=description.realism or None
-        )
+        return World.preset(description.size, **_options(description))
+
+
+def _options(description: Description) -> dict[str, Any]:
+    """Returns the options of any World of a Description."""
+    return {
+        "seed": description.seed,
+        "threads": description.threads or 1,
+        "realism": description.realism or None,
+    }
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
-from warehouse_layout._core import routes
+from warehouse_layout._core import routes, ways
 from warehouse_layout.floor_plan import FloorPlan
 
 HEADINGS = 4
@@ -54,7 +54,11 @@ class Travel:
         self._places = np.flatnonzero(plan.storage)
         self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
         self._place[self._places] = np.arange(len(self._places))
-        self._of_places: OrderedDict[tuple[int, bool], np.ndarray] = OrderedDict()
+        self._of_places: OrderedDict[tuple[int, bool], tuple[np.ndarray, np.ndarray]] = (
+            OrderedDict()
+        )
+        turn = kinematics.quarter_turn + kinematics.start_stop
+        self._costs = plan.spacing / kinematics.speed, turn  # of a step, of a quarter [s]
 
     def loaded_from(self, cell: int) -> Table:
         """Returns the routes of a loaded robot from a cell to all others."""
@@ -66,29 +70,33 @@ class Travel:
 
     def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
         """Returns how far it is for a loaded robot from a cell to storage places, (n,) [m]."""
-        metres = self._of_storage(int(cell), True, lambda table: table.metres)
-        return metres[self._place[places]]
+        seconds, steps = self._of_storage(int(cell), True)
+        of = self._place[places]
+        return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
 
     def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
         """Returns how long a loaded robot takes to a cell from others, most often storage places,
         (n,) [s]; anything where there is none."""
         places = self._place[starts]
-        seconds = self._of_storage(cell, False, lambda table: table.seconds)[places]
+        seconds = self._of_storage(cell, False)[0][places]
         if (off := (places < 0) & (starts >= 0)).any():
             seconds[off] = self.loaded_to(cell).seconds[starts[off]]
         return seconds
 
-    def _of_storage(
-        self, cell: int, forward: bool, column: Callable[[Table], np.ndarray]
-    ) -> np.ndarray:
-        """Returns a column of a table for storage places alone: a seventh of a floor, or less."""
+    def _of_storage(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (seconds, steps) of the ways to or from storage places alone, (n,) each: a
+        seventh of a floor, or less."""
         key = cell, forward
-        return _remembered(
-            self._of_places,
-            PLACE_TABLES,
-            key,
-            lambda: column(self._search(cell, forward))[self._places],
-        )
+        return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
+
+    def _ways(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
+        graph = self._forward if forward else self._backward
+        seconds, steps = ways(graph, self._ends, cell, *self._costs, self._places)
+        return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), steps
+
+    def _from_standstill(self, seconds: np.ndarray) -> np.ndarray:
+        """Adds the start and stop of the first run, and the turn into it."""
+        return seconds + self.kinematics.start_stop + self.kinematics.quarter_turn
 
     def unloaded(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns time [s] and length [m] for robots without a load, which drive under the units.
@@ -107,14 +115,11 @@ class Travel:
         return _remembered(self._tables, TABLES, key, lambda: self._search(cell, forward))
 
     def _search(self, cell: int, forward: bool) -> Table:
-        step = self.plan.spacing / self.kinematics.speed
-        turn = self.kinematics.quarter_turn + self.kinematics.start_stop
         graph = self._forward if forward else self._backward
-        seconds, steps, before = routes(graph, self._ends, cell, step, turn)
+        seconds, steps, before = routes(graph, self._ends, cell, *self._costs)
         heading = np.argmin(seconds.reshape(-1, HEADINGS), axis=1)
         nodes = np.arange(len(heading)) * HEADINGS + heading
-        # The start and stop of the first run; the turn into it.
-        seconds = seconds[nodes] + self.kinematics.start_stop + self.kinematics.quarter_turn
+        seconds = self._from_standstill(seconds[nodes])
         seconds[cell] = 0.0
         metres = np.where(np.isfinite(seconds), steps[nodes] * self.plan.spacing, np.inf)
         return Table(seconds, metres, before, heading)

@@ -9,6 +9,7 @@ import numpy as np
 
 from warehouse_operations.assortment import CAPACITY, Assortment
 from warehouse_operations.orders import Bundle, Order
+from warehouse_operations.units_by_id import UnitSet
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift
@@ -42,7 +43,7 @@ class View:
         return self._shift.now
 
     @property
-    def free_units(self) -> set[int]:
+    def free_units(self) -> UnitSet:
         """The ids of units that stand in storage and may be asked for."""
         return self._shift.free_units
 
@@ -156,7 +157,7 @@ class View:
     def stored_units_near(self, cell: int, count: int) -> list[int]:
         """Returns the units nearest to a cell that stand in storage and may be asked for."""
         units = sorted(self.free_units & self.floor.cells.keys())
-        apart = self.floor.apart(cell, np.array([self.floor.cells[unit] for unit in units], int))
+        apart = self.floor.apart(cell, self.floor.cells.of(np.array(units, int)))
         return [units[i] for i in np.argsort(apart, kind="stable")[:count]]
 
     # Ranks.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from warehouse_fleet.transports import ENDS, Kind, TransportEvent
 from warehouse_operations.stations import Visit, WorkStation
+from warehouse_operations.units_by_id import UnitSet
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift
@@ -22,7 +23,7 @@ class Visits:
 
     def __init__(self, shift: "Shift") -> None:
         self._shift = shift
-        self.free_units: set[int] = set(shift.floor.units)
+        self.free_units = UnitSet(shift.floor.units)
         self._absent: set[int] = set()  # units that are not in the warehouse any more
         self._by_transport: dict[int, Visit] = {}
         self._away: Counter[int] = Counter()  # visits of each unit

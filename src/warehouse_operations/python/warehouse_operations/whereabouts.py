@@ -9,6 +9,10 @@ from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.robot_table import NOWHERE
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.travel import Travel
+from warehouse_operations.units_by_id import UnitCells
+
+WIDE = 10_000  # storage units, above which not all are worth their way to any station
+REACH = 60.0  # [s] there: so far from a station are as many units as in all of a smaller warehouse
 
 
 class Whereabouts:
@@ -25,11 +29,17 @@ class Whereabouts:
         travel: Travel | None = None,
     ) -> None:
         self.plan, self.robots, self.units = plan, dict(robots), dict(units)
-        self.cells = dict(units)
+        self.cells = UnitCells(units)
         self._travel = travel or Travel(plan, Kinematics())
         self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
         self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
         self._place_rank: np.ndarray | None = None
+
+    @property
+    def reach(self) -> float:
+        """How much longer than the nearest unit one may take to a station [s]: on a wide floor
+        there is always a better one, far away."""
+        return REACH if len(self.units) > WIDE else np.inf
 
     def seconds_to(self, station: str, unit: int) -> float:
         """Returns the time [s] from a unit's place to a station's service cell; inf while it is
@@ -41,7 +51,7 @@ class Whereabouts:
 
     def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
         """Returns seconds_to() of units, (n,) [s]."""
-        cells = np.array([self.cells.get(unit, NOWHERE) for unit in units.tolist()], np.int64)
+        cells = self.cells.of(units)
         seconds = self._travel.seconds_from_all(cells, self._service[station])
         return np.where(cells == NOWHERE, np.inf, seconds)
 
@@ -61,9 +71,8 @@ class Whereabouts:
         places = np.flatnonzero(self.plan.storage)
         seconds = np.full(len(places), np.inf)
         for name in self._picking:
-            seconds = np.minimum(
-                seconds, self._travel.loaded_to(self._service[name]).seconds[places]
-            )
+            ways = self._travel.seconds_from_all(places, self._service[name])
+            seconds = np.minimum(seconds, ways)
         rank = np.ones(self.plan.passable.size)
         rank[places[np.argsort(seconds, kind="stable")]] = np.linspace(0, 1, len(places))
         return rank

@@ -20,8 +20,10 @@ DEADLOCKED = 60.0  # a robot with somewhere to go that stood still for so long i
 class WorldFleet(FleetDriver):
     """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
 
-    def __init__(self, world: Any, site: Any, seed: int) -> None:
-        super().__init__(world, seed, kinematics=site.kinematics, tow_after=TOW_AFTER)
+    def __init__(self, world: Any, site: Any, seed: int, threads: int = 0) -> None:
+        super().__init__(
+            world, seed, kinematics=site.kinematics, tow_after=TOW_AFTER, threads=threads
+        )
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
         self._cells = self.robots.cell

@@ -81,6 +81,17 @@ def test_stations_are_on_as_many_sides_as_asked(sides):
     assert {outward(station) for station in file.stations} == set(wanted)
 
 
+def test_storage_lies_by_the_stations_of_all_sides_around_a_hole():
+    file = compact.of_request(Request(20, 200, 0, 80), 0, compact.Style(4))
+    y, x = np.nonzero(file.floor == lf.STORAGE)
+    for station in file.stations:
+        assert np.hypot(*np.subtract(station.queue[0], np.stack([x, y], axis=-1)).T).min() < 10
+    height, width = file.shape
+    middle = file.floor[height // 2 - 5 : height // 2 + 5, width // 2 - 5 : width // 2 + 5]
+    assert (middle == lf.NO_FLOOR).all()
+    assert file_check.faults(file) == []
+
+
 def test_blocks_are_as_deep_and_long_as_asked():
     file = compact.of_request(Request(0, 120, 0, 0), 0, compact.Style(1, (1, 5), True))
     storage = file.floor == lf.STORAGE

@@ -6,7 +6,7 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from warehouse_layout._core import Floor, routes
+from warehouse_layout._core import Floor, routes, ways
 from warehouse_layout.layout import plan
 from warehouse_layout.request import resolve
 
@@ -47,6 +47,20 @@ def test_the_quickest_ways_are_those_of_dijkstra(seed):
         is_step = node // 4 != before[node] // 4
         assert steps[node] == steps[before[node]] + is_step
         assert seconds[node] == seconds[before[node]] + (STEP if is_step else TURN)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_ways_are_the_quickest_routes_in_any_heading(seed):
+    rng = np.random.default_rng(seed)
+    following, end = random_graph(rng, 49)
+    to = rng.permutation(49)[:20].astype(np.int32)
+    seconds, steps = ways(following, end, 3, STEP, TURN, to)
+    all_seconds, all_steps, _ = routes(following, end, 3, STEP, TURN)
+    nodes = to * 4 + all_seconds.reshape(-1, 4)[to].argmin(axis=1)
+    assert np.array_equal(seconds, all_seconds[nodes])
+    assert np.array_equal(steps, all_steps[nodes])
+    with pytest.raises(ValueError, match="to holds what is no cell"):
+        ways(following, end, 3, STEP, TURN, to + 40)
 
 
 def test_a_graph_that_does_not_fit_is_refused():

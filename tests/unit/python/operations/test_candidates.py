@@ -8,6 +8,7 @@ import pytest
 from warehouse_operations.candidates import Candidates
 from warehouse_operations.inventory import Bin, Inventory, Reason
 from warehouse_operations.orders import Order
+from warehouse_operations.units_by_id import UnitSet
 
 SKUS = [f"sku-{i}" for i in range(6)]
 
@@ -40,7 +41,7 @@ def looked_up(lines, inventory, free):
 def test_candidates_are_those_of_the_bins(seed):
     rng = np.random.default_rng(seed)
     inventory = stocked(rng)
-    free = set(range(1, 15, 2)) | {4, 8}
+    free = UnitSet((*range(1, 15, 2), 4, 8))
     lines = Order(1, [(sku, int(rng.integers(1, 5))) for sku in SKUS[:4]], 0.0).lines
     for _ in range(3):
         wanted, found = looked_up(lines, inventory, free), Candidates(lines, inventory, free)
@@ -56,4 +57,4 @@ def test_candidates_are_those_of_the_bins(seed):
 def test_units_without_the_pieces_are_none():
     inventory = Inventory([Bin(1, "item1", 1, 12, "sku-0")])
     lines = Order(1, [("sku-0", 1), ("sku-5", 1)], 0.0).lines
-    assert not Candidates(lines, inventory, {1})
+    assert not Candidates(lines, inventory, UnitSet([1]))

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each policy works for an hour; a user's own class is one line of YAML; wrong ones are told."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 from operations_site import site
 
@@ -77,3 +80,22 @@ def test_wrong_policies_are_told(tmp_path, text, message):
     with pytest.raises(PolicyError) as error:
         Policies.read(path)
     assert message in str(error.value) and str(path) in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["most lines", "most work"])
+@pytest.mark.parametrize("reach, unit", [(20, 1), (120, 2), (170, 3)])
+def test_units_farther_than_the_reach_from_the_nearest_are_left(name, reach, unit):
+    policy = Policies({"units": {"name": name, "reach": reach}}).units
+    candidates = SimpleNamespace(
+        units=np.array([1, 2, 3]), completes=np.array([1, 1, 2]), pieces=np.array([1, 3, 5])
+    )
+    view = SimpleNamespace(
+        seconds_to_all=lambda _station, _units: np.array([30.0, 60.0, 200.0]), work=lambda _unit: 0
+    )
+    station = SimpleNamespace(name="pick1", coming=["a visit"])
+    assert policy.choose(station, candidates, view) == unit
+
+
+def test_a_reach_below_none_is_refused():
+    with pytest.raises(PolicyError, match="reach is -1; 0 s or more"):
+        Policies({"units": {"name": "most lines", "reach": -1}})

@@ -161,6 +161,7 @@ void indexModels(WorldState& world) {
     world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
   }
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
+  world.storage.indexItems();
   for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
   restoreDefects(world.fleet, world.settings.realism, world.failures);
   restoreCharge(world.fleet, world.settings.realism.energy);

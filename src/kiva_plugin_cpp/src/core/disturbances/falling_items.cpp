@@ -41,7 +41,9 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
 /// Calls visit(item) for the items that stand still on that unit.
 template <typename Visit>
 void forEachOn(ModelView& world, const Model& unit, Visit visit) {
-  for (const Item& item : world.storage.items) {
+  const std::vector<int> on = world.storage.items_on[unit.index];  // visits may take some off
+  for (const int index : on) {
+    const Item& item = world.storage.items[index];
     if (item.unit == unit.index && !world.fallen.find(item.model)) visit(item);
   }
 }

@@ -50,6 +50,7 @@ void Items::add(ModelView& world, Model& model) const {
   item.spawn_pose_in_unit = item.pose_in_unit;
   model.index = static_cast<int>(world.storage.items.size());
   world.storage.items.push_back(item);
+  world.storage.lay(model.index);
   if (item.unit >= 0) {
     addMass(world, item.unit, item.mass);
   } else {
@@ -62,8 +63,11 @@ void Items::remove(ModelView& world, Model& model) const {
   if (model.index < 0) return;  // it never joined
   const Item gone = world.storage.items[model.index];
   const int last = static_cast<int>(world.storage.items.size()) - 1;
+  world.storage.take(model.index);
   if (model.index != last) {
+    world.storage.take(last);
     world.storage.items[model.index] = std::move(world.storage.items[last]);
+    world.storage.lay(model.index);
     world.models[world.storage.items[model.index].model]->index = model.index;
   }
   world.storage.items.pop_back();
@@ -113,6 +117,7 @@ bool Items::push(ContactView& world, Model& model, int link, const Vector3& at,
 void fallOff(ModelView& world, Model& model, const EntityState& state) {
   Item& item = world.storage.items[model.index];
   const int unit = item.unit;
+  world.storage.take(model.index);
   item.unit = -1;
   addMass(world, unit, -item.mass);
   OrdinaryModels().add(world, model);
@@ -131,6 +136,7 @@ void putBack(ModelView& world, Model& model, const Model& unit) {
   model.geometries.clear();
   Item& item = world.storage.items[model.index];
   item.unit = unit.index;
+  world.storage.lay(model.index);
   addMass(world, item.unit, item.mass);
   world.storage.noteMove();
   invalidateClearance(world.fleet);

@@ -32,17 +32,18 @@ bool standsStill(const Scene& world, const Model& model) {
 
 /// Replaces the index `from` of a unit by `to` wherever it is stored; -1 = the unit is gone.
 void reindexUnit(ModelView& world, int from, int to) {
-  for (Item& item : world.storage.items) {
-    if (item.unit == from) item.unit = to;
-  }
+  Storage& storage = world.storage;
+  for (const int item : storage.items_on[from]) storage.items[item].unit = to;
+  if (to >= 0) storage.items_on[to] = storage.items_on[from];
+  storage.items_on[from].clear();
   for (Task& task : world.fleet.tasks) {
     for (MotionSegment& segment : task.segments) {
       if (segment.unit == from) segment.unit = to;
     }
   }
   if (to < 0) return;
-  const StorageUnit& unit = world.storage.units[to];
-  world.storage.unit_of_id[unit.id] = to;
+  const StorageUnit& unit = storage.units[to];
+  storage.unit_of_id[unit.id] = to;
   world.models[unit.model]->index = to;
   if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
 }
@@ -65,6 +66,7 @@ void StorageUnits::add(ModelView& world, Model& model) const {
   raiseToFloor(world, &unit, &model);
   model.index = static_cast<int>(world.storage.units.size());
   world.storage.units.push_back(unit);
+  world.storage.items_on.emplace_back();
   world.storage.unit_of_id[unit.id] = model.index;
   addCollisionGeometry(world.floor, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
@@ -82,13 +84,14 @@ void StorageUnits::remove(ModelView& world, Model& model) const {
     reindexUnit(world, last, index);
   }
   world.storage.units.pop_back();
+  world.storage.items_on.pop_back();
   world.storage.noteMove();
 }
 
 std::vector<int> StorageUnits::passengers(const Scene& world, const Model& model) const {
   std::vector<int> slots;
-  for (const Item& item : world.storage.items) {
-    if (item.unit == model.index) slots.push_back(item.model);
+  for (const int item : world.storage.items_on[model.index]) {
+    slots.push_back(world.storage.items[item].model);
   }
   return slots;
 }

@@ -274,8 +274,9 @@ SpatialInertia sumUnit(const Scene& world, int unit) {
   for (const Link& link : world.models[world.storage.units[unit].model]->description->links) {
     sum.add(link, link.pose_in_model);
   }
-  for (const Item& item : world.storage.items) {
-    if (item.unit == unit) sum.addPoint(item.mass, item.pose_in_unit.Pos());
+  for (const int index : world.storage.items_on[unit]) {
+    const Item& item = world.storage.items[index];
+    sum.addPoint(item.mass, item.pose_in_unit.Pos());
   }
   return sum;
 }

@@ -46,9 +46,11 @@ def _clear_streets(work: "Transports", in_the_way: np.ndarray) -> None:
     free = work.units.stands & work.aside
     for cells in (robots.goal, robots.cell):
         free[cells[cells != NOWHERE]] = False
-    places = work.units.in_order(np.flatnonzero(free))
+    places = np.flatnonzero(free)
     for robot in np.flatnonzero(in_the_way).tolist():
-        place = work.nearest(int(robots.cell[robot]), places)
-        if place != NOWHERE:
-            places = places[places != place]
-            robots.send(robot, place)
+        if not len(places):
+            return
+        far = work.distance(int(robots.cell[robot]), places)
+        place = work.units.first_in(places[far == far.min()])
+        places = places[places != place]
+        robots.send(robot, place)
