@@ -110,6 +110,19 @@ TEST(Window, GoesOnAfterStopsThatWereNotPlanned) {
   EXPECT_GT(arrivals, 100);
 }
 
+TEST(Window, NoRobotDrivesIntoACellThatHasBeenClosed) {
+  Errands errands(24, withRings(true), windowed(15));
+  const std::vector<Cell> free = cellsOf(kScattered, '.');
+  std::mt19937_64 random(4);
+  int arrivals = 0;
+  for (int i = 0; i < 40; ++i) {
+    errands.fleet.closed.clear();
+    for (int n = 0; n < 6; ++n) errands.fleet.closed.push_back(free[random() % free.size()]);
+    arrivals += errands.run(3, {0, 50});  // validates
+  }
+  EXPECT_GT(arrivals, 50);
+}
+
 TEST(Window, HasRobotsPassEachOtherInAPassage) {
   const std::vector<std::string> rows = {"###.###", ".......", "#######"};
   const Floor floor(drawn(rows));

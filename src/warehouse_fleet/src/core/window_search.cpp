@@ -36,7 +36,7 @@ bool WindowSearch::inherit() {
     rests[robot] = paths_.path(robot);
     auto& states = rests[robot].states;
     std::copy(states.begin() + 1, states.begin() + paths_.ticks() + 1, states.begin());
-    is_punctual = states[0] == wishes_[robot].state;
+    is_punctual = states[0] == wishes_[robot].state && canDrive(wishes_[robot], rests[robot]);
   }
   has_paths_ = is_punctual;
   is_chosen_.assign(robots, 0);
@@ -46,6 +46,17 @@ bool WindowSearch::inherit() {
     paths_.place(robot, rests[robot]);
   }
   return is_punctual;
+}
+
+/// Whether a path leads along edges that there are now: cells may have been closed, or kept.
+bool WindowSearch::canDrive(const Wish& wish, const WindowPath& path) const {
+  for (int tick = 0; tick < paths_.ticks(); ++tick) {
+    const auto [cell, heading] = path.states[tick];
+    const State& to = path.states[tick + 1];
+    if (to.cell != cell && candidates_.next(wish, cell, heading) != to.cell) return false;
+    if (to.heading != heading && !candidates_.mayTurn(wish, cell)) return false;
+  }
+  return true;
 }
 
 void WindowSearch::adopt(const Reservations& reserved, int horizon) {

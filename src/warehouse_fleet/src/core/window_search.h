@@ -27,7 +27,7 @@ class WindowSearch {
   /// Tells whether it can plan for these robots: none carries a load, is stopped or committed.
   bool canPlan() const;
   /// Begins a step with what is left of the paths of the last; returns false, without any paths, if
-  /// a robot is not where its path has it.
+  /// a robot is not where its path has it, or the path can't be driven any more.
   bool inherit();
   /// Begins a step with paths of so many ticks, at the end of which all stand.
   void adopt(const Reservations& reserved, int horizon);
@@ -39,7 +39,7 @@ class WindowSearch {
   void write(Reservations& reserved, int horizon) const;
 
  private:
-  void assess(int robot);
+  bool canDrive(const Wish& wish, const WindowPath& path) const;
   void improveEach();
   void chooseGroup(int robot, std::mt19937_64& random);
   void addBlockers(int robot, int most);
