@@ -50,7 +50,7 @@ test-long: build  ## fleets at work, seed after seed, with and without faults, a
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
-	../scripts/axe; ../scripts/screens; \
+	../scripts/axe; ../scripts/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
 test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray
@@ -103,7 +103,9 @@ docs: build  ## build the documentation into build/docs; a running viewer serves
 	@scripts/deps docs
 	@$(DEVEL) scripts/docs $(ARGS)
 
-docs-test: docs  ## run the examples of the documentation, and list its links to other places
+docs-test: docs  ## run the examples of the documentation, and ask what its links to other places answer
+	@scripts/learning_packages || true
+	@scripts/docs_links
 	@$(DEVEL) scripts/docs_examples $(ARGS)
 
 bench: build  ## run the benchmarks

@@ -63,6 +63,17 @@ def _escaped(line):
     return "".join(word + code for word, code in zip(words, [*codes, ""]))
 
 
+def adopt(app, doctree):
+    """Has all nodes of a page know its document alone.
+
+    A block of eval-rst has one of its own, with the whole environment: 100 MB for a page that is
+    kept, which takes minutes to write and to read.
+    """
+    for node in doctree.findall():
+        node.document = doctree
+
+
 def setup(app):
-    """Connects what reads docstrings."""
+    """Connects what reads docstrings and pages."""
     app.connect("autodoc-process-docstring", plain)
+    app.connect("doctree-read", adopt)

@@ -64,14 +64,38 @@ def served(node, *arguments):
 @contextmanager
 def shift(folder, **arguments):
     """The address of a shift under ROS; `arguments` are those of operations.launch."""
-    port = free_port()
-    given = {"viewer_port": 0, "database": folder / "shift.db"} | arguments
-    command = ["roslaunch", "-p", port, "warehouse_sim", "operations.launch"]
-    environment = os.environ | {"ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": folder}
-    told = [f"{name}:={value}" for name, value in given.items()]
-    with process(*command, *told, env=environment, stdout=subprocess.DEVNULL) as one:
-        master = xmlrpc.client.ServerProxy(environment["ROS_MASTER_URI"])
+    given = {"database": folder / "shift.db"} | arguments
+    with launched("operations.launch", folder, {}, given) as (one, uri):
+        master = xmlrpc.client.ServerProxy(uri)
         yield wait(lambda: _told(one, master, "/viewer/address"), "a shift")
+
+
+@contextmanager
+def warehouse(folder, environment, **arguments):
+    """The ROS master's address of a warehouse; `arguments` are those of warehouse.launch."""
+    with launched("warehouse.launch", folder, environment, arguments) as (one, uri):
+        master = xmlrpc.client.ServerProxy(uri)
+        wait(lambda: _told(one, master, "/viewer/address"), "a warehouse")
+        yield uri
+
+
+@contextmanager
+def launched(file, folder, environment, arguments):
+    """A launch on a free port, and its ROS master's address."""
+    port = free_port()
+    uri = f"http://localhost:{port}"
+    own = {"ROS_MASTER_URI": uri, "ROS_HOME": str(folder)}
+    told = [f"{name}:={value}" for name, value in ({"viewer_port": 0} | arguments).items()]
+    command = ["roslaunch", "-p", port, "warehouse_sim", file, *told]
+    options = {"env": os.environ | own | environment, "stdout": subprocess.DEVNULL}
+    with process(*command, **options) as one:
+        yield one, uri
+
+
+def node(uri, name):
+    """Returns a ROS node's address, None where there is none."""
+    code, _, address = xmlrpc.client.ServerProxy(uri).lookupNode("/running", name)
+    return address if code == 1 else None
 
 
 def _told(launch, master, name):

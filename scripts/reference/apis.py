@@ -3,7 +3,6 @@
 
 from reference.pages import ROOT
 
-# What one programs against; of warehouse_viewer and warehouse_sim only their own nodes make use.
 ABOUT = {
     "kiva_plugin_cpp": "The world in a Python process.",
     "warehouse_layout": "Floors, layout files, formats of other programs.",
@@ -12,6 +11,8 @@ ABOUT = {
     "warehouse_operations": "Orders, stock, stations, shifts, policies.",
     "warehouse_vda5050": "VDA 5050: vehicles, master, drivers.",
     "warehouse_learning": "Environments to learn in.",
+    "warehouse_viewer": "Pages, HTTP API, recordings, markers for RViz, pictures.",
+    "warehouse_sim": "What the nodes of a launch share.",
 }
 
 OPTIONS = {

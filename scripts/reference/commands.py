@@ -13,18 +13,18 @@ from unittest import mock
 from reference.markdown import block, code, page, prose, table
 from reference.pages import ROOT
 
-# Where rosrun finds a program, if not in the package of its folder.
+# Where rosrun finds a program, if not in the package of its folder; `drive` is in two.
 PACKAGES = {
-    "simulate": "warehouse_fleet",
-    "replay": "warehouse_fleet",
-    "whatif": "warehouse_fleet",
-    "edit": "warehouse_layout",
-    "report": "warehouse_fleet",
-    "sweep": "warehouse_fleet",
-    "size": "warehouse_fleet",
-    "check": "warehouse_fleet",
+    "warehouse_viewer/drive": "warehouse_fleet",
+    "warehouse_viewer/simulate": "warehouse_fleet",
+    "warehouse_viewer/replay": "warehouse_fleet",
+    "warehouse_viewer/whatif": "warehouse_fleet",
+    "warehouse_viewer/edit": "warehouse_layout",
+    "warehouse_operations/report": "warehouse_fleet",
+    "warehouse_operations/sweep": "warehouse_fleet",
+    "warehouse_operations/size": "warehouse_fleet",
+    "warehouse_operations/check": "warehouse_fleet",
 }
-MODULES = ("warehouse_learning.watch",)
 NODES = (
     "viewer",
     "coordinator",
@@ -39,6 +39,23 @@ def programs() -> list[Path]:
     return sorted(ROOT.glob("src/*/nodes/*"), key=lambda one: one.name)
 
 
+def package(program: Path) -> str:
+    """Returns the package in which rosrun finds a program."""
+    folder = program.parts[-3]
+    return PACKAGES.get(f"{folder}/{program.name}", folder)
+
+
+def modules() -> list[str]:
+    """Returns the modules that a person calls by python3 -m."""
+    found = []
+    for file in ROOT.glob("src/*/python/**/*.py"):
+        text = file.read_text()
+        if "__main__" in text and "ArgumentParser" in text:
+            top = next(one for one in file.parents if one.name == "python")
+            found.append(".".join(file.relative_to(top).with_suffix("").parts))
+    return sorted(found)
+
+
 def is_command(program: Path) -> bool:
     """Returns whether a program is one that a person calls with options."""
     text = program.read_text()
@@ -48,10 +65,10 @@ def is_command(program: Path) -> bool:
 def written() -> str:
     """Returns the page of command lines: what each prints on --help."""
     called = [
-        (f"rosrun {PACKAGES.get(one.name, one.parts[-3])} {one.name}", [str(one)])
-        for one in programs()
-        if is_command(one)
+        (f"rosrun {package(one)} {one.name}", [str(one)]) for one in programs() if is_command(one)
     ]
+    called += [(f"python3 -m {one}", ["-m", one]) for one in modules()]
+    called.append(("scripts/film", [str(ROOT / "scripts/film")]))
     sections = [section(*one) for one in called]
     nodes = [
         (code(one.name), code(one.parts[-3]), prose(docstring(one)))
@@ -88,9 +105,12 @@ def helped(command: list[str]) -> str:
         one: signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM, signal.SIGPIPE)
     }
     environment = mock.patch.dict("os.environ", COLUMNS="100", NO_COLOR="1")
-    arguments = mock.patch.object(sys, "argv", [*command, "--help"])
+    as_module = command[0] == "-m"
+    argv = command[1:] if as_module else command
+    arguments = mock.patch.object(sys, "argv", [*argv, "--help"])
+    run = runpy.run_module if as_module else runpy.run_path
     with environment, arguments, contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
-        runpy.run_path(command[0], run_name="__main__")
+        run(argv[0], run_name="__main__")
     for one, handler in handlers.items():
         signal.signal(one, handler)
     if "usage:" not in out.getvalue():

@@ -3,11 +3,13 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 from reference.markdown import code, page, prose, table
 from reference.pages import ROOT
 
+ADVICE = ROOT / "scripts/reference/advice.txt"
 # Messages whose constants are states, kinds or outcomes.
 CONSTANT = re.compile(r"^u?int\d+ (\w+)\s*=\s*(\d+)\s*(?:#\s*(.*))?$", re.M)
 RAISED = re.compile(
@@ -107,6 +109,19 @@ def _sentence(node):
     return ""
 
 
+@cache
+def advices() -> list[tuple[re.Pattern[str], str]]:
+    """Returns what to do, by a pattern of the sentences; the first that is found holds."""
+    lines = [line for line in ADVICE.read_text().splitlines() if line and line[0] != "#"]
+    return [(re.compile(one), told) for one, _, told in (line.partition(" => ") for line in lines)]
+
+
+def advice(package: str, sentence: str) -> str:
+    """Returns what to do about a refusal of a package, "" where nothing is known."""
+    text = f"{package}: {sentence}"
+    return next((told for one, told in advices() if one.search(text)), "")
+
+
 def written() -> str:
     """Returns the page of events and refusals."""
     parts = []
@@ -121,7 +136,10 @@ def written() -> str:
         )
     sentences = [
         f"### {package}\n\n"
-        + table(["sentence", "in"], [(prose(one), code(place)) for one, place in found])
+        + table(
+            ["sentence", "what to do", "in"],
+            [(prose(one), advice(package, one), code(place)) for one, place in found],
+        )
         for package, found in refusals().items()
     ]
     return page(
@@ -129,8 +147,7 @@ def written() -> str:
         "## Kinds, states and outcomes",
         *parts,
         "## Refusals and warnings\n\nThe sentences with which something is refused, "
-        "with … for what only a running program knows. Most name what was expected; "
-        "[troubleshooting](../how-to/troubleshooting.md) says what to do about the "
-        "most frequent ones.",
+        "with … for what only a running program knows, and what to do about each. "
+        "[Troubleshooting](../how-to/troubleshooting.md) has the most frequent ones by occasion.",
         *sentences,
     )

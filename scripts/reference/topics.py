@@ -5,6 +5,7 @@ A test compares the names with those in the code, and `make docs-test` names and
 a warehouse that runs.
 """
 
+import re
 from typing import NamedTuple
 
 from reference.markdown import code, page, prose, table
@@ -31,6 +32,23 @@ def names(section: str) -> list[Name]:
 def services() -> list[Name]:
     """Returns all services."""
     return names("services") + names("gazebo")
+
+
+# Topics and services that ROS itself, an action or a node's logger brings.
+BROUGHT = re.compile(r"/(move|carry)/\w+$|/rosout\w*$|/statistics$|logger(s|_level)$")
+
+
+def unlisted(published: dict[str, str], offered: list[str]) -> list[str]:
+    """Returns the topics (given with types) and services that run and that the tables lack."""
+    known = {one.name: one.type for one in names("published") + names("taken")}
+    told = []
+    for name, kind in published.items():
+        plain = re.sub(r"^/(items|storage_units)/[^/]+/", r"/\1/<name>/", name)
+        plain = re.sub(r"^/kiva\d+/", "/kiva<id>/", plain)
+        if not BROUGHT.search(name) and known.get(plain) != kind:
+            told.append(f"{name} {kind}")
+    listed = {one.name for one in services()}
+    return told + [name for name in offered if not BROUGHT.search(name) and name not in listed]
 
 
 def about(type_name: str) -> str:

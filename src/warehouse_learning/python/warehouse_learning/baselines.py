@@ -2,6 +2,7 @@
 """Policies to measure others by. Each is a function of observations (…, size) and action masks
 (…, 5) that returns actions (…,)."""
 
+import argparse
 from collections.abc import Callable
 from typing import Any
 
@@ -12,7 +13,7 @@ from warehouse_fleet.transports import Kind
 from warehouse_layout.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.observing import Observer
-from warehouse_learning.options import Options
+from warehouse_learning.options import SIZES, Options
 from warehouse_learning.warehouses import Action, Warehouses
 
 IMPATIENCE = 0.2  # of robots that can't go on: how often they try something else
@@ -96,10 +97,12 @@ def measure_planner(options: Options, seconds: float, seed: int = 0) -> int:
 
 
 def main() -> None:
-    """python3 -m warehouse_learning.baselines [size]: prints what each delivers."""
-    import sys
-
-    options = Options.of({"size": sys.argv[1] if len(sys.argv) > 1 else "tiny"})
+    """Prints how many units random robots, greedy robots and the fleet's planner deliver."""
+    parser = argparse.ArgumentParser(
+        prog="python3 -m warehouse_learning.baselines", description=main.__doc__
+    )
+    parser.add_argument("size", nargs="?", choices=SIZES, default="tiny", help="(tiny)")
+    options = Options.of({"size": parser.parse_args().size})
     for name, policy in (("random", random_policy()), ("greedy", greedy_policy(options))):
         delivered, seconds = measure(policy, options)
         hourly = 3600 * delivered.sum() / seconds.sum()

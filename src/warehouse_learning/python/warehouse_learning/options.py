@@ -103,14 +103,14 @@ class Options:
             _real("decision", self.decision, self.physics_step, 60)
         unknown = [name for name in self.rewards if name not in REWARDS]
         if unknown:
-            raise OptionError(f"rewards has {unknown[0]!r}; one of {', '.join(REWARDS)} is meant")
+            raise OptionError(f"rewards has {unknown[0]!r}; {', '.join(REWARDS)} are known")
         for name, value in self.rewards.items():
             _real(f"rewards[{name!r}]", value, -1e9, 1e9)
         object.__setattr__(self, "rewards", REWARDS | self.rewards)
 
     def _count_of_layout(self):
         if self.shelves:
-            raise OptionError(f"shelves is {self.shelves}; those of the layout are taken")
+            raise OptionError(f"shelves is {self.shelves}; a layout has its own")
         try:
             file = layout_choice.chosen(self.layout)
             layout_choice.check(file, self.robots or None)

@@ -105,7 +105,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         mask = (options or {}).get("reset_mask")
         which = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
         if not self._begun and len(which) < self.num_envs:
-            raise gymnasium.error.ResetNeeded("all are to be reset at first")
+            raise gymnasium.error.ResetNeeded("the first reset has to reset all environments")
         super().reset(seed=seed if isinstance(seed, int) else None)
         if seed is None:
             seeds = self._next_seeds(len(which))

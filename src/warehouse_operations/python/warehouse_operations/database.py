@@ -80,7 +80,7 @@ class Database:
             raise
         except Exception as error:  # there may be anything in a file that was damaged
             raise DatabaseError(
-                f"{self.url}: what it holds can't be read: {reason(error)}; go on with another "
+                f"{self.url}: its content can't be read: {reason(error)}; use another "
                 "database, or with a copy of this one from before"
             ) from error
 

@@ -113,7 +113,7 @@ def _check_pages(connection: Any) -> None:
     found = connection.execute(text("PRAGMA quick_check(1)")).scalar()
     if found != "ok":
         told = " ".join(str(found).replace("*", "").split())
-        raise schema.SchemaError(f"is damaged ({told}); go on with another one, or with a copy")
+        raise schema.SchemaError(f"is damaged ({told}); use another one, or a copy")
 
 
 def lock(engine: Engine, text: Any) -> contextlib.AbstractContextManager[Any]:

@@ -263,9 +263,11 @@ def _generated(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
     if not description.robots:
-        raise InstanceError("units, but no robots for them; both were expected")
+        raise InstanceError("units without robots; both were expected")
     if description.layout:
-        raise InstanceError("units: a layout has its own; without one a warehouse is generated")
+        raise InstanceError(
+            "units: a layout has its own; leave out the layout to have a warehouse generated"
+        )
     with _told_as_ours():
         return World.create(
             robots=description.robots,

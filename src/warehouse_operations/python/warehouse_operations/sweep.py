@@ -211,7 +211,7 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
         given["orders"] = _beside(path, orders)
     sites = [key for key in ("size", "layout", "instance") if key in given]
     if len(sites) > 1:
-        raise SweepError(f"{path}: {' and '.join(sites)}: one of them was expected")
+        raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
         given |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
         one = with_settings(Description(**given))

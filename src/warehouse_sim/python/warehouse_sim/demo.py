@@ -141,7 +141,7 @@ class Demo:
         with Engine(self._ros) as engine:
             self._found = survey.of_engine(engine)
         if not self._executor.until(self._told, PATIENCE):
-            raise DemoError("the tracking nodes don't tell where storage units and items are")
+            raise DemoError("the tracking nodes do not publish where storage units and items are")
 
     def _told(self):
         """Whether the tracking nodes know of all that stands."""

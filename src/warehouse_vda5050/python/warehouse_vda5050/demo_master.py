@@ -98,7 +98,7 @@ class DemoMaster:
         while not (found := condition()):
             self._loop.poll(0.05)
             if time.monotonic() > end:
-                raise TripError(f"{what} was waited for in vain")
+                raise TripError(f"{what} did not come in time")
         return found
 
     def ask_for_state(self, who: Identity) -> None:

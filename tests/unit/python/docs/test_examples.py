@@ -1,10 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Examples that need no warehouse run as they stand; `make docs-test` runs the others."""
 
+import os
 import subprocess
 import sys
 
+import pytest
 from paths import ROOT
+
+sys.path.append(str(ROOT / "scripts"))
+
+from examples.blocks import SHOWN, SkippedError, check, examples, pages
+from examples.shells import Session
+
+from examples import links
+
+KNOWN = {*SHOWN, "python", "yaml", "xml", "cpp", "console", "bash"}
 
 
 def run(*arguments):
@@ -27,3 +38,82 @@ def test_a_wrong_example_is_told(tmp_path):
     assert done.returncode == 1
     assert "ZeroDivisionError" in done.stdout and "there is no 'no such policy'" in done.stdout
     assert "2 failed" in done.stdout
+
+
+def test_each_block_says_what_it_is():
+    found = [*examples(pages())]
+    assert len(found) > 150
+    for example in found:
+        assert example.language in KNOWN, f"{example.place}: {example.language or 'no language'}"
+    commands = [one for one in found if one.language in ("console", "bash")]
+    assert sum("skip" in one.notes for one in commands) < len(commands) / 2
+
+
+def block(folder, text):
+    page = folder / "page.md"
+    page.write_text(text)
+    (one,) = examples([page])
+    return one
+
+
+def test_notes_say_how_an_example_is_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    one = block(
+        tmp_path,
+        "<!-- example: file: a.txt -->\n<!-- example: stop: -->\n```bash\nls\n```\n",
+    )
+    assert one.notes == {"file": "a.txt", "stop": ""} and one.line == 3
+    check(one)
+    assert (tmp_path / "a.txt").read_text() == "ls\n"
+    with pytest.raises(SkippedError, match="no_such_program is not installed"):
+        check(block(tmp_path, "<!-- example: needs: no_such_program -->\n```bash\nls\n```\n"))
+    with pytest.raises(ValueError, match="skipped: one of skip, needs"):
+        block(tmp_path, "<!-- example: skipped: why -->\n```bash\nls\n```\n")
+
+
+def test_addresses_elsewhere_are_found(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(
+        "[a](https://example.org/a#b) <https://example.org/c> [here](http://localhost:8080)\n"
+        "`changes <https://example.org/d>`_ curl http://host:8080/ [on](page.md)\n"
+    )
+    found = links.addresses([page])
+    assert [*found] == [f"https://example.org/{one}" for one in "acd"]
+
+
+def test_an_address_that_is_not_reached_is_told(tmp_path):
+    (answer,) = links.answers(["http://127.0.0.1:9/"], timeout=2)
+    assert answer.status == 0 and "refused" in answer.text.lower()
+
+
+@pytest.fixture
+def session(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    one = Session(tmp_path)
+    yield one
+    one.end()
+
+
+def test_a_session_keeps_what_a_block_exports(session):
+    session.run("export GREETING=hello", "", 10)
+    assert session.run("echo $GREETING", "", 10) == "hello\n"
+    session.leave()
+    assert session.run("echo $GREETING", "", 10) == "\n"
+
+
+def test_a_command_that_fails_or_takes_too_long_is_told(session):
+    with pytest.raises(ValueError, match="this failed: ls nowhere"):
+        session.run("ls nowhere\necho never", "", 10)
+    with pytest.raises(ValueError, match=r"it took longer than 0\.2 s"):
+        session.run("sleep 9", "", 0.2)
+
+
+def test_a_program_is_started_until_it_is_ready_and_ends_with_the_page(session, tmp_path):
+    session.start('bash -c "sleep 0.3; echo $$ >pid; sleep 99"', "test -s pid", 10)
+    number = int((tmp_path / "pid").read_text())
+    os.kill(number, 0)
+    session.leave()
+    with pytest.raises(ProcessLookupError):
+        os.kill(number, 0)
+    with pytest.raises(ValueError, match="has ended with 3"):
+        session.start('sh -c "exit 3"', "false", 10)

@@ -101,6 +101,11 @@ def test_each_listed_type_of_ours_exists(one):
         assert any(kind.exists() for kind in kinds), one.type
 
 
+@pytest.mark.parametrize("one", topics.services(), ids=lambda one: one.name)
+def test_each_service_says_what_it_does(one):
+    assert one.note or topics.about(one.type), one.name
+
+
 def test_each_launch_argument_is_explained():
     written = launching.launches()
     for file in ROOT.glob("src/*/launch/*.launch"):
@@ -153,6 +158,18 @@ def test_each_program_says_what_it_does():
         "layout",
         "drive",
     }
+
+
+def test_rosrun_finds_each_program():
+    for program in filter(commands.is_command, commands.programs()):
+        found = ROOT / "devel/lib" / commands.package(program) / program.name
+        assert found.exists(), f"rosrun {commands.package(program)} {program.name}"
+
+
+def test_each_module_that_is_called_says_what_it_does():
+    assert {"warehouse_learning.ppo", "warehouse_learning.baselines"} <= {*commands.modules()}
+    for module in commands.modules():
+        assert "usage: " in commands.helped(["-m", module])
 
 
 def test_each_policy_is_listed():
@@ -214,6 +231,26 @@ def test_each_refusal_is_listed():
     assert "it carries nothing" in written and "is off the grid of … m" in written
 
 
+def test_each_refusal_says_what_to_do():
+    lacking = [
+        f"{package}: {sentence}"
+        for package, found in events.refusals().items()
+        for sentence, _ in found
+        if not events.advice(package, sentence)
+    ]
+    assert not lacking, "scripts/reference/advice.txt has no line for these"
+
+
+def test_each_advice_is_of_use():
+    given = {
+        events.advice(package, sentence)
+        for package, found in events.refusals().items()
+        for sentence, _ in found
+    }
+    assert {told for _, told in events.advices()} <= given
+    assert events.advice("warehouse_fleet", "green cheese") == ""
+
+
 def test_each_key_of_a_layout_file_is_listed():
     text = (ROOT / "doc/reference/layouts.md").read_text()
     from warehouse_layout import layout_reader
@@ -225,7 +262,11 @@ def test_each_key_of_a_layout_file_is_listed():
 def test_each_package_has_its_python_api():
     have = {one.parent.parent.name for one in ROOT.glob("src/*/python/*/__init__.py")} - {"python"}
     packages = {one.parts[-2] for one in ROOT.glob("src/*/python")}
-    assert packages - {"warehouse_viewer", "warehouse_sim"} == set(apis.ABOUT), have
+    assert packages == set(apis.ABOUT), have
+    for name in packages:
+        page = apis.python(name)
+        for module in apis.modules(name):
+            assert f".. automodule:: {module}\n" in page
 
 
 def test_each_public_header_is_in_a_listed_namespace():

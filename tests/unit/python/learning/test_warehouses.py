@@ -326,7 +326,7 @@ def test_a_layout_that_is_none_is_told():
     for given, message in (
         ({"layout": "nix.layout.yaml"}, "layout: .*nix.layout.yaml: No such file"),
         ({"layout": str(LAYOUTS / "blocked.layout.yaml")}, "can't pass each other"),
-        ({"layout": "small", "shelves": 3}, "shelves is 3; those of the layout are taken"),
+        ({"layout": "small", "shelves": 3}, "shelves is 3; a layout has its own"),
     ):
         with pytest.raises(OptionError, match=message):
             Options(**given)

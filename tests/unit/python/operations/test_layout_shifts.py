@@ -114,7 +114,7 @@ def test_a_sweep_varies_layouts_robots_and_stations(tmp_path):
         ("robots: 0", "robots is 0; a whole number above 0"),
         ("grid: {stations: [1.5]}", "stations is 1.5; a whole number above 0"),
         ("layout: nix.layout.yaml", "nix.layout.yaml: No such file"),
-        ("layout: medium\nsize: small", "size and layout: one of them was expected"),
+        ("layout: medium\nsize: small", "size and layout: only one of them was expected"),
     ],
 )
 def test_a_sweep_that_is_none_is_told(text, sentence, tmp_path):

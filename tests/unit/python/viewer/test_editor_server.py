@@ -139,8 +139,8 @@ def test_a_trial_tells_how_far_it_is_and_what_came_of_it():
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
-        (("items: 96", "items: 0"), "it lacks an item in stock"),
-        (("kind: pick", "kind: replenish"), "it lacks a picking station"),
+        (("items: 96", "items: 0"), "the drawing lacks an item in stock"),
+        (("kind: pick", "kind: replenish"), "the drawing lacks a picking station"),
         (("storage_units: 24", "storage_units: 99"), "99 storage units, but"),
     ],
 )

@@ -376,7 +376,7 @@ def faults_on_a_phone(url):
 def test_ideal_robots_are_not_recorded(tmp_path):
     done = run("simulate", "--size", "small", "--no-physics", "--record", "--out", tmp_path)
     assert done.returncode == 1
-    assert "simulate: --record: ideal robots are nowhere between two cells" in done.stderr
+    assert "simulate: --record: ideal robots have no place between two cells" in done.stderr
 
 
 def test_replay_says_what_it_can_not_play(tmp_path):

@@ -218,7 +218,7 @@ def test_the_queue_is_bounded(tmp_path):
         ({"minutes": float("nan")}, "minutes is nan; a number above 0, up to 1440, was expected"),
         ({"seeds": 51}, "seeds is 51; a whole number from 1 to 50 was expected"),
         ({"policies": {"orders": "os:system"}}, "policies is {'orders': 'os:system'}; a known"),
-        ({"realism": "typical"}, "realism: ideal robots have no bad days"),
+        ({"realism": "typical"}, "realism: ideal robots have none"),
         ({"physics": True, "realism": "/etc/x"}, "realism is '/etc/x'; one of ideal, typical"),
         ({"out": "/tmp"}, "a scenario with layout, minutes,"),
         ([], "a scenario with"),

@@ -8,8 +8,8 @@
 
 namespace kiva_ros {
 
-/// Serves `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, 100 where a
-/// model that belongs to no warehouse blocks robots, 0 elsewhere.
+/// Serves `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, and in it a
+/// number of kiva::Occupancy.
 class MapService {
  public:
   MapService(ros::NodeHandle& root, SimulationThread& simulation);

@@ -78,7 +78,7 @@ class RwareVectorEnv(VectorEnv):
                 self.warehouses.seed(i, *seed_of(None if number is None else int(number)))
         self._is_seeded |= which
         if not self._is_seeded.all():
-            raise gymnasium.error.ResetNeeded("all are to be reset at first")
+            raise gymnasium.error.ResetNeeded("the first reset has to reset all environments")
         self._begin(which)
         return self._observer.arrays(), self._infos()
 

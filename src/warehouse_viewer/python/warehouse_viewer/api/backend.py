@@ -48,7 +48,7 @@ class ApiBackend:
         """Waits until it is known where everything is."""
         self.feed.subscribe()
         if not await _until(lambda: self.feed.has_positions):
-            raise HTTPException(503, "the world tells nothing; does it run?")
+            raise HTTPException(503, "no message comes from the world; is it running?")
 
     async def wait_for_summary(self) -> None:
         """Waits a moment for the messages that figures are made from."""

@@ -55,7 +55,7 @@ def _check(file: LayoutFile, site: Site) -> None:
     }
     missing = [what for what, lacks_it in lacks.items() if lacks_it]
     if missing:
-        raise TrialError(f"to work there, it lacks {', '.join(missing)}")
+        raise TrialError(f"robots can't work there: the drawing lacks {', '.join(missing)}")
     found = faults(file)
     if found:
         raise TrialError(f"robots can't work there yet: {found[0].text}")

@@ -132,8 +132,8 @@ class FileRecording:
         except (KeyError, TypeError, ValueError) as error:
             told = error if isinstance(error, RecordingError) else f"{error!r}"
             raise RecordingError(
-                f"{self.path}: byte {block.at}: what a {block.what.decode()} block tells of itself"
-                f" was expected: {told}"
+                f"{self.path}: byte {block.at}: the head of a {block.what.decode()} block was"
+                f" expected: {told}"
             ) from error
 
     def _take_checked(self, block: Block) -> None:

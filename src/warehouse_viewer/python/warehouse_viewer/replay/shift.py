@@ -40,8 +40,7 @@ class ShiftRecorder:
     def _begin(self, ops: Operations) -> RunRecorder:
         if ops.ideal:
             raise RecordingError(
-                "--record: ideal robots are nowhere between two cells; without --no-physics was"
-                " expected"
+                "--record: ideal robots have no place between two cells; leave out --no-physics"
             )
         fleet: Any = ops.fleet
         fleet.events = []

@@ -42,7 +42,7 @@ class OperationsClient:
         end = time.monotonic() + PATIENCE
         while (message := self.feed[name]) is None:
             if time.monotonic() > end:
-                raise AwayError(f"/warehouse/{name} tells nothing; {NO_SHIFT}")
+                raise AwayError(f"no message comes on /warehouse/{name}; {NO_SHIFT}")
             time.sleep(0.05)
         return message
 

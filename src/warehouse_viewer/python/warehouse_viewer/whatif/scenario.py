@@ -55,7 +55,7 @@ class Scenario:
                 raise ScenarioError(f"{key} is {value!r}; {expected} was expected")
         out = cls(**told)
         if out.realism and not out.physics:
-            raise ScenarioError("realism: ideal robots have no bad days; physics was expected")
+            raise ScenarioError("realism: ideal robots have none; physics was expected")
         return out
 
     def to_json(self) -> dict[str, Any]:

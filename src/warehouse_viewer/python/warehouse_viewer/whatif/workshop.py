@@ -160,7 +160,7 @@ class Workshop:
         wanted = shown.planned(self.folder.of(name) / FILE, self._version(name, scenario))
         found = [run for one in wanted if (run := stored.complete(one))]
         if not found:
-            raise ScenarioError(f"'{name}' has no run that is over")
+            raise ScenarioError(f"no run of '{name}' has ended yet")
         return found
 
     # --- what is asked for

@@ -87,7 +87,7 @@ class Page {
     const [short, damaged] = [PickOutcome.SHORT, PickOutcome.DAMAGED];
     const acts = { ALL: () => this.confirm(true), UNDO: () => this.undo(), SHORT: () => this.writeOff(short), DAMAGED: () => this.writeOff(damaged) };
     if (acts[name]) return acts[name]();
-    return this.tell({ ok: false, sound: 'refused', text: 'nothing is asked that has yes or no for an answer' });
+    return this.tell({ ok: false, sound: 'refused', text: 'there is no question now that yes or no could answer' });
   }
 
   /** A scanned YES or NO answers the question that is open. */

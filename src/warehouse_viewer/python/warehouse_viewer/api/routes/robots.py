@@ -58,7 +58,7 @@ async def add_robot(wanted: NewRobot, backend: ApiBackend = BACKEND) -> Any:
 async def remove_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
     """Takes away a robot that carries nothing."""
     if (await backend.robot(number)).storage_unit:
-        raise HTTPException(409, f"kiva{number} carries a storage unit; let it drop that first")
+        raise HTTPException(409, f"kiva{number} carries a storage unit; have it put down first")
     return {"message": await backend.change("remove_robot", number)}
 
 

@@ -47,7 +47,9 @@ async def get_sizes(backend: ApiBackend = BACKEND) -> Any:
 
 async def _build_layout(wanted: NewWarehouse, backend: ApiBackend) -> Any:
     if wanted.robots or wanted.items or wanted.shelves:
-        raise HTTPException(422, "counts beside a layout: it says itself what stands there")
+        raise HTTPException(
+            422, "counts and a layout: the layout has its own counts; give one of them"
+        )
     try:
         path = await asyncio.to_thread(layout_store.kept, wanted.layout, wanted.name)
     except LayoutFileError as error:
