@@ -38,6 +38,7 @@ class FakeRos:
     def __init__(self, **parameters):
         self.parameters = {f"~{name}": value for name, value in parameters.items()}
         self.publishers, self.callbacks, self.warnings = {}, {}, []
+        self.connections = 1  # of each subscriber
 
     def logwarn_once(self, text):
         self.warnings.append(text)
@@ -52,4 +53,7 @@ class FakeRos:
     def Subscriber(self, topic, kind, callback, callback_args=None, **_):  # noqa: N802
         args = () if callback_args is None else (callback_args,)
         self.callbacks[topic] = lambda message: callback(message, *args)
-        return SimpleNamespace(unregister=lambda: self.callbacks.pop(topic))
+        return SimpleNamespace(
+            unregister=lambda: self.callbacks.pop(topic),
+            get_num_connections=lambda: self.connections,
+        )

@@ -58,7 +58,7 @@ class ScriptExecutor:
         self._ended: dict[int, Any] = {}
         self._now = 0.0  # [s, simulated]
         self.events: list[Event] = []
-        ros.Subscriber("/warehouse/events", Event, self._inbox.put, queue_size=1000)
+        self._answers = ros.Subscriber("/warehouse/events", Event, self._inbox.put, queue_size=1000)
         for topic, kind in COMMANDS.items():
             self._publishers[topic] = ros.Publisher(topic, kind, queue_size=10)
 
@@ -80,8 +80,8 @@ class ScriptExecutor:
         self._pump(end, lambda: not self._scripts)
 
     def _heard(self):
-        """Returns whether the commands have a subscriber."""
-        return all(p.get_num_connections() for p in self._publishers.values())
+        """Returns whether the commands have a subscriber, and what becomes of them a publisher."""
+        return all(p.get_num_connections() for p in (self._answers, *self._publishers.values()))
 
     def until(self, condition: Callable[[], Any], patience: float = 10.0) -> Any:
         """Waits for condition() at most `patience` [s, wall]; returns its last value."""

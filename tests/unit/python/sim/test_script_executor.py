@@ -50,6 +50,15 @@ def script(kiva, seen, steps=2):
         seen.append((kiva, event.kind))
 
 
+def test_nothing_is_commanded_before_the_answers_can_be_heard():
+    stage, seen = Stage((Event.ACCEPTED, Event.DONE)), []
+    stage.connections = 0
+    stage.watch(3)
+    with pytest.raises(DeadlineError):
+        stage.executor.play({3: script(3, seen)})
+    assert (stage.seconds, seen) == (0, [])
+
+
 def test_commands_follow_each_other():
     stage, seen = Stage((Event.ACCEPTED, Event.DONE), (Event.ACCEPTED, Event.BLOCKED)), []
     stage.watch(3)
