@@ -2,79 +2,11 @@
 //
 // Floors with hardly a free cell: all robots get to their goals, by rings, and by coming out of
 // dead ends before others go in.
-#include "planner_shift.h"
+#include "planner_errands.h"
 #include "pockets.h"
 
 namespace fleet::test {
 namespace {
-
-/// Robots that each go to one random cell after the other, and pass their goals without a stop.
-class Errands {
- public:
-  Errands(const std::vector<std::string>& rows, int robots, const Rules& rules)
-      : floor(drawn(rows)),
-        rules_(rules),
-        free_(cellsOf(rows, '.')),
-        planner_(makeEpibt(passing())) {
-    std::vector<Cell> cells = free_;
-    std::shuffle(cells.begin(), cells.end(), random_);
-    fleet.cell.assign(cells.begin(), cells.begin() + robots);
-    fleet.heading.assign(robots, 0);
-    for (int robot = 0; robot < robots; ++robot) fleet.goal.push_back(anyOf(free_));
-    since.assign(robots, 0);
-    planner_->start(floor, rules, 1);
-  }
-
-  /// Drives so many ticks; returns how many goals were reached.
-  int run(int ticks) {
-    int arrivals = 0;
-    for (int tick = 0; tick < ticks; ++tick) {
-      planner_->plan(fleet, {0, 0}, plan_);
-      for (const Violation& violation : validate(floor, fleet, plan_, rules_, 1)) {
-        ADD_FAILURE() << describe(violation, floor);
-        return 0;
-      }
-      for (int robot = 0; robot < fleet.size(); ++robot) arrivals += drive(robot);
-    }
-    return arrivals;
-  }
-
-  const Floor floor;
-  Fleet fleet;
-  std::vector<int> since;  ///< by robot: ticks since it got its goal
-
- private:
-  static EpibtOptions passing() {
-    EpibtOptions options;
-    options.goals_are_stops = false;
-    return options;
-  }
-
-  Cell anyOf(const std::vector<Cell>& cells) { return cells[random_() % cells.size()]; }
-
-  bool drive(int robot) {
-    const State state = after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan_.at(robot, 0));
-    fleet.cell[robot] = state.cell;
-    fleet.heading[robot] = state.heading;
-    ++since[robot];
-    if (state.cell != fleet.goal[robot]) return false;
-    fleet.goal[robot] = anyOf(free_);
-    since[robot] = 0;
-    return true;
-  }
-
-  const Rules rules_;
-  const std::vector<Cell> free_;
-  std::mt19937_64 random_{3};
-  std::unique_ptr<Planner> planner_;
-  Plan plan_;
-};
-
-/// Walls here and there, two dead ends among them.
-const std::vector<std::string> kScattered = {
-    "............", "..#....#...#", ".....#......", ".#........#.", "....#..#....", "..#........#",
-    ".......#....", ".#...#....#.", "...#........", "......#.#..#", ".#......#...", "....#.....#.",
-};
 
 class FullFloor : public testing::TestWithParam<int> {};
 

@@ -2,73 +2,16 @@
 //
 // Few robots planned in windows of many ticks: plans are right, robots get to their goals sooner,
 // past each other in a passage, and again after something went otherwise.
-#include "planner_shift.h"
+#include "planner_errands.h"
 
 namespace fleet::test {
 namespace {
 
-const std::vector<std::string> kScattered = {
-    "............", "..#....#...#", ".....#......", ".#........#.", "....#..#....", "..#........#",
-    ".......#....", ".#...#....#.", "...#........", "......#.#..#", ".#......#...", "....#.....#.",
-};
-
 EpibtOptions windowed(int ticks) {
-  EpibtOptions options;
-  options.goals_are_stops = false;
+  EpibtOptions options = passing();
   options.window = ticks;
   return options;
 }
-
-/// Robots that each go to one random cell after the other.
-class Errands {
- public:
-  Errands(int robots, const Rules& rules, const EpibtOptions& options)
-      : rules_(rules), free_(cellsOf(kScattered, '.')), planner_(makeEpibt(options)) {
-    std::vector<Cell> cells = free_;
-    std::shuffle(cells.begin(), cells.end(), random_);
-    fleet.cell.assign(cells.begin(), cells.begin() + robots);
-    fleet.heading.assign(robots, 0);
-    for (int robot = 0; robot < robots; ++robot) fleet.goal.push_back(anyFree());
-    planner_->start(floor, rules, 1);
-  }
-
-  /// Drives so many ticks; returns how many goals were reached.
-  int run(int ticks, const Budget& budget) {
-    int arrivals = 0;
-    for (int tick = 0; tick < ticks; ++tick) {
-      planner_->plan(fleet, budget, plan_);
-      for (const Violation& violation : validate(floor, fleet, plan_, rules_)) {
-        ADD_FAILURE() << describe(violation, floor);
-        return 0;
-      }
-      for (int robot = 0; robot < fleet.size(); ++robot) arrivals += drive(robot);
-    }
-    return arrivals;
-  }
-
-  const Floor floor{drawn(kScattered)};
-  Fleet fleet;
-
- private:
-  Cell anyFree() { return free_[random_() % free_.size()]; }
-
-  bool drive(int robot) {
-    const State before{fleet.cell[robot], fleet.heading[robot]};
-    const bool is_stopped = fleet.isStopped(robot);
-    const State state = is_stopped ? before : after(floor, before, plan_.at(robot, 0));
-    fleet.cell[robot] = state.cell;
-    fleet.heading[robot] = state.heading;
-    if (state.cell != fleet.goal[robot]) return false;
-    fleet.goal[robot] = anyFree();
-    return true;
-  }
-
-  const Rules rules_;
-  const std::vector<Cell> free_;
-  std::mt19937_64 random_{3};
-  std::unique_ptr<Planner> planner_;
-  Plan plan_;
-};
 
 Rules withRings(bool rings) {
   Rules rules;
@@ -80,7 +23,8 @@ class Window : public testing::TestWithParam<bool> {};
 
 TEST_P(Window, BringsMoreToTheirGoals) {
   const Rules rules = withRings(GetParam());
-  Errands by_operations(24, rules, windowed(-1)), in_windows(24, rules, windowed(15));
+  Errands by_operations(kScattered, 24, rules, windowed(-1));
+  Errands in_windows(kScattered, 24, rules, windowed(15));
   const int before = by_operations.run(300, {0, 300}), now = in_windows.run(300, {0, 300});
   EXPECT_GT(now, 1.02 * before);
 }
@@ -90,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Rings, Window, testing::Bool());
 TEST(Window, IsRepeatable) {
   std::vector<std::vector<Cell>> cells;
   for (const int attempts : {200, 200, 0}) {
-    Errands errands(24, {}, windowed(15));
+    Errands errands(kScattered, 24, {}, windowed(15));
     errands.run(60, {0, attempts});
     cells.push_back(errands.fleet.cell);
   }
@@ -99,7 +43,7 @@ TEST(Window, IsRepeatable) {
 }
 
 TEST(Window, GoesOnAfterStopsThatWereNotPlanned) {
-  Errands errands(24, withRings(true), windowed(15));
+  Errands errands(kScattered, 24, withRings(true), windowed(15));
   std::mt19937_64 random(2);
   int arrivals = 0;
   for (int i = 0; i < 60; ++i) {
@@ -111,7 +55,7 @@ TEST(Window, GoesOnAfterStopsThatWereNotPlanned) {
 }
 
 TEST(Window, NoRobotDrivesIntoACellThatHasBeenClosed) {
-  Errands errands(24, withRings(true), windowed(15));
+  Errands errands(kScattered, 24, withRings(true), windowed(15));
   const std::vector<Cell> free = cellsOf(kScattered, '.');
   std::mt19937_64 random(4);
   int arrivals = 0;
