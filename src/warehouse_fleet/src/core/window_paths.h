@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths of many ticks, and who is where at each of them. Always without conflicts, so that they are
-// a plan at any moment.
+// Paths of many ticks, and which robot is in which cell at each tick. The paths never conflict, so
+// that they are a plan at any moment.
 #pragma once
 
 #include <array>

@@ -24,9 +24,10 @@ class Warehouse(gymnasium.Env):
     over, infos are empty, all as RWARE has it. render_mode may be "rgb_array".
 
     physics: "grid", RWARE itself; "ideal", actions take time; "bodies", robots of the warehouse's
-    physics do them (see warehouse_learning.rware.motion). Then infos hold `time` [s], who is `busy`
-    and with bodies `collisions`, one an agent. decision: of those, "action", a step lasts until
-    every agent has ended its action, or so many seconds.
+    physics do them (see warehouse_learning.rware.motion). Then infos hold `time` [s], `busy`,
+    true for each agent at an action, and with bodies `collisions`, a count for each agent.
+    decision, where actions take time: "action", a step lasts until every agent has ended its
+    action, or a number of seconds.
     """
 
     metadata = RENDERING

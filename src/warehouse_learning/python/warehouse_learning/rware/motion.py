@@ -53,7 +53,7 @@ class Motion:
 
     @property
     def busy(self) -> np.ndarray:
-        """(n, agents) bool: who is at an action."""
+        """Whether each agent is at an action, (n, agents) bool."""
         return self.current != Action.NOOP
 
     def reset(self, which: np.ndarray) -> None:
@@ -62,7 +62,7 @@ class Motion:
         self.time[which] = 0
 
     def infos(self) -> dict[str, np.ndarray]:
-        """Returns what infos tell: `time` (n,) [s] and `busy` (n, agents), who is at an action."""
+        """Returns what infos tell: `time` (n,) [s] and `busy` (n, agents) bool."""
         return {"time": self.time.copy(), "busy": self.busy}
 
     def pass_time(self, which: np.ndarray, actions: np.ndarray) -> np.ndarray:
