@@ -22,7 +22,12 @@ class WorldFleet(FleetDriver):
 
     def __init__(self, world: Any, site: Any, seed: int, threads: int = 0) -> None:
         super().__init__(
-            world, seed, kinematics=site.kinematics, tow_after=TOW_AFTER, threads=threads
+            world,
+            seed,
+            kinematics=site.kinematics,
+            tow_after=TOW_AFTER,
+            threads=threads,
+            plan=site.plan,
         )
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
