@@ -7,9 +7,9 @@ from operations_site import site
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.transports import STAY, Kind
-from warehouse_operations.ideal import IdealFleet
 from warehouse_layout import layout
 from warehouse_layout.request import PRESETS
+from warehouse_operations.ideal import IdealFleet
 from warehouse_operations.travel import Travel
 
 
