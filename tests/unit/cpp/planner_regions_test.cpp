@@ -138,8 +138,8 @@ TEST_F(Regional, OfAnotherFloorAreRefused) {
   EXPECT_EQ(whyRefused(floor_, shorter), "the file ends before its last table");
 }
 
-/// A ring of blocks around a hole, with lanes of 14 cells and back beyond its last row: deeper than a
-/// region, so that around some goals there is no cell but in lanes.
+/// A ring of blocks around a hole, with lanes of 14 cells and back beyond its last row: deeper than
+/// a region, so that around some goals there is no cell but in lanes.
 std::vector<std::string> ringWithLanes() {
   constexpr int kDeep = 14;
   std::vector<std::string> rows = blocks(14, 20, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of the cells on which a robot can stand: on a floor that is not a full rectangle, tables of
-// all cells have a word for these alone.
+// Numbers of the cells on which a robot can stand: on a floor that is not a full rectangle, tables
+// of all cells have a word for these alone.
 #pragma once
 
 #include <cstdint>

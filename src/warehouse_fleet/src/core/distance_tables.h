@@ -64,7 +64,7 @@ class DistanceTable {
   std::vector<std::uint32_t> words_;
   const std::int32_t* numbers_ = nullptr;  ///< of its words, by cell; nullptr: the cells' own
   const DistanceTable* far_ = nullptr;     ///< for cells beyond its window; nullptr: it has all
-  int detour_ = 0;                      ///< to be added to what that says
+  int detour_ = 0;                         ///< to be added to what that says
   Window window_;
   std::uint64_t inverse_ = 0;
   int width_ = 0;
@@ -151,9 +151,7 @@ class DistanceTables {
   /// its region, wherever that is.
   int reach() const { return regions_->side() * 3 / 2; }
   /// The same of a table to a goal: from a lane the middle may be that of a region beside it.
-  int reach(Cell goal) const {
-    return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach();
-  }
+  int reach(Cell goal) const { return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach(); }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
   std::vector<Entry*> chooseOutdated(int max_age, std::int64_t work);
@@ -170,10 +168,10 @@ class DistanceTables {
   Prices prices_;
   const TableOptions options_;
   const Threads& threads_;
-  std::unique_ptr<Regions> regions_;  ///< nullptr: each table has all cells
+  std::unique_ptr<Regions> regions_;      ///< nullptr: each table has all cells
   std::unique_ptr<CellNumbers> numbers_;  ///< nullptr: tables of all cells have a word for each
-  std::size_t used_ = 0;              ///< bytes
-  std::list<Entry> tables_;           ///< what was needed last comes first
+  std::size_t used_ = 0;                  ///< bytes
+  std::list<Entry> tables_;               ///< what was needed last comes first
   std::unordered_map<std::int64_t, Entry*> index_;
   std::vector<Entry*> to_make_, asked_;                    ///< in this step
   std::vector<std::unique_ptr<DistanceSearch>> searches_;  ///< one a thread

@@ -56,7 +56,8 @@ int Regions::count(const Floor& floor, int side) {
   const int columns = (floor.width() + side - 1) / side, rows = (floor.height() + side - 1) / side;
   std::vector<std::uint8_t> has_cells(columns * rows);
   for (Cell cell = 0; cell < floor.size(); ++cell) {
-    if (floor.isPassable(cell)) has_cells[floor.y(cell) / side * columns + floor.x(cell) / side] = 1;
+    if (floor.isPassable(cell))
+      has_cells[floor.y(cell) / side * columns + floor.x(cell) / side] = 1;
   }
   return static_cast<int>(std::count(has_cells.begin(), has_cells.end(), 1));
 }
