@@ -236,7 +236,9 @@ def _started(
     name = NAMES.get(name, name)
     source, colon, class_name = name.rpartition(":")
     if not colon:
-        raise PlannerError(f"planner '{name}'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS expected")
+        raise PlannerError(
+            f"planner '{name}'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS expected"
+        )
     if source.endswith(".so"):
         return _from_library(source, class_name, floor, rules, seed)
     try:
@@ -275,6 +277,6 @@ def read_spec(path: str | PathLike[str]) -> dict[str, Any]:
         raise PlannerError(f"{path}: a mapping with the key 'planner' was expected")
     options = spec.get("options")
     if isinstance(options, dict) and isinstance(options.get("file"), str):
-        file = Path(path).absolute().parent / Path(options["file"]).expanduser()
-        spec["options"] = options | {"file": str(file)}
+        whole = Path(path).absolute().parent / Path(options["file"]).expanduser()
+        spec["options"] = options | {"file": str(whole)}
     return spec

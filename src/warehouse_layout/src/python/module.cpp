@@ -44,7 +44,8 @@ void bindFloor(py::module_& module) {
       .def_property_readonly("size", &Floor::size)
       .def("name", &Floor::name)
       .def(
-          "is_lane", [](const Floor& floor, Cell cell) { return floor.has(cell) && floor.isLane(cell); },
+          "is_lane",
+          [](const Floor& floor, Cell cell) { return floor.has(cell) && floor.isLane(cell); },
           py::arg("cell"), "Returns whether a cell is of a station's one-way lane.")
       .def(
           "shortest",

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A learned planner keeps robots apart whatever its network says, and brings them to their goals."""
+"""A learned planner keeps robots apart whatever its network says, and brings them to goals."""
 
 import numpy as np
 import pytest
 
+from kiva_plugin_cpp import World
 from warehouse_fleet import Action, Fleet, Rules, scorer, validate
+from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.learned_planner import ROLE
 from warehouse_fleet.local_view import LocalView
 from warehouse_fleet.planner_plugins import PlannerError, make_planner, read_spec
+from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.transports import Kind
 from warehouse_layout import Floor
 
 LEARNED = {"planner": "learned"}
@@ -93,3 +97,16 @@ def test_wrong_options_are_told(options, said):
         make_planner(floor, Rules(), 1, LEARNED | {"options": options})
     with pytest.raises(PlannerError, match=said):
         make_planner(floor, Rules(), 1, LEARNED | {"options": options})
+
+
+def test_a_fleet_with_bodies_works():
+    driver = FleetDriver(World.preset("small"), planner=LEARNED)
+    demand = RandomTransports(driver.transports)
+    stored = 0
+    while driver.time < 240:
+        events = driver.transports.take_events()
+        stored += sum(event.kind == Kind.STORED for event in events)
+        demand.advance(driver.time, events)
+        driver.step()
+    driver.close()
+    assert stored > 3 and not driver.collisions and not driver.traffic.plans.refused

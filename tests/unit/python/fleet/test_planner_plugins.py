@@ -103,7 +103,10 @@ def test_who_does_not_face_its_cell_turns_first(floor):
 @pytest.mark.parametrize(
     "spec,expected",
     [
-        ({"planner": "nothing"}, "planner 'nothing'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS"),
+        (
+            {"planner": "nothing"},
+            "planner 'nothing'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS",
+        ),
         ({"planner": "nowhere:Mine"}, "planner 'nowhere:Mine': No module named 'nowhere'"),
         ({"planner": "json:Mine"}, "planner 'json:Mine': module 'json' has no attribute 'Mine'"),
         ({"planner": f"{LIBRARY}:Mine"}, "no class Mine; it has RightOfWay (fleet::Planner)"),

@@ -6,7 +6,7 @@ import pytest
 from operations_site import site
 
 from warehouse_fleet import scorer
-from warehouse_operations import Operations, Policies, PolicyError
+from warehouse_operations import Operations, Policies, PolicyError, simulation
 from warehouse_operations.policies import decisions, learned
 from warehouse_operations.protocols import Task
 
@@ -37,6 +37,14 @@ def test_a_file_decides(role, tmp_path):
     )
     told = {role: {"name": "learned", "file": str(tmp_path / "mine.npz")}}
     assert shift(told) != shift({})
+
+
+def test_a_file_lies_beside_the_policies(tmp_path, monkeypatch):
+    """Nodes of ROS run in another folder."""
+    scorer.linear(np.zeros(decisions.FEATURES)).save(tmp_path / "mine.npz", "units")
+    (tmp_path / "p.yaml").write_text("units: {name: learned, file: mine.npz}\n")
+    monkeypatch.chdir("/")
+    assert Policies.read(tmp_path / "p.yaml").given["units"]["file"] == str(tmp_path / "mine.npz")
 
 
 def test_scores_are_those_of_the_network():
@@ -87,3 +95,9 @@ def test_wrong_files_are_told(file, said, tmp_path):
     with pytest.raises(PolicyError) as error:
         Policies.read(tmp_path / "p.yaml")
     assert said in str(error.value) and "p.yaml: units: learned: file: " in str(error.value)
+
+
+def test_ideal_robots_have_no_planner():
+    described = simulation.Description(size="small", physics=False, planner={"planner": "learned"})
+    with pytest.raises(simulation.ERRORS, match="planner: ideal robots pass through each other"):
+        simulation.open_operations(described)

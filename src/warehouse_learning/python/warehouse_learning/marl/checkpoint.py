@@ -15,7 +15,7 @@ KINDS = "weight", "mean", "square"
 
 def save(path: Path, state: dict[str, Any], optimisers: Sequence[Adam]) -> None:
     """Writes a state, and networks with their optimisers, at once or not at all."""
-    arrays = {}
+    arrays: dict[str, np.ndarray] = {}
     for number, optimiser in enumerate(optimisers):
         parts = optimiser.parameters, optimiser.mean, optimiser.square
         for kind, list_of in zip(KINDS, parts):

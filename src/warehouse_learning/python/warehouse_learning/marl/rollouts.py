@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens while a network drives robots: arrays to learn from, without the network's values."""
+"""What happens while a network drives robots, in arrays: to learn from, without its values."""
 
 from dataclasses import dataclass, field
 from typing import Any

@@ -27,16 +27,15 @@ class Settings:
 
     algorithm: str = "mappo"
     steps: int = 20_000_000
-    environments: int = 128
-    rollout: int = 16  # steps of each between two updates
+    environments: int = 64
+    rollout: int = 64  # steps of each between two updates
     epochs: int = 3
     minibatches: int = 4
-    rate: float = 2e-3  # of Adam; falls to a tenth
-    discount: float = 0.98
+    rate: float = 1e-3  # of Adam; falls to a tenth
+    discount: float = 0.99
     trace: float = 0.95  # lambda of the generalised advantage estimation
     clip: float = 0.2
-    spread: float = 0.0  # advantages' least standard deviation: rare rewards stay rare
-    start: float = 1.0  # of the critic's last weights
+    spread: float = 0.02  # least standard deviation by which advantages are divided
     entropy: float = 0.01  # falls to a tenth
     hidden: int = 64
     imitation: int = 0  # steps of the planner that are imitated before
@@ -72,7 +71,7 @@ class Training:
         seen, values = encoder.size, 1
         if settings.algorithm == "mappo":
             seen, values = agents * encoder.size, agents
-        self.critic = Mlp([seen, hidden, hidden, values], settings.start, self.random)
+        self.critic = Mlp([seen, hidden, hidden, values], 0.01, self.random)
         self._optimisers = Adam(self.actor.parameters), Adam(self.critic.parameters)
         self.done, self.seconds = 0, 0.0
         self.curve: list[tuple[int, float]] = []
