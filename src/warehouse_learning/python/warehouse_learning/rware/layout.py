@@ -74,8 +74,8 @@ def of_text(text: str) -> Layout:
 
 
 def of_file(name: str) -> Layout:
-    """Returns the Layout of a layout file, NAME.layout.yaml: each storage place has a shelf, goals are
-    where picking stations are served, all else that robots may enter is a highway, both ways.
+    """Returns the Layout of a layout file, NAME.layout.yaml: each storage place has a shelf, goals
+    are where picking stations are served, all else that robots may enter is a highway, both ways.
 
     Raises LayoutFileError, a ValueError, for a file without storage or picking stations too.
     """

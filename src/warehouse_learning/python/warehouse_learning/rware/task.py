@@ -75,7 +75,8 @@ class Task:
     """RWARE's arguments, by its names and with its defaults.
 
     layout: a text that draws the floor, or a layout file, NAME.layout.yaml, instead of columns and
-    rows; observation_type, reward_type and image_observation_layers may be members of RWARE's own enumerations.
+    rows; observation_type, reward_type and image_observation_layers may be members of RWARE's own
+    enumerations.
     """
 
     shelf_columns: int = 3
