@@ -111,7 +111,7 @@ docs-test: docs  ## run the examples of the documentation, and ask what its link
 bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)
 
-wheel: build  ## the world and its environments for Python 3.11, 3.12 and 3.13 without ROS, into dist/
+wheel: build  ## the world and its environments for Python 3.11, 3.12 and 3.13 without ROS, into dist/; make wheel PYTHONS=python3 for one
 	@JOBS=$(JOBS) scripts/wheel
 
 lint: deps  ## check format and style
