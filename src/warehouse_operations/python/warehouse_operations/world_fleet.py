@@ -24,7 +24,13 @@ class WorldFleet(FleetDriver):
         self, world: Any, site: Any, seed: int, threads: int = 0, planner: Any = None
     ) -> None:
         super().__init__(
-            world, seed, planner, site.kinematics, tow_after=TOW_AFTER, threads=threads
+            world,
+            seed,
+            planner,
+            site.kinematics,
+            tow_after=TOW_AFTER,
+            threads=threads,
+            plan=site.plan,
         )
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
