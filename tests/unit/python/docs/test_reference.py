@@ -4,6 +4,7 @@
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
 
 import pytest
 from paths import ROOT
@@ -11,6 +12,7 @@ from paths import ROOT
 sys.path.append(str(ROOT / "scripts"))
 
 from reference import (
+    API_PAGES,
     PAGES,
     apis,
     commands,
@@ -28,6 +30,8 @@ SOURCES = [
     *ROOT.glob("src/*/python/**/*.py"),
     *ROOT.glob("src/kiva_plugin_cpp/src/ros/**/*.cpp"),
 ]
+BACK = re.compile(r"sentence|(?i:correct the value)|what (?:is|was) (?:accepted|expected)")
+MANY = 40  # refusals that one advice may be for
 # No topic and no service: parameters, files, and beginnings of names.
 OTHERS = {
     "/warehouse",
@@ -231,24 +235,41 @@ def test_each_refusal_is_listed():
     assert "it carries nothing" in written and "is off the grid of … m" in written
 
 
+def advised():
+    """Counts the refusals of each advice."""
+    return Counter(
+        events.advice(package, sentence, place)
+        for package, found in events.refusals().items()
+        for sentence, place in found
+    )
+
+
 def test_each_refusal_says_what_to_do():
     lacking = [
-        f"{package}: {sentence}"
+        f"{package}/{place}: {sentence}"
         for package, found in events.refusals().items()
-        for sentence, _ in found
-        if not events.advice(package, sentence)
+        for sentence, place in found
+        if not events.advice(package, sentence, place)
     ]
     assert not lacking, "scripts/reference/advice.txt has no line for these"
 
 
+def test_no_advice_is_general():
+    """What only sends back to the sentence, or fits too many of them, tells nothing new."""
+    assert [told for told in advised() if BACK.search(told)] == []
+    assert {told: count for told, count in advised().items() if count > MANY} == {}
+
+
 def test_each_advice_is_of_use():
-    given = {
-        events.advice(package, sentence)
-        for package, found in events.refusals().items()
-        for sentence, _ in found
-    }
-    assert {told for _, told in events.advices()} <= given
-    assert events.advice("warehouse_fleet", "green cheese") == ""
+    assert {told for *_, told in events.advices()} <= set(advised())
+    assert events.advice("warehouse_fleet", "green cheese", "elsewhere.py") == ""
+
+
+@pytest.mark.parametrize("place", sorted({told for *_, told in events.advices()}))
+def test_each_advice_leads_to_a_page(place):
+    generated = {*PAGES, *API_PAGES}
+    for page in re.findall(r"\]\(([^)#]+)", place):
+        assert page in generated or (ROOT / "doc/reference" / page).is_file(), page
 
 
 def test_each_key_of_a_layout_file_is_listed():
