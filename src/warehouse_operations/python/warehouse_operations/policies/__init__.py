@@ -179,7 +179,7 @@ class Policies:
             raise PolicyError(f"{source}: roles with a policy each were expected")
         for role in chosen:
             if role not in ROLES:
-                raise PolicyError(f"{source}: '{role}' is no role; expected {', '.join(ROLES)}")
+                raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
         self.given = chosen
         self.chosen = {role: chosen.get(role, DEFAULTS[role]) for role in ROLES}
         for role, what in self.chosen.items():
