@@ -74,8 +74,9 @@ class Program:
 class Session:
     """A ROS master's address, a page's address, a home, and what was started there."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, slowness: float = 1.0) -> None:
         self._folder, self._programs, self._number, self._kept = folder, [], 0, 0
+        self._tried = slowness * TRIED
         self.home = folder / "home"
         self.home.mkdir()
         self._renew()
@@ -186,7 +187,7 @@ class Session:
     def _try(self, command):
         """Returns how a command ends."""
         done = subprocess.run(
-            ["timeout", f"{TRIED:g}", "bash", "-c", self._local(command)],
+            ["timeout", f"{self._tried:g}", "bash", "-c", self._local(command)],
             env=self.environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
@@ -206,8 +207,9 @@ class Session:
 class Shells:
     """The sessions of all pages: one that they share, and one for each that starts its own."""
 
-    def __init__(self, stack: contextlib.ExitStack) -> None:
+    def __init__(self, stack: contextlib.ExitStack, slowness: float = 1.0) -> None:
         self._stack, self._common, self._own, self._page = stack, None, None, None
+        self._slowness = slowness  # of the machine: all may take as many times as long
         self._broken = False  # what the page has started
         self._helpers: list[Program] = []
         stack.callback(self._leave)
@@ -227,7 +229,7 @@ class Shells:
         self._run(text, example.notes)
 
     def _run(self, text, notes):
-        patience = float(notes.get("patience", PATIENCE))
+        patience = self._slowness * float(notes.get("patience", PATIENCE))
         if self._own is None and any(begins_world(line) for line in _lines(text)):
             self._own = self._session()
             if self._common:
@@ -265,7 +267,7 @@ class Shells:
     def _shared(self):
         if self._common is None:
             self._common = self._session()
-            self._common.start(COMMON, DIRECTORY, PATIENCE)
+            self._common.start(COMMON, DIRECTORY, self._slowness * PATIENCE)
             running.wait(lambda: running.ask(self._address()), "the page of a warehouse")
             self.names = self._common.names()
             self._common.keep()
@@ -276,7 +278,7 @@ class Shells:
 
     def _session(self):
         folder = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="examples-"))
-        session = Session(Path(folder))
+        session = Session(Path(folder), self._slowness)
         self._stack.callback(session.end)
         return session
 
