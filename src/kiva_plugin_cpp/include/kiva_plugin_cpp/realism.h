@@ -222,7 +222,7 @@ void forEachSection(R& realism, Call call) {
 
 /// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
 /// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
-/// Throws DescriptionError for what is not a number or out of its range; unknown keys are
+/// Throws DescriptionError for what is no number or out of its range; unknown keys are
 /// left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 

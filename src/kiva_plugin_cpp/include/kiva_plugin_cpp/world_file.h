@@ -29,7 +29,7 @@ ModelPaths modelPathsAround(const std::string& world_file);
 /// Returns the world in the file at `path`.
 /// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if
 /// given, is told so: file, line, entity and cause.
-/// Throws DescriptionError, in the same words, where no world would be left: what is not XML, no
+/// Throws DescriptionError, in the same words, where no world would be left: what is no XML, no
 /// SDF, has more than 20 MB or nests deeper than 100 elements.
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
                            std::vector<std::string>* warnings = nullptr);

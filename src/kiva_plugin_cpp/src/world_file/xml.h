@@ -38,7 +38,7 @@ class XmlDocument : public tinyxml2::XMLDocument {
 /// The largest text that is read [byte].
 constexpr std::size_t kMostBytes = 20'000'000;
 
-/// Throws SdfError with the line where a text is not XML, is too long, or nests too deep.
+/// Throws SdfError with the line where a text is no XML, is too long, or nests too deep.
 std::unique_ptr<XmlDocument> parseXml(const std::string& text);
 
 /// The text of a whole document, every element on its line, without comments. Elements that were

@@ -83,7 +83,7 @@ class Obstacles {
     });
   }
 
-  /// Returns whether meets(footprint), of what is not a mover, or approaches(robot, radius) is true
+  /// Returns whether meets(footprint), of what is no mover, or approaches(robot, radius) is true
   /// for any within `reach` of (x, y). `radius` is that of the circle around the robot that holds
   /// its mover.
   template <typename Meets, typename Approaches>

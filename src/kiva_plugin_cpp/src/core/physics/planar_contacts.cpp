@@ -97,7 +97,7 @@ bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column
   return false;
 }
 
-/// Parts that could touch, whatever the bodies do; none if one of these is not an upright box.
+/// Parts that could touch, whatever the bodies do; none if one of these is no upright box.
 std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Column>& a,
                                                            const std::vector<Column>& b) {
   std::vector<PlanarContacts::Pair> pairs;

@@ -28,7 +28,7 @@ class RayScene {
     Bounds box;
     Vector3 centre;  ///< The centre of `solid`.
     Solid solid;
-    const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is not a solid.
+    const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is no solid.
   };
   struct Plane {
     Vector3 normal;

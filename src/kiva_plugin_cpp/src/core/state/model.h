@@ -90,7 +90,7 @@ class ModelOwner {
   /// Returns whether its contacts are reported as collisions; those with a floor never are.
   virtual bool tellsCollisions() const { return false; }
   virtual bool isFloor() const { return false; }
-  /// Follows a contact with a model that is not a floor.
+  /// Follows a contact with a model that is no floor.
   virtual void touched(ContactView& /*world*/, Model& /*model*/) const {}
   /// Returns the robot that it is, or that carries it; -1 = none.
   virtual int robot(const Scene& /*world*/, const Model& /*model*/) const { return -1; }
