@@ -416,8 +416,8 @@ TEST(WorldFileErrors, NameTheLineOfAUrdf) {
       "<geometry><box size='a b c'/></geometry></visual></link></robot>";
   EXPECT_EQ(warningsOfText(urdf),
             (std::vector<std::string>{
-                "text:3: robot 'r', link 'a', visual/origin: this xyz is left out: '1 2' is no "
-                "value for it; expected three numbers",
+                "text:3: robot 'r', link 'a', visual/origin: this xyz is left out: '1 2' is not "
+                "a value for it; expected three numbers",
                 "text:4: model 'r', link 'a', visual 'a_visual', geometry/box/size: this visual is "
                 "left out: 'a b c' is not a value for <size>; expected three numbers"}));
 }
