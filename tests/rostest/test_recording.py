@@ -35,7 +35,7 @@ class Recording(unittest.TestCase):
         cls.bag = str(Path(cls._folder.name) / "run.bag")
         with Node(world="paper", rtf=0, record=cls.bag, autosave=3) as node:
             commander = Commander()
-            # What comes before the first step is in the first keyframe and is no message of its own.
+            # A command before the first step is part of the first keyframe, and no message.
             wait_until(lambda: sim_time() > 0, "the first step")
             commander.do("/movx", kiva_id=1, distance=1)
             spawn("box", where=pose(0.0, 8.0))

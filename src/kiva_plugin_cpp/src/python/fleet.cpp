@@ -90,6 +90,23 @@ py::array_t<float> scans(Host& host, const ArrayLike& kiva_id) {
                      {static_cast<py::ssize_t>(robots.size()), static_cast<py::ssize_t>(rays)});
 }
 
+/// A row of Fleet.lasers.
+struct LaserRow {
+  std::int32_t rays;
+  double min_angle, max_angle, min_range, max_range, rate, x, z;
+};
+
+py::array_t<LaserRow> lasers(const FleetView& view) {
+  const auto lock = view.host->use();
+  std::vector<LaserRow> rows;
+  for (const Robot& robot : view.host->world.fleet().robots) {
+    const LaserParameters& of = robot.laser;
+    rows.push_back({of.fitted ? of.rays : 0, of.min_angle, of.max_angle, of.min_range, of.max_range,
+                    of.rate, of.x, of.z});
+  }
+  return py::array_t<LaserRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
 /// A row of World.last_heard.
 struct HeardRow {
   std::int32_t index;
@@ -120,6 +137,7 @@ std::int32_t idOf(const World& world, int robot) {
 }
 
 void defineFleet(py::module_& m) {
+  PYBIND11_NUMPY_DTYPE(LaserRow, rays, min_angle, max_angle, min_range, max_range, rate, x, z);
   py::class_<FleetView> fleet(m, "Fleet", R"(All robots as arrays: entry i of each is robot i.
 
 Arrays but kiva_id and shelf_id are read-only views: nothing is copied, and step() changes what
@@ -215,6 +233,11 @@ again then. An old array stays safe to read, whatever becomes of the world, with
         return out;
       },
       "(n, 3) float64: x, y [m], yaw [rad] that each robot estimates by itself. A copy.");
+  fleet.def_property_readonly(
+      "lasers", &lasers,
+      R"((n,) array of what each robot's laser is like, with fields rays (0 = it has none),
+min_angle, max_angle [rad] (0 = ahead, counterclockwise), min_range, max_range [m], rate [Hz], and
+x, z [m], where it sits on the chassis and above the floor. A copy.)");
   fleet.def(
       "index",
       [](const FleetView& f, std::int32_t id) {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world of this process as a Source, without ROS."""
 
-import math
 from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -17,8 +16,6 @@ PLACES = ("x", "y", "yaw", "vx", "vy", "yaw_rate")
 COLUMNS = (*PLACES, "kiva_id", "shelf_id", "status", "state", "last_end", "failures", "charge")
 TRACKED = {"kiva", "storage_unit", "item"}  # every other model is scenery
 UNAVAILABLE = ("reset", "reset_poses", "checkpoint", "restore", "undo", "create", "person")
-# The laser of worlds/models/kiva: which way it sees to each side [rad], and x, z on its robot [m].
-LASER_REACH, LASER_AT = math.pi / 3, (0.38, 0.2)
 DECIDES = "the program that steps this warehouse decides that"
 
 
@@ -43,11 +40,13 @@ class WorldFeed:
         self._world = world
         self._units = [f"storage_unit{n}" for n in world.storage_units["shelf_id"]]
         self._scanned: Sequence[int] = ()
-        self._mounts = _mounts(world)
+        fitted = zip(world.fleet.kiva_id.tolist(), world.fleet.lasers)
+        self._lasers = {kiva_id: laser for kiva_id, laser in fitted if laser["rays"]}
+        mounts = [_mount(kiva_id, laser) for kiva_id, laser in self._lasers.items()]
         still = {
             "objects": self._objects(),
             "scenery": self._scenery(),
-            "frames": SimpleNamespace(transforms=self._mounts),
+            "frames": SimpleNamespace(transforms=mounts),
         }
         self._now: dict[str, Any] = {"performance": pace, **still}
         self.update()
@@ -75,14 +74,11 @@ class WorldFeed:
 
     def _scans_now(self):
         """Scans of the robots whose lasers a page shows."""
-        if not self._scanned or not self._mounts:
+        if not self._scanned:
             return {}
         ranges = self._world.scans(np.array(self._scanned, np.int32))
-        step = 2 * LASER_REACH / (ranges.shape[1] - 1)
         return {
-            f"scan{kiva_id}": SimpleNamespace(
-                angle_min=-LASER_REACH, angle_increment=step, ranges=row.copy()
-            )
+            f"scan{kiva_id}": _scan(self._lasers[kiva_id], row)
             for kiva_id, row in zip(self._scanned, ranges)
         }
 
@@ -104,8 +100,7 @@ class WorldFeed:
 
     def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
         """Asks for the scans of these robots with the next state; such a world has no paths."""
-        known = set(self._world.fleet.kiva_id.tolist())
-        self._scanned = [kiva_id for kiva_id in scans if kiva_id in known]
+        self._scanned = [kiva_id for kiva_id in scans if kiva_id in self._lasers]
 
     def _objects(self) -> SimpleNamespace:
         return SimpleNamespace(
@@ -122,18 +117,21 @@ class WorldFeed:
         return scenery_of(self._world, Looks(self._world), self._units, [])
 
 
-def _mounts(world):
-    """Where lasers are on robots, laid out as a TFMessage's transforms; none without them."""
-    if not len(world.fleet) or not world.scans(world.fleet.kiva_id[:1]).shape[1]:
-        return []
+def _scan(laser, ranges):
+    """Laid out as a LaserScan; `ranges` may be longer than the laser has rays."""
+    step = (laser["max_angle"] - laser["min_angle"]) / max(1, laser["rays"] - 1)
+    return SimpleNamespace(
+        angle_min=laser["min_angle"], angle_increment=step, ranges=ranges[: laser["rays"]].copy()
+    )
+
+
+def _mount(kiva_id, laser):
+    """Where the laser is on its robot, laid out as a transform of a TFMessage."""
     place = SimpleNamespace(
-        translation=SimpleNamespace(x=LASER_AT[0], y=0.0, z=LASER_AT[1]),
+        translation=SimpleNamespace(x=laser["x"], y=0.0, z=laser["z"]),
         rotation=SimpleNamespace(x=0.0, y=0.0, z=0.0, w=1.0),
     )
-    return [
-        SimpleNamespace(child_frame_id=f"kiva{kiva_id}/laser", transform=place)
-        for kiva_id in world.fleet.kiva_id.tolist()
-    ]
+    return SimpleNamespace(child_frame_id=f"kiva{kiva_id}/laser", transform=place)
 
 
 def scenery_of(
