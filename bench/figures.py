@@ -153,6 +153,21 @@ def _plans(measured, scale):
     return out
 
 
+def _rware(measured, _):
+    """By CPU, over the package in turns: a machine's speed changes nothing of it."""
+    limits = {"alone": ">= 30", "64 on one thread": ">= 150", "64 on all": ">= 150"}
+    return [
+        Figure(
+            f"RWARE {f['task']}, {f['case']}: agent steps of CPU over the package's",
+            f["times"],
+            "",
+            limits.get(f["case"], ""),
+        )
+        for f in measured
+        if f["case"] != "the package"
+    ]
+
+
 def _others(measured, scale):
     return [scale.speed(name(f), f["rtf_cpu"], wall=f["rtf"]) for f in measured if "engine" in f]
 
@@ -285,6 +300,7 @@ OF_PART = {
     "shifts": _shifts,
     "ten_thousand": _shifts,
     "plans": _plans,
+    "rware": _rware,
     "recreations": _recreations,
     "start": _start,
     "build": _build,

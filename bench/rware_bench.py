@@ -3,7 +3,7 @@
 """Agent steps a second of RWARE as built in, beside the package itself, in turns of a second:
 scripts/learning_packages; . devel/setup.bash; .venv/bin/python bench/rware_bench.py
 
-    [--worlds 64] [--seconds 5] [TASK ...]
+    [--worlds 64] [--seconds 5] [--json] [TASK ...]
 
 A TASK is one that rware registers, without rware- and -v2. Both get the same random actions, drawn
 before the clock starts. The same task where actions take time is `ideal` and, with robots of the
@@ -13,6 +13,7 @@ stands what is asked for and whether that is met; if any is not, it ends with 1.
 
 import argparse
 import itertools
+import json
 import os
 
 import gymnasium
@@ -54,13 +55,40 @@ def drawn(*shape, steps=DRAWN):
     return np.random.default_rng(1).integers(0, 5, (steps, *shape), np.int8)
 
 
+def tell_text(task, runners):
+    """Prints a line a case; returns whether all limits are met."""
+    wall, cpu = runners["the package"].rates
+    is_met = True
+    for name, runner in runners.items():
+        rates = runner.rates
+        text = f"{task}, {name}: {rates[0]:,.0f} agent steps/s, {rates[0] / wall:.0f} x"
+        times = rates[1] / cpu
+        limit = LIMITS.get(name, LIMITS["many"] if " on " in name else 0)
+        told = f" (asked {limit}: {'met' if times >= limit else 'not met'})" if limit else ""
+        is_met &= times >= limit
+        print(f"{text}; by CPU {rates[1]:,.0f}, {times:.0f} x{told}", flush=True)
+    return is_met
+
+
+def tell_json(task, runners):
+    """Prints an object a case: agent steps a second of CPU, `times` those of the package."""
+    package = runners["the package"].rates[1]
+    for name, runner in runners.items():
+        rate = runner.rates[1]
+        told = {"task": task, "case": name, "steps_cpu": rate, "times": rate / package}
+        print(json.dumps(told), flush=True)
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser("rware_bench", description=__doc__)
     parser.add_argument("tasks", nargs="*", default=TASKS, metavar="TASK")
     parser.add_argument("--worlds", type=int, default=64)
     parser.add_argument("--seconds", type=int, default=5, help="of each case")
+    parser.add_argument("--json", action="store_true", help="a line of JSON a case, for bench/run")
     wanted = parser.parse_args()
-    print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    if not wanted.json:
+        print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     is_met = True
     for task in wanted.tasks:
         ours = f"kiva-rware-{task}-v2"
@@ -75,16 +103,9 @@ def main():
         for _ in range(wanted.seconds):
             for runner in runners.values():
                 runner.run(1.0)
-        wall, cpu = next(iter(runners.values())).rates
-        for name, runner in runners.items():
-            rates = runner.rates
-            text = f"{task}, {name}: {rates[0]:,.0f} agent steps/s, {rates[0] / wall:.0f} x"
-            times = rates[1] / cpu
-            limit = LIMITS.get(name, LIMITS["many"] if " on " in name else 0)
-            told = f" (asked {limit}: {'met' if times >= limit else 'not met'})" if limit else ""
-            is_met &= times >= limit
-            print(f"{text}; by CPU {times:.0f} x{told}", flush=True)
-    raise SystemExit(not is_met)
+        tell = tell_json if wanted.json else tell_text
+        is_met &= tell(task, runners)
+    raise SystemExit(not (is_met or wanted.json))
 
 
 if __name__ == "__main__":

@@ -18,8 +18,10 @@ import time
 
 import numpy as np
 
+from warehouse_fleet.scorer import linear
 from warehouse_learning.operations_env import KivaOperationsEnv, run_shift, usual
-from warehouse_operations.policies.learned import FEATURES, SHORTLIST, linear
+from warehouse_operations.policies.decisions import FEATURES, SHORTLIST
+from warehouse_operations.policies.learned import best_of
 
 ELITE = 0.25  # of a generation, from which the next is drawn
 WIDTH = 0.5  # of the first generation, as a share of the weights
@@ -96,7 +98,7 @@ def trained(env, wanted, mean):
         seeds = random.integers(HELD_OUT, size=wanted.shifts).tolist()
         drawn = mean + deviation * random.standard_normal((wanted.population, FEATURES))
         drawn[0] = mean
-        pieces = [np.mean(returns(env, linear(weights), seeds)) for weights in drawn]
+        pieces = [np.mean(returns(env, best_of(linear(weights)), seeds)) for weights in drawn]
         best = drawn[np.argsort(pieces)[::-1][: round(ELITE * wanted.population)]]
         mean = best.mean(0)
         # Some of the old width stays, or it narrows before it has found the way.
@@ -125,7 +127,7 @@ def compare(env, weights, count):
     policies = {
         "default": usual,
         "chance": lambda decision: int(random.integers(len(decision.keys))),
-        "learnt": linear(weights),
+        "learnt": best_of(linear(weights)),
     }
     of = {name: np.array(returns(env, choose, seeds)) for name, choose in policies.items()}
     for name, pieces in of.items():

@@ -15,6 +15,7 @@ examples/rware_results.py draws the curves and measures the policies.
 
 import argparse
 import json
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from warehouse_learning.rware.motion import PHYSICS
 
 
 def main():
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's Ctrl-C
     wanted = arguments()
     out = Path(wanted.out)
     settings = Settings(algorithm=wanted.algorithm, steps=wanted.steps, imitation=wanted.imitate)

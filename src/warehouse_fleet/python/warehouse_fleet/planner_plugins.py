@@ -9,11 +9,13 @@ A planner of your own is a class with two methods:
 
 `plan` gets a Fleet (numpy arrays, one element a robot) and returns the next cell of each robot, an
 integer array: the cell it is in, or a neighbour. A robot that doesn't face its next cell turns
-towards it, a quarter a tick, and stays in its cell meanwhile. A YAML file names the planner:
+towards it, a quarter a tick, and stays in its cell meanwhile. It may return what each robot does
+instead, (robots, ticks) of Action, as far ahead as it likes. A YAML file names the planner:
 
     planner: my_package.my_module:Mine      # Python
     planner: /path/to/libmine.so:Mine       # C++: a registered fleet::Planner
     planner: epibt                          # the built-in planner, the default
+    planner: learned                        # a network and PIBT, see learned_planner
     options: {depth: 5}                     # for epibt, or for the Python class
 """
 
@@ -21,6 +23,7 @@ import importlib
 import math
 from collections.abc import Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
@@ -33,6 +36,8 @@ from warehouse_layout import Floor
 MANOEUVRE = 3  # ticks in which a robot reaches any neighbouring cell
 # (4, MANOEUVRE) of Action: forward after so many quarter turns (row), the shorter way round.
 TURNS = np.array([[1, 0, 0], [2, 1, 0], [2, 2, 1], [3, 1, 0]], np.uint8)
+ACTIONS = 4  # waits, forward, and turns both ways
+NAMES = {"learned": "warehouse_fleet.learned_planner:Learned"}
 FREE = 0xFF  # in Fleet.committed: no commitment
 
 
@@ -52,7 +57,8 @@ class CellPlanner(Protocol):
         ...
 
     def plan(self, fleet: Fleet) -> ArrayLike:
-        """Returns the next cell of each robot, (robots,) of int."""
+        """Returns the next cell of each robot, (robots,) of int, or the plan, (robots, ticks) of
+        Action."""
         ...
 
 
@@ -123,13 +129,27 @@ class PythonPlanner:
         committed = fleet.committed  # (robots, ticks); no ticks if no robot is committed
         kept = committed != FREE
         seen: Any = _Narrowed(fleet, _ahead(self.floor, fleet)) if kept.any() else fleet
-        plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
-        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(seen))
+        answer = np.asarray(self.planner.plan(seen))
+        if answer.ndim == 2:
+            actions = self._checked(answer, len(fleet))
+        else:
+            actions = np.where(kept.any(axis=1)[:, None], 0, self._towards(seen, answer))
+        ticks = max(actions.shape[1], committed.shape[1])
+        plan = np.zeros((len(fleet), ticks), np.uint8)
+        plan[:, : actions.shape[1]] = actions
         plan[:, : committed.shape[1]][kept] = committed[kept]
         return plan
 
-    def _ask(self, fleet: Fleet) -> NDArray[np.uint8]:
-        cells = np.asarray(self.planner.plan(fleet))
+    def _checked(self, actions: NDArray[Any], robots: int) -> NDArray[np.uint8]:
+        is_plan = len(actions) == robots and actions.dtype.kind in "iu" and actions.shape[1] > 0
+        if not is_plan or not ((actions >= 0) & (actions < ACTIONS)).all():
+            raise PlanRefusedError(
+                f"the planner answered an array of {actions.dtype} with shape {actions.shape}; "
+                f"a plan of Actions with shape ({robots}, ticks) was expected"
+            )
+        return actions.astype(np.uint8)
+
+    def _towards(self, fleet: Fleet, cells: NDArray[Any]) -> NDArray[np.uint8]:
         if cells.shape != (len(fleet),) or cells.dtype.kind not in "iu":
             raise PlanRefusedError(
                 f"the planner answered an array of {cells.dtype} with shape {cells.shape}; "
@@ -139,10 +159,10 @@ class PythonPlanner:
 
 
 class _Narrowed:
-    """A Fleet with more cells closed."""
+    """A Fleet with more cells closed; `obstacles`: those of the fleet itself."""
 
     def __init__(self, fleet: Fleet, cells: NDArray[np.int32]) -> None:
-        self._fleet = fleet
+        self._fleet, self.obstacles = fleet, fleet.closed
         self.closed = np.union1d(fleet.closed, cells)
 
     def __getattr__(self, name: str) -> Any:
@@ -213,16 +233,22 @@ def _started(
 ) -> ActionPlanner:
     if name == "epibt":
         return _built_in(options, floor, rules, seed)
+    name = NAMES.get(name, name)
     source, colon, class_name = name.rpartition(":")
     if not colon:
-        raise PlannerError(f"planner '{name}'; epibt, MODULE:CLASS or LIBRARY.so:CLASS expected")
+        raise PlannerError(
+            f"planner '{name}'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS expected"
+        )
     if source.endswith(".so"):
         return _from_library(source, class_name, floor, rules, seed)
     try:
         planner = getattr(importlib.import_module(source), class_name)
     except (ImportError, AttributeError) as error:
         raise PlannerError(f"planner '{name}': {error}") from error
-    return PythonPlanner(planner(**options), floor, rules, seed)
+    try:
+        return PythonPlanner(planner(**options), floor, rules, seed)
+    except (TypeError, ValueError) as error:
+        raise PlannerError(f"planner '{name}': {error}") from error
 
 
 def _built_in(options: dict[str, Any], floor: Floor, rules: Rules, seed: int) -> Planner:
@@ -240,7 +266,8 @@ def _from_library(path: str, class_name: str, floor: Floor, rules: Rules, seed: 
 
 
 def read_spec(path: str | PathLike[str]) -> dict[str, Any]:
-    """Returns the content of a YAML file that names a planner; raises PlannerError."""
+    """Returns the content of a YAML file that names a planner; raises PlannerError. An option
+    `file`, if it is relative, is one beside it: nodes of ROS run in another folder."""
     try:
         with open(path, encoding="utf-8") as file:
             spec = yaml.safe_load(file)
@@ -248,4 +275,8 @@ def read_spec(path: str | PathLike[str]) -> dict[str, Any]:
         raise PlannerError(f"{path}: {error}") from error
     if not isinstance(spec, dict):
         raise PlannerError(f"{path}: a mapping with the key 'planner' was expected")
+    options = spec.get("options")
+    if isinstance(options, dict) and isinstance(options.get("file"), str):
+        whole = Path(path).absolute().parent / Path(options["file"]).expanduser()
+        spec["options"] = options | {"file": str(whole)}
     return spec

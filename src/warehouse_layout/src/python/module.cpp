@@ -44,6 +44,10 @@ void bindFloor(py::module_& module) {
       .def_property_readonly("size", &Floor::size)
       .def("name", &Floor::name)
       .def(
+          "is_lane",
+          [](const Floor& floor, Cell cell) { return floor.has(cell) && floor.isLane(cell); },
+          py::arg("cell"), "Returns whether a cell is of a station's one-way lane.")
+      .def(
           "shortest",
           [](const Floor& floor, Cell begin, Cell end, bool loaded) {
             if (!floor.has(begin) || !floor.has(end)) throw FloorError("a cell off the floor");

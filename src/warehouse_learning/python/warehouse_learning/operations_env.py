@@ -14,29 +14,13 @@ from gymnasium import spaces
 from warehouse_learning.warehouses import ActionError
 from warehouse_operations import simulation
 from warehouse_operations.operations import Operations
-from warehouse_operations.policies.learned import (
-    FEATURES,
-    SHORTLIST,
-    Decision,
-    Orders,
-    Robots,
-    Units,
-)
+from warehouse_operations.policies.decisions import FEATURES, SHORTLIST, Decision
+from warehouse_operations.policies.learned import Orders, Robots, Units
 
 ROLES = {"orders": Orders, "units": Units, "robots": Robots}
 DECIDES = ("units",)
 MINUTES = 60.0
 HIGH = 1000.0  # no feature is above
-
-
-class _Given:
-    """A policy of a shift, by what makes it: policies are named in files, this one lives here."""
-
-    made: dict[str, Any] = {}
-
-    def __new__(cls, key: str) -> Any:
-        """Returns what is kept under a key."""
-        return cls.made[key]
 
 
 class KivaOperationsEnv(gymnasium.Env):
@@ -172,11 +156,7 @@ class _Shift:
         policies: dict[str, Any],
     ) -> None:
         chosen = dict(policies)
-        for role in decides:
-            key = f"{id(self)}-{role}"
-            _Given.made[key] = ROLES[role](self._ask)
-            chosen[role] = {"name": f"{__name__}:_Given", "key": key}
-        self._keys = [f"{id(self)}-{role}" for role in decides]
+        chosen.update({role: ROLES[role](self._ask) for role in decides})
         self._seconds = description.seconds
         described = simulation.Description(**{**vars(description), "policies": chosen})
         self.operations: Operations = simulation.open_operations(described)
@@ -226,8 +206,6 @@ class _Shift:
         if not self._is_over:
             self._theirs.release()
             self._thread.join()
-        for key in self._keys:
-            _Given.made.pop(key, None)
         self.operations.close()
 
 

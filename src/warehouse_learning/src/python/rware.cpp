@@ -235,12 +235,12 @@ std::unique_ptr<Rware> makeRware(int height, int width, std::vector<std::uint8_t
                                  std::vector<int> goals, int count, int agents, int requests,
                                  int max_inactivity, int max_steps, int reward, int range, int bits,
                                  bool normalised, const std::vector<int>& layers, bool directional,
-                                 unsigned threads) {
+                                 unsigned threads, std::vector<std::uint8_t> walls) {
   if (count < 1) throw py::value_error("count: 1 or more was expected");
   if (range < 0 || bits < 0)
     throw py::value_error("sensor_range, msg_bits: 0 or more was expected");
-  auto layout =
-      std::make_shared<rware::Layout>(height, width, std::move(highway), std::move(goals));
+  auto layout = std::make_shared<rware::Layout>(height, width, std::move(highway), std::move(goals),
+                                                std::move(walls));
   const rware::Options options{agents, requests, max_inactivity, max_steps,
                                static_cast<rware::Reward>(reward)};
   std::vector<Layer> seen;
@@ -263,7 +263,8 @@ void defineRware(py::module_& module) {
             py::arg("highway"), py::arg("goals"), py::arg("count"), py::arg("agents"),
             py::arg("requests"), py::arg("max_inactivity"), py::arg("max_steps"), py::arg("reward"),
             py::arg("range"), py::arg("bits"), py::arg("normalised"), py::arg("layers"),
-            py::arg("directional"), py::arg("threads"));
+            py::arg("directional"), py::arg("threads"),
+            py::arg("walls") = std::vector<std::uint8_t>());
   rware.def(
       "seed",
       [](Rware& self, int i, std::array<std::uint64_t, 4> words, bool has_half,

@@ -11,16 +11,22 @@ namespace rware {
 /// Cells are numbered row by row; row 0 is at the top. x is the column, y the row.
 struct Layout {
   /// highway: height * width, 1 = a highway, where nothing is stored; goals: cells, in the order in
-  /// which deliveries are looked for. Throws std::invalid_argument if one lies outside.
-  Layout(int height, int width, std::vector<std::uint8_t> highway, std::vector<int> goals);
+  /// which deliveries are looked for; wall: 1 = none can be there, empty: nowhere, as in RWARE.
+  /// Throws std::invalid_argument if a goal lies outside or lengths differ.
+  Layout(int height, int width, std::vector<std::uint8_t> highway, std::vector<int> goals,
+         std::vector<std::uint8_t> wall = {});
 
   int size() const { return height * width; }
   int x(int cell) const { return cell % width; }
   int y(int cell) const { return cell / width; }
 
+  bool isWall(int cell) const { return !wall.empty() && wall[cell]; }
+
   int height, width;
   std::vector<std::uint8_t> highway;
   std::vector<int> goals;
+  std::vector<std::uint8_t> wall;
+  std::vector<int> open;              ///< All cells but walls.
   std::vector<int> storage;           ///< Where a shelf stands at first.
   std::vector<std::uint64_t> hashes;  ///< Of each cell's (x, y), as Python has it.
 };

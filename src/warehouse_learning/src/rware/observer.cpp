@@ -55,7 +55,7 @@ float valueOf(const Warehouse& warehouse, Layer layer, int x, int y) {
     case Layer::kGoals:
       return std::find(goals.begin(), goals.end(), cell) != goals.end();
     default:
-      return agent < 0;
+      return agent < 0 && !warehouse.layout().isWall(cell);
   }
 }
 

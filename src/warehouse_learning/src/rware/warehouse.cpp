@@ -22,7 +22,7 @@ Warehouse::Warehouse(std::shared_ptr<const Layout> layout, const Options& option
       agent_at_(layout_->size(), -1),
       shelf_at_(layout_->size(), -1),
       wishes_(options.agents) {
-  if (options.agents < 1 || options.agents > layout_->size()) {
+  if (options.agents < 1 || options.agents > static_cast<int>(layout_->open.size())) {
     throw std::invalid_argument("agents is " + std::to_string(options.agents) +
                                 "; expected 1 to the number of cells");
   }
@@ -40,10 +40,12 @@ void Warehouse::reset() {
   for (std::size_t shelf = 0; shelf < shelf_cell_.size(); ++shelf) {
     shelf_at_[shelf_cell_[shelf]] = static_cast<int>(shelf);
   }
-  const std::vector<int> cells = random_.choice(layout_->size(), options_.agents);
+  const auto open = static_cast<int>(layout_->open.size());
+  const std::vector<int> drawn = random_.choice(open, options_.agents);
   for (int i = 0; i < options_.agents; ++i) {
-    agents_[i] = Agent{cells[i], random_.integer(kDirections)};
-    agent_at_[cells[i]] = i;
+    const int cell = layout_->open[drawn[i]];
+    agents_[i] = Agent{cell, random_.integer(kDirections)};
+    agent_at_[cell] = i;
   }
   requests_ = random_.choice(static_cast<int>(shelf_cell_.size()), options_.requests);
   requested_.assign(shelf_cell_.size(), false);
@@ -66,6 +68,11 @@ bool Warehouse::step(const std::int8_t* actions, double* rewards) {
 }
 
 int Warehouse::ahead(const Agent& agent) const {
+  const int to = beyond(agent);
+  return layout_->isWall(to) ? agent.cell : to;
+}
+
+int Warehouse::beyond(const Agent& agent) const {
   const int x = layout_->x(agent.cell), y = layout_->y(agent.cell);
   switch (agent.direction) {
     case kUp:

@@ -52,10 +52,11 @@ class Warehouse {
   bool isRequested(int shelf) const { return requested_[shelf]; }
   const std::vector<int>& requests() const { return requests_; }  ///< Shelves.
   int shelfCell(int shelf) const { return shelf_cell_[shelf]; }
-  /// The cell before an agent; its own at the edge of the floor.
+  /// The cell before an agent; its own at the edge of the floor, and before a wall.
   int ahead(const Agent& agent) const;
 
  private:
+  int beyond(const Agent& agent) const;
   Wish wish(const Agent& agent, int action) const;
   void turn(Agent* agent, int action) const;
   void toggleLoad(Agent* agent, double* reward) const;

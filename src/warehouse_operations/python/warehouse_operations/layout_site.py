@@ -2,12 +2,13 @@
 """What a layout file says about a shift: how its stations work, its policies and initial stock."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from warehouse_layout.layout_file import LayoutFile, StationEntry
 from warehouse_layout.placement import stock_of
 from warehouse_layout.request import LIMITS
-from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.policies import Policies, PolicyError, beside
 from warehouse_operations.settings import Settings
 from warehouse_operations.site import Site, Stock
 
@@ -48,7 +49,11 @@ def _of(entry: StationEntry) -> dict[str, Any]:
 
 def policies_of(file: LayoutFile) -> Policies:
     """Returns the policies of a layout file. Raises PolicyError with its name."""
-    return Policies(dict(file.policies), f"{file.path or file.title}: policies")
+    return Policies(_policies(file), f"{file.path or file.title}: policies")
+
+
+def _policies(file: LayoutFile) -> dict[str, Any]:
+    return beside(dict(file.policies), Path(file.path or ".").parent)
 
 
 def merged(file: LayoutFile, told: Policies) -> Policies:
@@ -57,7 +62,7 @@ def merged(file: LayoutFile, told: Policies) -> Policies:
     Raises PolicyError.
     """
     policies_of(file)
-    return Policies({**file.policies, **told.given})
+    return Policies({**_policies(file), **told.given})
 
 
 def fault(file: LayoutFile) -> str:

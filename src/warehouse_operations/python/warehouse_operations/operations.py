@@ -30,7 +30,7 @@ class Operations:
     world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
     warehouse; None: the world's own. orders: fill, fill:N, poisson:PER_HOUR, FILE.csv or none.
     policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
-    SQLite file, in which everything is kept; a shift that it holds goes on. threads: that plan, see
+    SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
     PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.
     Raises what open_shift raises.
     """
@@ -46,11 +46,12 @@ class Operations:
         settings: Settings | None = None,
         site: Site | None = None,
         threads: int = 0,
+        planner: Mapping[str, Any] | None = None,
     ) -> None:
         self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
             policies = Policies.read(policies) if isinstance(policies, str) else Policies(policies)
-        self.fleet = self._fleet(world, physics, seed, threads)
+        self.fleet = self._fleet(world, physics, seed, threads, planner)
         self.database = _opened(database) if database else None
         with contextlib.ExitStack() as unless_open:
             if self.database:
@@ -71,12 +72,12 @@ class Operations:
         self.driven_m: dict[int, float] = {}  # by all robots up to the end of each kpis.INTERVAL
 
     def _fleet(
-        self, world: Any, physics: bool, seed: int, threads: int
+        self, world: Any, physics: bool, seed: int, threads: int, planner: Any
     ) -> "IdealFleet | WorldFleet":
         if physics and world is not None:
             from warehouse_operations.world_fleet import WorldFleet
 
-            return WorldFleet(world, self.site, seed, threads)
+            return WorldFleet(world, self.site, seed, threads, planner)
         site = self.site
         return IdealFleet(site.plan, site.robots, site.units, kinematics=site.kinematics)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from warehouse_fleet.planner_plugins import PlannerError
 from warehouse_layout import FloorError, layout_choice
 from warehouse_layout.layout_file import LayoutFileError, text_of
 from warehouse_layout.request import items_for
@@ -35,6 +36,7 @@ ERRORS = (
     InUseError,
     InstanceError,
     LayoutFileError,
+    PlannerError,
     PolicyError,
     SiteError,
     runs.RunError,
@@ -55,6 +57,7 @@ class Description:
     seconds: float = 3600.0
     orders: str = "fill"
     policies: dict[str, Any] = field(default_factory=dict)
+    planner: dict[str, Any] = field(default_factory=dict)  # see planner_plugins; {}: EPIBT
     seed: int = 1
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
@@ -73,6 +76,7 @@ class Description:
             **({"units": self.units} if self.units else {}),
             **({"stations": self.stations} if self.stations else {}),
             **({"realism": self.realism} if self.realism else {}),
+            **({"planner": self.planner} if self.planner else {}),
             **({"layout": self._fingerprint} if self.layout else {}),
         }
 
@@ -161,6 +165,8 @@ def open_operations(description: Description, database: str | None = None) -> Op
         world = _preset(description)
         site = Site.of_world(world, description.size)
     _check_stations(description, site)
+    if description.planner and not description.physics:
+        raise PlannerError("planner: ideal robots pass through each other; physics was expected")
     ops = Operations(
         world,
         site=site,
@@ -170,6 +176,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
         database=database,
         physics=description.physics,
         threads=description.threads,
+        planner=description.planner or None,
     )
     if description.stations:
         ops.shift.open_picking(description.stations)

@@ -20,9 +20,11 @@ DEADLOCKED = 60.0  # a robot with somewhere to go that stood still for so long i
 class WorldFleet(FleetDriver):
     """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
 
-    def __init__(self, world: Any, site: Any, seed: int, threads: int = 0) -> None:
+    def __init__(
+        self, world: Any, site: Any, seed: int, threads: int = 0, planner: Any = None
+    ) -> None:
         super().__init__(
-            world, seed, kinematics=site.kinematics, tow_after=TOW_AFTER, threads=threads
+            world, seed, planner, site.kinematics, tow_after=TOW_AFTER, threads=threads
         )
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)

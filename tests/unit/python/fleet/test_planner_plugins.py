@@ -80,6 +80,17 @@ def test_what_is_no_plan_is_refused(floor):
     assert "that cell or a neighbour" in refusal(floor, fleet, np.array([0, 6]))  # the next row
 
 
+def test_a_planner_may_answer_with_actions(floor):
+    fleet = Fleet([0, 5], [0, 0], [5, 0])
+    answer = np.array([[Action.FORWARD, Action.WAIT], [Action.TURN_NEGATIVE, Action.WAIT]])
+    Says.answer = answer
+    planner = make_planner(floor, Rules(), 1, {"planner": f"{__name__}:Says"})
+    assert planner.plan(fleet).tolist() == answer.tolist()
+    assert "a plan of Actions" in refusal(floor, fleet, answer[:1])
+    assert "a plan of Actions" in refusal(floor, fleet, answer + 3)
+    assert "a plan of Actions" in refusal(floor, fleet, answer + 0.5)
+
+
 def test_who_does_not_face_its_cell_turns_first(floor):
     Says.answer = np.array([6, 4])
     planner = make_planner(floor, Rules(), 1, {"planner": f"{__name__}:Says"})
@@ -92,7 +103,10 @@ def test_who_does_not_face_its_cell_turns_first(floor):
 @pytest.mark.parametrize(
     "spec,expected",
     [
-        ({"planner": "nothing"}, "planner 'nothing'; epibt, MODULE:CLASS or LIBRARY.so:CLASS"),
+        (
+            {"planner": "nothing"},
+            "planner 'nothing'; epibt, learned, MODULE:CLASS or LIBRARY.so:CLASS",
+        ),
         ({"planner": "nowhere:Mine"}, "planner 'nowhere:Mine': No module named 'nowhere'"),
         ({"planner": "json:Mine"}, "planner 'json:Mine': module 'json' has no attribute 'Mine'"),
         ({"planner": f"{LIBRARY}:Mine"}, "no class Mine; it has RightOfWay (fleet::Planner)"),

@@ -58,6 +58,21 @@ def test_a_class_of_ones_own(tmp_path, monkeypatch):
     assert max(len(station.orders) for station in ops.shift.picking.stations) == 3
 
 
+def test_an_object_decides():
+    class First:
+        def choose(self, station, view):
+            return next((order for order in view.backlog if view.in_stock(order)), None)
+
+    first = First()
+    policies = Policies({"orders": first})
+    assert policies.orders is first and policies.chosen["orders"].endswith("First")
+    ops = Operations(site=site(), physics=False, policies=policies)
+    ops.run(minutes=5)
+    assert ops.kpis()["items_picked"] > 10
+    with pytest.raises(PolicyError, match="a name, or a mapping"):
+        Policies({"orders": 7})
+
+
 @pytest.mark.parametrize(
     "text, message",
     [

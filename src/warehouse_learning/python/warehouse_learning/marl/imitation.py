@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_learning.marl.encoding import Encoder
-from warehouse_learning.marl.mlp import Adam, Mlp
+from warehouse_learning.marl.mlp import Adam, Mlp, log_softmax
 from warehouse_learning.marl.planned import Planned
 from warehouse_learning.marl.policy import drawn
 
@@ -52,7 +52,6 @@ def _learn(actor, adam, seen, told, passes, random):
     for _ in range(passes * min(len(told), 20 * BATCH) // BATCH):
         rows = random.integers(len(told), size=BATCH)
         logits, kept = actor.forward(seen[rows])
-        slopes = np.exp(logits - logits.max(1, keepdims=True))
-        slopes /= slopes.sum(1, keepdims=True)
+        slopes = np.exp(log_softmax(logits))
         slopes[np.arange(BATCH), told[rows]] -= 1
         adam.step(actor.backward(kept, slopes / np.float32(BATCH)), RATE)

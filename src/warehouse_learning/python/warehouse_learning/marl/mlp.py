@@ -44,6 +44,12 @@ class Mlp:
         return out
 
 
+def log_softmax(logits: np.ndarray) -> np.ndarray:
+    """Returns the logarithms of the chances that rows of logits (m, n) mean."""
+    shifted = logits - logits.max(1, keepdims=True)
+    return shifted - np.log(np.exp(shifted).sum(1, keepdims=True))
+
+
 def _orthogonal(rows, columns, gain, random):
     q, _ = np.linalg.qr(random.standard_normal((max(rows, columns), min(rows, columns))))
     return np.ascontiguousarray(gain * (q if rows >= columns else q.T), np.float32)

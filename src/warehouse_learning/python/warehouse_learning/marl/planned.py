@@ -33,7 +33,8 @@ class Planned:
         self._height, self._width = highways.shape
         self._highway = highways.ravel().astype(bool)
         self._goals = np.array([y * self._width + x for x, y in task.floor.goals])
-        ways = np.ones(highways.shape, np.uint8)
+        walls = task.floor.walls
+        ways = np.ones(highways.shape, np.uint8) if walls is None else 1 - walls
         storage = (highways == 0).astype(np.uint8)
         # A cell that is left can be entered at once; rings and exchanges RWARE settles otherwise.
         self._planner = epibt(Floor(ways, storage), Rules(following=True), seed, threads=1)

@@ -3,7 +3,6 @@
 robots share. In IPPO (de Witt et al., 2020) a critic judges by what its robot observes, in MAPPO
 (Yu et al., 2022) by what all observe together; it has a value for each robot then."""
 
-import json
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -12,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_learning.marl import checkpoint
 from warehouse_learning.marl.encoding import Encoder
 from warehouse_learning.marl.imitation import imitate
-from warehouse_learning.marl.mlp import Adam, Mlp
-from warehouse_learning.marl.policy import ACTIONS, GridPolicy, drawn
+from warehouse_learning.marl.mlp import Adam, Mlp, log_softmax
+from warehouse_learning.marl.policy import ACTIONS, GridPolicy
+from warehouse_learning.marl.rollouts import Rollouts
 
 ALGORITHMS = "ippo", "mappo"
 
@@ -26,14 +27,15 @@ class Settings:
 
     algorithm: str = "mappo"
     steps: int = 20_000_000
-    environments: int = 128
-    rollout: int = 16  # steps of each between two updates
+    environments: int = 64
+    rollout: int = 64  # steps of each between two updates
     epochs: int = 3
     minibatches: int = 4
-    rate: float = 2e-3  # of Adam; falls to a tenth
-    discount: float = 0.98
+    rate: float = 1e-3  # of Adam; falls to a tenth
+    discount: float = 0.99
     trace: float = 0.95  # lambda of the generalised advantage estimation
     clip: float = 0.2
+    spread: float = 0.02  # least standard deviation by which advantages are divided
     entropy: float = 0.01  # falls to a tenth
     hidden: int = 64
     imitation: int = 0  # steps of the planner that are imitated before
@@ -69,11 +71,11 @@ class Training:
         seen, values = encoder.size, 1
         if settings.algorithm == "mappo":
             seen, values = agents * encoder.size, agents
-        self.critic = Mlp([seen, hidden, hidden, values], 1.0, self.random)
+        self.critic = Mlp([seen, hidden, hidden, values], 0.01, self.random)
         self._optimisers = Adam(self.actor.parameters), Adam(self.critic.parameters)
         self.done, self.seconds = 0, 0.0
         self.curve: list[tuple[int, float]] = []
-        self._begin()
+        self._rollouts = Rollouts(envs, encoder, self.random)
 
     def take(self, policy: GridPolicy) -> None:
         """Begins with what a policy of this task knows. Raises ValueError for another task's."""
@@ -82,16 +84,6 @@ class Training:
             raise ValueError("the policy is of another task, or of a network of another size")
         for mine, other in zip(self.actor.parameters, theirs):
             mine[:] = other
-
-    def _begin(self):
-        """Episodes that begin at different times: a rollout has all parts of an episode in it."""
-        observations, _ = self._envs.reset(seed=int(self.random.integers(2**31)))
-        self._seen = self.encoder.encode(observations)
-        n = self._envs.num_envs
-        self._returns = np.zeros(n)
-        self._starts = self.random.integers(0, self._envs.task.max_steps, n)
-        self._clock = 0
-        self._is_whole = np.zeros(n, bool)
 
     @property
     def policy(self) -> GridPolicy:
@@ -127,93 +119,51 @@ class Training:
         return self.done >= self.settings.steps
 
     def _update(self):
-        batch, finished = self._roll_out()
-        self._improve(batch)
+        rollout = self._rollouts.collect(self.actor, self.settings.rollout)
+        self._improve(rollout)
         self.done += self.settings.rollout * self._envs.num_envs
-        if finished:
-            self.curve.append((self.done, float(np.mean(finished))))
+        if rollout.finished:
+            self.curve.append((self.done, float(np.mean(rollout.finished))))
 
     def _values(self, seen):
-        """(environments, agents) of (environments, agents, size)."""
-        rows = self._critic_rows(seen)
-        values, _ = self.critic.forward(rows)
-        return values.reshape(seen.shape[:2])
+        """(…, agents) of (…, agents, size)."""
+        return self.critic.forward(self._critic_rows(seen))[0].reshape(seen.shape[:-1])
 
     def _critic_rows(self, seen):
-        joint = self.settings.algorithm == "mappo"
-        return seen.reshape(len(seen), -1) if joint else seen.reshape(-1, seen.shape[-1])
+        width = seen.shape[-1]
+        is_joint = self.settings.algorithm == "mappo"
+        return seen.reshape(-1, seen.shape[-2] * width if is_joint else width)
 
-    def _roll_out(self):
-        """What happened in a rollout, arrays (rollout, environments, agents, …), and the returns of
-        the episodes that ended."""
-        settings, envs = self.settings, self._envs
-        lead = settings.rollout, envs.num_envs, envs.task.n_agents
-        batch = {
-            "seen": np.empty((*lead, self.encoder.size), np.float32),
-            "action": np.empty(lead, np.int8),
-            "log": np.empty(lead, np.float32),
-            "value": np.empty((lead[0] + 1, *lead[1:]), np.float32),
-            "reward": np.empty(lead, np.float32),
-            "end": np.empty(lead[:2], bool),
-        }
-        finished: list[float] = []
-        for t in range(settings.rollout):
-            seen = batch["seen"][t] = self._seen
-            logits, _ = self.actor.forward(seen.reshape(-1, self.encoder.size))
-            action = drawn(logits, self.random)
-            batch["log"][t] = _logs(logits)[np.arange(len(action)), action].reshape(lead[1:])
-            batch["action"][t] = action.reshape(lead[1:])
-            batch["value"][t] = self._values(seen)
-            batch["reward"][t], batch["end"][t] = self._step(batch["action"][t], finished)
-        batch["value"][-1] = self._values(self._seen)
-        return batch, finished
-
-    def _step(self, actions, finished):
-        """Rewards, with what would have come after an episode that was cut off, and who ended."""
-        observations, rewards, ends, _, infos = self._envs.step(actions)
-        self._returns += rewards.sum(1)
-        earned = rewards.astype(np.float32)
-        if ends.any():
-            last = self.encoder.encode(infos["final_obs"][ends])
-            earned[ends] += self.settings.discount * self._values(last)
-            finished += self._returns[ends & self._is_whole].tolist()
-            self._returns[ends] = 0
-            self._is_whole |= ends
-        late = self._starts == self._clock
-        self._clock += 1
-        if late.any():
-            observations, _ = self._envs.reset(options={"reset_mask": late})
-            self._returns[late] = 0
-            self._is_whole |= late
-            ends = ends | late
-        self._seen = self.encoder.encode(observations)
-        return earned, ends
-
-    def _advantages(self, batch):
-        """Generalised advantage estimation (Schulman et al., 2016): (rollout, n, agents)."""
-        settings, value = self.settings, batch["value"]
-        out = np.empty_like(batch["reward"])
+    def _advantages(self, rollout):
+        """Generalised advantage estimation (Schulman et al., 2016), and the values that it begins
+        from: (rollout, n, agents) each."""
+        settings, value = self.settings, self._values(rollout.seen)
+        reward = rollout.reward
+        # Time cuts episodes off: what would have come after counts.
+        for t, which, seen in rollout.cut:
+            reward[t, which] += settings.discount * self._values(seen)
+        out = np.empty_like(reward)
         trace = np.zeros(out.shape[1:], np.float32)
         for t in reversed(range(len(out))):
-            goes_on = ~batch["end"][t][:, None]
-            error = batch["reward"][t] + settings.discount * value[t + 1] * goes_on - value[t]
+            goes_on = ~rollout.end[t][:, None]
+            error = reward[t] + settings.discount * value[t + 1] * goes_on - value[t]
             trace = error + settings.discount * settings.trace * goes_on * trace
             out[t] = trace
-        return out
+        return out, value[:-1]
 
-    def _improve(self, batch):
+    def _improve(self, rollout):
         settings = self.settings
-        advantage = self._advantages(batch)
-        target = advantage + batch["value"][:-1]
-        advantage = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+        advantage, value = self._advantages(rollout)
+        target = advantage + value
+        spread = max(advantage.std(), settings.spread, 1e-8)
         size = settings.rollout * self._envs.num_envs
         flat = {
             name: array.reshape(size, *array.shape[2:])
             for name, array in (
-                ("seen", batch["seen"]),
-                ("action", batch["action"]),
-                ("log", batch["log"]),
-                ("advantage", advantage),
+                ("seen", rollout.seen[:-1]),
+                ("action", rollout.action),
+                ("log", rollout.log),
+                ("advantage", (advantage - advantage.mean()) / spread),
                 ("target", target),
             )
         }
@@ -230,7 +180,7 @@ class Training:
         settings = self.settings
         logits, kept = self.actor.forward(part["seen"].reshape(-1, self.encoder.size))
         action, advantage = part["action"].ravel(), part["advantage"].ravel()
-        logs = _logs(logits)
+        logs = log_softmax(logits)
         chances = np.exp(logs)
         picked = np.arange(len(action)), action
         ratio = np.exp(logs[picked] - part["log"].ravel())
@@ -253,52 +203,23 @@ class Training:
 
     def save(self, path: Path) -> None:
         """Writes a checkpoint, at once or not at all; restore() goes on from it."""
-        arrays = {}
-        for name, network, optimiser in zip(
-            ("actor", "critic"), (self.actor, self.critic), self._optimisers
-        ):
-            for i, parts in enumerate(zip(network.parameters, optimiser.mean, optimiser.square)):
-                for kind, array in zip(("weight", "mean", "square"), parts):
-                    arrays[f"{name}_{kind}_{i}"] = array
         state = {
             "settings": asdict(self.settings),
             "seed": self.seed,
             "done": self.done,
             "seconds": self.seconds,
-            "updates": [optimiser.steps for optimiser in self._optimisers],
             "curve": self.curve,
             "random": self.random.bit_generator.state,
         }
-        half = path.with_suffix(".part.npz")
-        np.savez(half, state=json.dumps(state), **arrays)
-        half.replace(path)
+        checkpoint.save(path, state, self._optimisers)
 
     def restore(self, path: Path) -> None:
         """Goes on from a checkpoint; episodes begin again.
 
         Raises ValueError for that of another training.
         """
-        with np.load(path, allow_pickle=False) as content:
-            state = json.loads(str(content["state"]))
-            ours = asdict(self.settings)
-            for name, value in state["settings"].items():
-                if ours[name] != value:
-                    raise ValueError(f"{path}: its {name} is {value}, not {ours[name]}")
-            for name, network, optimiser, steps in zip(
-                ("actor", "critic"), (self.actor, self.critic), self._optimisers, state["updates"]
-            ):
-                parts = network.parameters, optimiser.mean, optimiser.square
-                for kind, arrays in zip(("weight", "mean", "square"), parts):
-                    for i, array in enumerate(arrays):
-                        array[:] = content[f"{name}_{kind}_{i}"]
-                optimiser.steps = steps
+        state = checkpoint.load(path, asdict(self.settings), self._optimisers)
         self.done, self.seconds = state["done"], state["seconds"]
         self.curve = [tuple(row) for row in state["curve"]]
         self.random.bit_generator.state = state["random"]
-        self._begin()
-
-
-def _logs(logits):
-    """Logarithms of chances, (m, 5)."""
-    shifted = logits - logits.max(1, keepdims=True)
-    return shifted - np.log(np.exp(shifted).sum(1, keepdims=True))
+        self._rollouts.begin()

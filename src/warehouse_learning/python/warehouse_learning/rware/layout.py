@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The floors of RWARE: by the numbers of shelf rows and columns, or drawn as text."""
+"""The floors of RWARE: by the numbers of shelf rows and columns, drawn as text, or, beyond RWARE,
+of a layout file."""
 
 from dataclasses import dataclass
 
 import numpy as np
+
+from warehouse_layout import drawn_floor, layout_choice, placement, station_lanes
+from warehouse_layout.layout_file import LayoutFileError
+from warehouse_layout.stations import PICK
 
 AISLE = 3  # a column of shelves is two cells wide, with a highway beside it
 
@@ -11,11 +16,13 @@ AISLE = 3  # a column of shelves is two cells wide, with a highway beside it
 @dataclass(frozen=True)
 class Layout:
     """highways: (height, width) uint8, 1 = a highway, 0 = a storage place; goals: (x, y) of each,
-    in the order in which deliveries are counted; column_height: None for a drawn floor."""
+    in the order in which deliveries are counted; column_height: None for a drawn floor. walls:
+    (height, width) uint8, 1 = where no agent can be; None: nowhere, as in RWARE."""
 
     highways: np.ndarray
     goals: list
     column_height: int | None = None
+    walls: np.ndarray | None = None
 
     @property
     def grid_size(self) -> tuple[int, int]:
@@ -64,3 +71,25 @@ def of_text(text: str) -> Layout:
     if not goals:
         raise ValueError("layout: no goal (g) is drawn; one at least was expected")
     return Layout(highways, goals)
+
+
+def of_file(name: str) -> Layout:
+    """Returns the Layout of a layout file, NAME.layout.yaml: each storage place has a shelf, goals
+    are where picking stations are served, all else that robots may enter is a highway, both ways.
+
+    Raises LayoutFileError, a ValueError, for a file without storage or picking stations too.
+    """
+    file = layout_choice.chosen(name)
+    drawn = drawn_floor.areas(file.floor)
+    stations, faults = station_lanes.of_file(file, drawn)
+    if faults:
+        raise LayoutFileError(f"{name}: {faults[0].text}")
+    plan = placement.plan_of(file, drawn, stations)
+    served = [station.service_cell for station in plan.stations if station.kind == PICK]
+    if not served or not plan.storage.any():
+        raise LayoutFileError(f"{name}: storage places and a picking station were expected")
+    height, width = plan.shape
+    goals = [(cell % width, height - 1 - cell // width) for cell in served]
+    # Row 0 is the lowest there, and the highest here.
+    walls, storage = (~plan.passable)[::-1], plan.storage[::-1]
+    return Layout((~storage).astype(np.uint8), goals, walls=walls.astype(np.uint8))

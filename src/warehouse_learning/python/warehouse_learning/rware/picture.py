@@ -8,7 +8,7 @@ import numpy as np
 from warehouse_learning.rware.task import Direction, Task
 
 CELL = 20  # [pixels]
-FLOOR, LINE = (255, 255, 255), (214, 217, 222)
+FLOOR, LINE, WALL = (255, 255, 255), (214, 217, 222), (150, 155, 165)
 SHELF, REQUESTED, GOAL = (72, 61, 139), (0, 128, 128), (60, 60, 60)
 AGENT, LOADED, AHEAD = (255, 140, 0), (200, 30, 30), (0, 0, 0)
 AHEAD_OF = {Direction.UP: (0, -1), Direction.DOWN: (0, 1), Direction.LEFT: (-1, 0)}
@@ -16,10 +16,12 @@ AHEAD_OF = {Direction.UP: (0, -1), Direction.DOWN: (0, 1), Direction.LEFT: (-1, 
 
 def picture(task: Task, warehouses: Any, i: int) -> np.ndarray:
     """(height, width, 3) uint8 of warehouse i: goals grey, shelves blue, requested ones green,
-    agents orange, with a load red; a black dot shows where an agent looks."""
+    walls light grey, agents orange, with a load red; a black dot shows where an agent looks."""
     height, width = task.floor.grid_size
     image = np.full((height * CELL + 1, width * CELL + 1, 3), FLOOR, np.uint8)
     image[::CELL] = image[:, ::CELL] = LINE
+    for y, x in np.argwhere(task.floor.walls) if task.floor.walls is not None else ():
+        _fill(image, x, y, 0, WALL)
     for x, y in task.floor.goals:
         _fill(image, x, y, 1, GOAL)
     requested = set(warehouses.requests(i))

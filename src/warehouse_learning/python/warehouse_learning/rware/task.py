@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_learning._core import Rware
-from warehouse_learning.rware.layout import Layout, of_parameters, of_text
+from warehouse_learning.rware.layout import Layout, of_file, of_parameters, of_text
 
 
 class Action(IntEnum):
@@ -74,8 +74,9 @@ FEATURES = 6  # of an IMAGE_DICT: direction one hot, on a highway, carries
 class Task:
     """RWARE's arguments, by its names and with its defaults.
 
-    layout: a text that draws the floor, instead of columns and rows; observation_type,
-    reward_type and image_observation_layers may be members of RWARE's own enumerations.
+    layout: a text that draws the floor, or a layout file, NAME.layout.yaml, instead of columns and
+    rows; observation_type, reward_type and image_observation_layers may be members of RWARE's own
+    enumerations.
     """
 
     shelf_columns: int = 3
@@ -102,7 +103,8 @@ class Task:
             _member(ImageLayer, layer) for layer in self.image_observation_layers
         )
         if self.layout:
-            self.floor = of_text(self.layout)
+            is_file = self.layout.endswith((".yaml", ".yml"))
+            self.floor = of_file(self.layout) if is_file else of_text(self.layout)
         else:
             self.floor = of_parameters(self.shelf_columns, self.shelf_rows, self.column_height)
 
@@ -130,6 +132,7 @@ class Task:
     def warehouses(self, count: int, threads: int = 1) -> Any:
         """Returns `count` warehouses of this task, whose episodes have not begun."""
         height, width = self.floor.grid_size
+        walls = self.floor.walls
         return Rware(
             height=height,
             width=width,
@@ -147,6 +150,7 @@ class Task:
             layers=[layer.value for layer in self.image_observation_layers],
             directional=bool(self.image_observation_directional),
             threads=threads,
+            walls=[] if walls is None else walls.ravel().tolist(),
         )
 
 

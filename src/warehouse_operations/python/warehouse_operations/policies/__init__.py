@@ -6,7 +6,8 @@
     storage: {name: my_module:ByWeight, heavy: 40}    # a class of your own with options
 
 Roles that are left out have the policies of DEFAULTS. A class of your own has the methods of the
-protocol of its role; its constructor takes the options. `view` is a view.View of the shift.
+protocol of its role; its constructor takes the options. In Python an object with those methods will
+do as well. `view` is a view.View of the shift.
 """
 
 import importlib
@@ -160,8 +161,8 @@ class PolicyError(ValueError):
 class Policies:
     """Holds one policy for each of ROLES, as attributes.
 
-    chosen: policies by role, each a name or a mapping with `name` and options. source: where they
-    come from, for errors. Raises PolicyError.
+    chosen: policies by role, each a name, a mapping with `name` and options, or an object that
+    decides. source: where they come from, for errors. Raises PolicyError.
     """
 
     orders: OrderAssignment
@@ -181,17 +182,41 @@ class Policies:
             if role not in ROLES:
                 raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
         self.given = chosen
-        self.chosen = {role: chosen.get(role, DEFAULTS[role]) for role in ROLES}
-        for role, what in self.chosen.items():
-            setattr(self, role, _make(role, what, source))
+        self.chosen: dict[str, Any] = {}  # as a file has them
+        for role in ROLES:
+            what = chosen.get(role, DEFAULTS[role])
+            policy = _make(role, what, source)
+            setattr(self, role, policy)
+            self.chosen[role] = _name_of(policy) if policy is what else what
 
     @classmethod
     def read(cls, path: str | Path) -> "Policies":
-        """Returns the policies of a YAML file. Raises PolicyError."""
-        return cls(read_yaml(path, PolicyError), str(path))
+        """Returns the policies of a YAML file, beside which their files lie. Raises PolicyError."""
+        return cls(beside(read_yaml(path, PolicyError), Path(path).parent), str(path))
+
+
+def beside(chosen: Any, folder: Path) -> Any:
+    """Returns policies by role whose option `file`, if it is relative, is one in a folder: nodes of
+    ROS run in another one."""
+    if not isinstance(chosen, dict):
+        return chosen
+    return {role: _beside(what, folder) for role, what in chosen.items()}
+
+
+def _beside(what: Any, folder: Path) -> Any:
+    if not isinstance(what, dict) or not isinstance(what.get("file"), str):
+        return what
+    return what | {"file": str(folder.absolute() / Path(what["file"]).expanduser())}
+
+
+def _name_of(policy: Any) -> str:
+    """The name under which a file would have an object's class."""
+    return f"{type(policy).__module__}:{type(policy).__qualname__}"
 
 
 def _make(role: str, what: Any, source: str) -> Any:
+    if callable(getattr(what, METHODS[role], None)):
+        return what
     options = dict(what) if isinstance(what, dict) else {"name": what}
     name = options.pop("name", None)
     if not isinstance(name, str):
