@@ -53,7 +53,7 @@ test-long: build  ## fleets at work, seed after seed, with and without faults, a
 	../scripts/axe; ../scripts/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
-test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray
+test-wheel: wheel  ## use the wheels in environments with nothing else, with both numpys, Stable-Baselines3 and Ray
 	@scripts/test-wheel $(ARGS)
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
@@ -111,7 +111,7 @@ docs-test: docs  ## run the examples of the documentation, and ask what its link
 bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)
 
-wheel: build  ## the world and its environments for Python without ROS, into dist/
+wheel: build  ## the world and its environments for Python 3.11, 3.12 and 3.13 without ROS, into dist/; make wheel PYTHONS=python3 for one
 	@JOBS=$(JOBS) scripts/wheel
 
 lint: deps  ## check format and style

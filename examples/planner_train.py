@@ -32,6 +32,14 @@ WAIT = 0  # Action
 
 def main():
     wanted = arguments()
+    try:
+        teach(wanted)
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
+
+
+def teach(wanted):
+    """Writes the network after each round."""
     network = beginning(wanted.hidden, np.random.default_rng(wanted.seed))
     seen, told = [], []
     for number in range(wanted.rounds):
@@ -50,11 +58,11 @@ def arguments():
     parser = argparse.ArgumentParser(
         "planner_train", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--size", nargs="+", default=["small", "medium"])
-    parser.add_argument("--rounds", type=int, default=4)
+    parser.add_argument("--size", nargs="+", default=["small", "medium"], help="(small medium)")
+    parser.add_argument("--rounds", type=int, default=4, help="(4)")
     parser.add_argument("--minutes", type=float, default=4, help="of each round and size (4)")
-    parser.add_argument("--steps", type=int, default=3000, help="of learning, each round")
-    parser.add_argument("--hidden", type=int, default=24)
+    parser.add_argument("--steps", type=int, default=3000, help="of learning, each round (3000)")
+    parser.add_argument("--hidden", type=int, default=24, help="cells (24); 0: a linear one")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--out", default="planner.npz")
     return parser.parse_args()

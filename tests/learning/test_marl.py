@@ -9,7 +9,9 @@ pytest.importorskip("gymnasium", reason="gymnasium is missing: scripts/learning_
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
 from warehouse_learning.marl import evaluation, policy, statistics  # noqa: E402
+from warehouse_learning.marl.encoding import Encoder  # noqa: E402
 from warehouse_learning.marl.mlp import Mlp  # noqa: E402
+from warehouse_learning.marl.rollouts import Rollouts  # noqa: E402
 from warehouse_learning.marl.training import Settings, Training  # noqa: E402
 from warehouse_learning.rware import RwareVectorEnv, options_of  # noqa: E402
 
@@ -57,6 +59,32 @@ def test_a_training_beats_chance(algorithm, tmp_path):
     chance = evaluation.episodes(evaluation.by_chance, 32, 5, **FLOOR)["returns"]
     assert returns.mean() > chance.mean() + 2, learnt.curve
     assert trained.about["steps"] == learnt.done
+
+
+def test_rollouts_tell_where_episodes_were_cut():
+    envs = RwareVectorEnv(8, autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR)
+    height, width = envs.task.floor.grid_size
+    encoder = Encoder(width, height, 2, envs.task.vector_size)
+    random = np.random.default_rng(3)
+    rollout = Rollouts(envs, encoder, random).collect(Mlp([encoder.size, 5], 0.01, random), 120)
+    cut = np.zeros_like(rollout.end)
+    for t, which, seen in rollout.cut:
+        cut[t] |= which
+        assert seen.shape == (which.sum(), 2, encoder.size)
+    assert (cut == rollout.end).all()
+    # Each begins at another time, then ends after 50 steps, or was reset once more before.
+    assert 8 * 2 <= rollout.end.sum() <= 8 * 4
+    assert 8 <= len(rollout.finished) <= 16
+    assert np.exp(rollout.log).min() > 0.15 and set(np.unique(rollout.action)) == set(range(5))
+
+
+def test_what_nothing_was_earned_for_changes_little():
+    """Rewards are rare: noise of the critic must not count as much as they do."""
+    learnt = training()
+    rollout = learnt._rollouts.collect(learnt.actor, 16)
+    rollout.reward[:] = 0
+    advantage, _ = learnt._advantages(rollout)
+    assert 0 < advantage.std() < learnt.settings.spread
 
 
 def test_a_training_goes_on_from_its_checkpoint(tmp_path):

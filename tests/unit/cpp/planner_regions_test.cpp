@@ -138,6 +138,53 @@ TEST_F(Regional, OfAnotherFloorAreRefused) {
   EXPECT_EQ(whyRefused(floor_, shorter), "the file ends before its last table");
 }
 
+/// A ring of blocks around a hole, with lanes of 14 cells and back beyond its last row: deeper than
+/// a region, so that around some goals there is no cell but in lanes.
+std::vector<std::string> ringWithLanes() {
+  constexpr int kDeep = 14;
+  std::vector<std::string> rows = blocks(14, 20, 1);
+  for (int y = 15; y < 48; ++y) rows[y].replace(20, 33, 33, '#');
+  std::string there(rows[0].size(), '#'), turn = there;
+  for (std::size_t x = 3; x + 3 < there.size(); x += 8) {
+    there.replace(x, 3, "v#^");
+    turn.replace(x, 3, ">>^");
+  }
+  rows.insert(rows.end(), kDeep, there);
+  rows.push_back(turn);
+  return rows;
+}
+
+TEST(Lanes, OnALargeFloorShareTheTablesOfRegions) {
+  const std::vector<std::string> rows = ringWithLanes();
+  const Floor floor(drawn(rows));
+  const std::vector<Cell> aisles = cellsOf(rows, '.'), turns = cellsOf(rows, '>');
+  Tables regional(floor, 0), exact(floor, floor.size());
+  std::int64_t ticks = 0, least = 0;
+  for (std::size_t i = 1; i < turns.size(); i += 2) {
+    const DistanceTable& table = *regional.to(turns[i]);
+    const DistanceTable& all = *exact.to(turns[i]);
+    for (const Cell from : aisles) {
+      const int way = follow(floor, table, {from, 0}, turns[i]);
+      ASSERT_GE(way, 0) << floor.name(from) << " to " << floor.name(turns[i]);
+      ticks += way;
+      least += all.at(from, 0) / kTickCost;
+    }
+  }
+  EXPECT_LT(ticks, 1.04 * least);
+  EXPECT_GT(regional.tables.count(), exact.tables.count());  // those of regions besides
+}
+
+TEST(Lanes, HaveTablesOfAllCellsOnASmallerFloor) {
+  const std::vector<std::string> rows = ringWithLanes();
+  const Floor floor(drawn(rows));
+  Tables some(floor, floor.size() / 2), exact(floor, floor.size());
+  const Cell goal = cellsOf(rows, '>')[1];
+  const DistanceTable &one = *some.to(goal), &other = *exact.to(goal);
+  for (const Cell from : cellsOf(rows, '.')) EXPECT_EQ(one.at(from, 0), other.at(from, 0));
+  // Cells on which a robot can't stand take no room.
+  EXPECT_LT(some.tables.bytes(), 0.8 * exact.tables.bytes());
+}
+
 TEST(Threads, AnyNumberGivesTheSamePlans) {
   std::vector<std::vector<Cell>> cells;
   for (const int threads : {1, 2, 4}) {

@@ -36,7 +36,8 @@ class FleetDriver:
     The same world, seed and requests give the same run. Events of the world go to `events` as well,
     if that is a list. Robots that are lost, or broken in others' way, are towed `tow_after` [s]
     later; None: when tow() is called. `threads`: see PlanLoop. `collisions` counts, `refusals` are
-    texts, `fallen` the items on the floor; `failures` and `people` sum up what those cost.
+    texts, `fallen` the items on the floor; `failures` and `people` sum up what those cost. `plan`:
+    of the world as it is; None: is read from it.
     """
 
     def __init__(
@@ -47,9 +48,10 @@ class FleetDriver:
         kinematics: Kinematics | None = None,
         tow_after: float | None = None,
         threads: int = 0,
+        plan: FloorPlan | None = None,
     ) -> None:
         self.world = world
-        self.plan = FloorPlan.of_world(world)
+        self.plan = plan or FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.controller = FleetController(
             self.plan,

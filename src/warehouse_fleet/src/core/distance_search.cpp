@@ -10,6 +10,16 @@ constexpr int kQueues = 64;
 static_assert(kMaxEdgeCost < kQueues && (kQueues & (kQueues - 1)) == 0);
 static_assert(kMaxTurnTicks * kTickCost <= 0xf, "a quarter turn must fit into four bits");
 
+/// The costs of a cell's headings in a word: see DistanceTable.
+inline std::uint32_t packed(const std::uint16_t* cost) {
+  const std::uint32_t least = std::min(std::min(cost[0], cost[1]), std::min(cost[2], cost[3]));
+  std::uint32_t word = least << 16;
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    word |= std::min<std::uint32_t>(cost[heading] - least, 0xf) << (4 * heading);
+  }
+  return word;
+}
+
 }  // namespace
 
 Window whole(const Floor& floor) { return {0, 0, floor.width(), floor.height()}; }
@@ -120,14 +130,16 @@ void DistanceSearch::pack(std::vector<std::uint32_t>& words) const {
   for (int row = window_.top; row < window_.top + window_.rows; ++row) {
     const std::uint16_t* cost = &cost_[(row * floor_.width() + window_.left) * kHeadings];
     for (int column = 0; column < window_.columns; ++column, cost += kHeadings) {
-      const std::uint32_t least = std::min(std::min(cost[0], cost[1]), std::min(cost[2], cost[3]));
-      *word = least << 16;
-      for (int heading = 0; heading < kHeadings; ++heading) {
-        *word |= std::min<std::uint32_t>(cost[heading] - least, 0xf) << (4 * heading);
-      }
-      ++word;
+      *word++ = packed(cost);
     }
   }
+}
+
+void DistanceSearch::pack(const std::vector<Cell>& cells, std::vector<std::uint32_t>& words) const {
+  words.resize(cells.size() + 1);
+  auto word = words.begin();
+  *word++ = static_cast<std::uint32_t>(kUnreachable) << 16;
+  for (const Cell cell : cells) *word++ = packed(&cost_[cell * kHeadings]);
 }
 
 }  // namespace fleet

@@ -64,6 +64,8 @@ class DistanceSearch {
 
   /// Writes the costs of the last window, a word a cell, row after row: see DistanceTable.
   void pack(std::vector<std::uint32_t>& words) const;
+  /// Writes those of these cells alone, after a word that says that there is no way.
+  void pack(const std::vector<Cell>& cells, std::vector<std::uint32_t>& words) const;
 
  private:
   void open(const Window& window);

@@ -18,11 +18,11 @@ bool hasStorage(const Floor& floor) {
   return false;
 }
 
-/// The least for which half of the bytes hold the tables of all regions.
-int sideFor(const Floor& floor, std::size_t bytes) {
-  const std::size_t table = floor.size() * sizeof(std::uint32_t) * (hasStorage(floor) ? 2 : 1);
+/// The least for which half of the bytes hold the tables of all regions, of so many words each.
+int sideFor(const Floor& floor, int words, std::size_t bytes) {
+  const std::size_t table = words * sizeof(std::uint32_t) * (hasStorage(floor) ? 2 : 1);
   int side = kLeastSide;
-  while (side < kMostSide && table * (floor.size() / (side * side)) > bytes / 2) side += 4;
+  while (side < kMostSide && table * Regions::count(floor, side) > bytes / 2) side += 4;
   return side;
 }
 
@@ -32,7 +32,9 @@ DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, const Tab
                                const Threads& threads)
     : floor_(floor), edges_(edges), options_(options), threads_(threads) {
   if (floor.size() > options.whole_up_to) {
-    regions_ = std::make_unique<Regions>(floor, sideFor(floor, options.bytes));
+    numbers_ = numbered(floor);
+    const int words = numbers_ == nullptr ? floor.size() : numbers_->words();
+    regions_ = std::make_unique<Regions>(floor, sideFor(floor, words, options.bytes));
   }
   prices_.update(edges);
   for (int thread = 0; thread < threads.count(); ++thread) {
@@ -86,15 +88,20 @@ DistanceTables::Entry* DistanceTables::known(std::int64_t key) const {
   return known == index_.end() ? nullptr : known->second;
 }
 
-/// The cell whose table serves a goal from far away; kNowhere if the goal needs a table of its own:
-/// tables to lanes lead through lanes, and few cells in them are goals of many robots.
+/// The cell whose table serves a goal from far away; kNowhere if the goal has a table of all cells:
+/// few cells in lanes are goals of many robots. On the largest floors a table to each station is
+/// too much to make in time, and to keep.
 Cell DistanceTables::middleFor(Deck deck, Cell goal) const {
-  if (regions_ == nullptr || floor_.isLane(goal)) return kNowhere;
-  return regions_->middle(deck, regions_->of(goal));
+  constexpr int kLarge = 8;
+  if (regions_ == nullptr) return kNowhere;
+  if (!floor_.isLane(goal)) return regions_->middle(deck, regions_->of(goal));
+  if (floor_.size() <= kLarge * options_.whole_up_to) return kNowhere;
+  return regions_->nearestMiddle(deck, goal);
 }
 
 int DistanceTables::cells(Kind kind, Cell goal) const {
-  return kind == Kind::kNear ? around(floor_, goal, reach()).size() : floor_.size();
+  if (kind == Kind::kNear) return around(floor_, goal, reach(goal)).size();
+  return numbers_ == nullptr ? floor_.size() : numbers_->words();
 }
 
 DistanceTables::Entry* DistanceTables::create(Kind kind, Deck deck, Cell goal) {

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cell_numbers.h"
 #include "distance_search.h"
 #include "regions.h"
 #include "threads.h"
@@ -47,7 +48,7 @@ class DistanceTable {
   }
   /// Of its words; -1 beyond its window.
   int indexOf(Cell cell) const {
-    if (far_ == nullptr) return cell;
+    if (far_ == nullptr) return numbers_ == nullptr ? cell : numbers_[cell];
     const auto y = static_cast<int>(static_cast<std::uint64_t>(cell) * inverse_ >> kInverseBits);
     const int column = cell - y * width_ - window_.left, row = y - window_.top;
     const bool is_inside = static_cast<unsigned>(column) < static_cast<unsigned>(window_.columns) &&
@@ -61,8 +62,9 @@ class DistanceTable {
   /// rows.
   static constexpr int kInverseBits = 40;
   std::vector<std::uint32_t> words_;
-  const DistanceTable* far_ = nullptr;  ///< for cells beyond its window; nullptr: it has all
-  int detour_ = 0;                      ///< to be added to what that says
+  const std::int32_t* numbers_ = nullptr;  ///< of its words, by cell; nullptr: the cells' own
+  const DistanceTable* far_ = nullptr;     ///< for cells beyond its window; nullptr: it has all
+  int detour_ = 0;                         ///< to be added to what that says
   Window window_;
   std::uint64_t inverse_ = 0;
   int width_ = 0;
@@ -73,7 +75,8 @@ class DistanceTable {
 struct TableOptions {
   int turn_ticks = 1;     ///< what a quarter turn costs, up to kMaxTurnTicks
   std::size_t bytes = 0;  ///< of tables kept, at most
-  Cell whole_up_to = 0;   ///< cells of a floor each of whose tables has all cells
+  Cell whole_up_to = 0;   ///< cells of a floor each of whose tables has all cells; of one eight
+                          ///< times as large those to goals in lanes still have
 };
 
 class DistanceTables {
@@ -147,6 +150,8 @@ class DistanceTables {
   /// How many columns and rows from its goal a table ends that has a far one: behind the middle of
   /// its region, wherever that is.
   int reach() const { return regions_->side() * 3 / 2; }
+  /// The same of a table to a goal: from a lane the middle may be that of a region beside it.
+  int reach(Cell goal) const { return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach(); }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
   std::vector<Entry*> chooseOutdated(int max_age, std::int64_t work);
@@ -154,6 +159,7 @@ class DistanceTables {
   void buildAll(const std::vector<Entry*>& entries);
   void search(Entry& entry, DistanceSearch& search) const;
   void searchNear(Entry& entry, DistanceSearch& search) const;
+  void pack(const DistanceSearch& search, DistanceTable& table) const;
   bool isClosed(Deck deck, Cell cell) const;
   std::string heading() const;
 
@@ -162,9 +168,10 @@ class DistanceTables {
   Prices prices_;
   const TableOptions options_;
   const Threads& threads_;
-  std::unique_ptr<Regions> regions_;  ///< nullptr: each table has all cells
-  std::size_t used_ = 0;              ///< bytes
-  std::list<Entry> tables_;           ///< what was needed last comes first
+  std::unique_ptr<Regions> regions_;      ///< nullptr: each table has all cells
+  std::unique_ptr<CellNumbers> numbers_;  ///< nullptr: tables of all cells have a word for each
+  std::size_t used_ = 0;                  ///< bytes
+  std::list<Entry> tables_;               ///< what was needed last comes first
   std::unordered_map<std::int64_t, Entry*> index_;
   std::vector<Entry*> to_make_, asked_;                    ///< in this step
   std::vector<std::unique_ptr<DistanceSearch>> searches_;  ///< one a thread

@@ -52,6 +52,32 @@ Regions::Regions(const Floor& floor, int side)
   for (const Deck deck : {Deck::kUnder, Deck::kAisles}) find(deck);
 }
 
+int Regions::count(const Floor& floor, int side) {
+  const int columns = (floor.width() + side - 1) / side, rows = (floor.height() + side - 1) / side;
+  std::vector<std::uint8_t> has_cells(columns * rows);
+  for (Cell cell = 0; cell < floor.size(); ++cell) {
+    if (floor.isPassable(cell))
+      has_cells[floor.y(cell) / side * columns + floor.x(cell) / side] = 1;
+  }
+  return static_cast<int>(std::count(has_cells.begin(), has_cells.end(), 1));
+}
+
+Cell Regions::nearestMiddle(Deck deck, Cell cell) const {
+  const int column = floor_.x(cell) / side_, row = floor_.y(cell) / side_;
+  Cell nearest = kNowhere;
+  const auto away = [&](Cell other) {
+    return std::abs(floor_.x(other) - floor_.x(cell)) + std::abs(floor_.y(other) - floor_.y(cell));
+  };
+  for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
+    for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
+      const Cell other = middle(deck, y * columns_ + x);
+      if (other == kNowhere) continue;
+      if (nearest == kNowhere || away(other) < away(nearest)) nearest = other;
+    }
+  }
+  return nearest;
+}
+
 void Regions::find(Deck deck) {
   std::vector<Cell>& middles = middles_[static_cast<int>(deck)];
   middles.assign(size(), kNowhere);

@@ -14,6 +14,8 @@ class Regions {
  public:
   /// Squares of `side` cells.
   Regions(const Floor& floor, int side);
+  /// Returns how many squares of `side` cells have cells on which a robot can stand.
+  static int count(const Floor& floor, int side);
 
   int side() const { return side_; }
   int size() const { return columns_ * rows_; }
@@ -21,6 +23,8 @@ class Regions {
   /// Returns the cell that stands for a region on a deck: the nearest to its middle of the deck's
   /// largest connected part, no lane among them; kNowhere.
   Cell middle(Deck deck, int region) const { return middles_[static_cast<int>(deck)][region]; }
+  /// Returns the nearest of the middles of a cell's region and of those around it; kNowhere.
+  Cell nearestMiddle(Deck deck, Cell cell) const;
 
  private:
   void find(Deck deck);

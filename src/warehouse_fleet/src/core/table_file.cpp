@@ -54,7 +54,7 @@ void get(std::istream& in, Value* values, std::size_t count) {
 }  // namespace
 
 std::string DistanceTables::heading() const {
-  constexpr int kVersion = 1;
+  constexpr int kVersion = 2;
   std::ostringstream text;
   text << "distance tables, version " << kVersion << ": " << floor_.width() << " x "
        << floor_.height() << " cells, floor " << std::hex << fingerprint(floor_) << std::dec
@@ -99,7 +99,8 @@ void DistanceTables::load(std::istream& in) {
     has_worked_ = false;
     Entry* entry = known(key) != nullptr ? known(key) : create(Kind::kFar, deck, goal);
     if (entry == nullptr) return;  // there is no room for more
-    entry->table.words_.resize(floor_.size());
+    entry->table.words_.resize(cells(Kind::kFar, goal));
+    if (numbers_ != nullptr) entry->table.numbers_ = numbers_->of_cell.data();
     get(in, entry->table.words_.data(), entry->table.words_.size());
     entry->is_made = true;
   }

@@ -57,7 +57,7 @@ void DistanceTables::search(Entry& entry, DistanceSearch& search) const {
   if (entry.kind == Kind::kNear) searchNear(entry, search);
   if (entry.kind != Kind::kNear) {
     search.run(entry.deck, entry.goal, whole(floor_), entry.kind == Kind::kFar);
-    search.pack(entry.table.words_);
+    pack(search, entry.table);
   }
   entry.table.version_ = version_;
   entry.table.made_ = now_;
@@ -69,7 +69,7 @@ void DistanceTables::search(Entry& entry, DistanceSearch& search) const {
 void DistanceTables::searchNear(Entry& entry, DistanceSearch& search) const {
   const DistanceTable& far = entry.far->table;
   const Cell middle = entry.far->goal;
-  const Window window = around(floor_, entry.goal, reach());
+  const Window window = around(floor_, entry.goal, reach(entry.goal));
   search.run(entry.deck, entry.goal, window, false);
   int detour = 0;
   for (int heading = 0; heading < kHeadings; ++heading) {
@@ -85,6 +85,16 @@ void DistanceTables::searchNear(Entry& entry, DistanceSearch& search) const {
   search.pack(entry.table.words_);
   entry.table.enclose(floor_, window, far, detour);
   entry.far_made = far.made_;
+}
+
+/// Writes the costs of all cells.
+void DistanceTables::pack(const DistanceSearch& search, DistanceTable& table) const {
+  if (numbers_ == nullptr) {
+    search.pack(table.words_);
+  } else {
+    search.pack(numbers_->cells, table.words_);
+    table.numbers_ = numbers_->of_cell.data();
+  }
 }
 
 /// Whether no edge of those that the floor has leads there now.

@@ -12,7 +12,7 @@ from kiva_plugin_cpp import EventKind, World
 
 PORT = 8090  # the next free one if it is taken
 SPEED = 5.0  # simulated seconds per wall second, until the page sets another
-NEEDS = "the page needs starlette, uvicorn and wsproto: pip install 'kiva_warehouse[learning]'"
+NEEDS = "the page needs its server: pip install 'kiva_warehouse[learning]'"
 
 Event = tuple[float, int, str, str, str, int]
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse before a shift: its floor, and who stands where."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -47,8 +47,7 @@ class Site:
         assert plan is not None
 
         def cells(points: np.ndarray) -> dict[int, int]:
-            found = plan.cell_of(points[:, 0], points[:, 1]).tolist()
-            return dict(enumerate(found, start=1))
+            return _cells(plan, range(1, len(points) + 1), points[:, 0], points[:, 1])
 
         items = [(f"item{n}", int(unit) + 1) for n, unit in enumerate(laid.item_unit, start=1)]
         return cls(plan, cells(laid.robots), cells(laid.units), items, name)
@@ -62,8 +61,13 @@ class Site:
         unit_of |= {int(i["item_id"]): int(i["shelf_id"]) for i in fallen}
         return cls(
             plan,
-            {int(i): plan.cell_of(x, y) for i, x, y in zip(fleet.kiva_id, fleet.x, fleet.y)},
-            {int(u["shelf_id"]): plan.cell_of(u["x"], u["y"]) for u in units},
+            _cells(plan, fleet.kiva_id.tolist(), fleet.x, fleet.y),
+            _cells(plan, units["shelf_id"].tolist(), units["x"], units["y"]),
             [(f"item{item}", unit) for item, unit in unit_of.items() if unit],
             name,
         )
+
+
+def _cells(plan: FloorPlan, ids: Iterable[int], x: np.ndarray, y: np.ndarray) -> dict[int, int]:
+    """Returns {id: cell} of points [m]."""
+    return dict(zip(ids, plan.cell_of(x, y).tolist()))

@@ -54,6 +54,7 @@ class Travel:
         self._places = np.flatnonzero(plan.storage)
         self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
         self._place[self._places] = np.arange(len(self._places))
+        self._numbered = _Numbered(plan, self._ends, (self._forward, self._backward), self._places)
         self._of_places: OrderedDict[tuple[int, bool], tuple[np.ndarray, np.ndarray]] = (
             OrderedDict()
         )
@@ -90,8 +91,7 @@ class Travel:
         return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
 
     def _ways(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
-        graph = self._forward if forward else self._backward
-        seconds, steps = ways(graph, self._ends, cell, *self._costs, self._places)
+        seconds, steps = self._numbered.ways(cell, forward, *self._costs)
         return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), steps
 
     def _from_standstill(self, seconds: np.ndarray) -> np.ndarray:
@@ -123,6 +123,30 @@ class Travel:
         seconds[cell] = 0.0
         metres = np.where(np.isfinite(seconds), steps[nodes] * self.plan.spacing, np.inf)
         return Table(seconds, metres, before, heading)
+
+
+class _Numbered:
+    """The graph of the passable cells alone, by their numbers: half of a floor around a hole."""
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        ends: np.ndarray,
+        graphs: tuple[np.ndarray, np.ndarray],
+        places: np.ndarray,
+    ) -> None:
+        cells = np.flatnonzero(plan.passable)
+        self._number = np.full(plan.passable.size + 1, -1, np.int32)  # by cell; of -1: -1
+        self._number[cells] = np.arange(len(cells), dtype=np.int32)
+        self._ends, self._places = ends[cells], self._number[places]
+        self._forward, self._backward = (self._number[graph[cells]] for graph in graphs)
+
+    def ways(
+        self, cell: int, forward: bool, step: float, turn: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (seconds, steps) of the ways from a cell to all storage places, or back."""
+        graph = self._forward if forward else self._backward
+        return ways(graph, self._ends, int(self._number[cell]), step, turn, self._places)
 
 
 def _remembered(

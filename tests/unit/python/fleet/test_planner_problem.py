@@ -353,4 +353,4 @@ def test_tables_are_kept_in_a_file(made):
     file.write_text("something else")
     done = run(path, "--steps", 5, "--planner", spec, "--tables", file)
     assert done.returncode == 1
-    assert f"plan: {file}: 'something else'; 'distance tables, version 1: " in done.stderr
+    assert f"plan: {file}: 'something else'; 'distance tables, version 2: " in done.stderr

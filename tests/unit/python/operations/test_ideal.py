@@ -7,6 +7,8 @@ from operations_site import site
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.transports import STAY, Kind
+from warehouse_layout import layout
+from warehouse_layout.request import PRESETS
 from warehouse_operations.ideal import IdealFleet
 from warehouse_operations.travel import Travel
 
@@ -51,6 +53,17 @@ def test_ways_of_loaded_robots_keep_to_streets_and_lanes(where):
         assert there.seconds[cell] >= there.metres[cell] / 1.5 + 1.5 + 2 * 0.625
         lane = set(plan.stations[0].cells.tolist())
         assert set(back.cells(cell)) & lane == set(plan.stations[0].cells[4:].tolist())
+
+
+def test_ways_to_and_from_storage_are_those_of_tables_of_all_cells():
+    plan = layout.plan(PRESETS["small"]).plan
+    assert not plan.passable.all()  # their graph has the passable cells alone
+    travel = Travel(plan, Kinematics())
+    places = np.flatnonzero(plan.storage)
+    for cell in (plan.stations[-1].service_cell, int(places[7])):
+        there, back = travel.loaded_to(cell), travel.loaded_from(cell)
+        assert travel.seconds_from_all(places, cell).tolist() == there.seconds[places].tolist()
+        assert travel.metres_to_places(cell, places).tolist() == back.metres[places].tolist()
 
 
 def test_a_transport_from_the_first_event_to_the_last(where):
