@@ -130,5 +130,6 @@ def test_a_launch_whose_master_is_late_begins_again(session, tmp_path, monkeypat
     monkeypatch.setattr(session, "_has_master", lambda: log.read_text().count("again") == 3)
     session.start("bash launch warehouse.launch", "true", 10)
     (tmp_path / "launch").write_text("echo another error; exit 1\n")
+    monkeypatch.setattr(session, "_has_master", lambda: False)
     with pytest.raises(ValueError, match="another error"):
         session.start("bash launch warehouse.launch", "true", 10)
