@@ -111,7 +111,8 @@ class Charging:
         self._time: float | None = None
 
     @property
-    def _is_simulated(self) -> bool:
+    def is_simulated(self) -> bool:
+        """Whether robots have batteries, and places where they are charged."""
         return len(self._cells) > 0 and bool((self._traffic.robots.charge < 1).any())
 
     def kept(self) -> NDArray[np.bool_]:
@@ -119,7 +120,7 @@ class Charging:
         else."""
         charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
-        if not self._is_simulated:
+        if not self.is_simulated:
             return kept
         charging = list(self.cell_of)
         kept[charging] = ~self.policy.frees(charge[charging])
@@ -128,7 +129,7 @@ class Charging:
     def advance(self, idle: NDArray[np.bool_], is_wanted: bool) -> None:
         """Sends robots to charging places. idle: which have no work, (n,); is_wanted: whether
         transports wait for robots."""
-        if not self._is_simulated:
+        if not self.is_simulated:
             return
         traffic = self._traffic
         self._count()

@@ -131,7 +131,7 @@ class FleetController:
             traffic.update_map(seen.look_at_map())
         if not traffic.takes_over:
             self.transports.advance(reports)
-        if looks or not np.array_equal(gone, self.robots.gone):
+        if looks or gone is not self.robots.gone:
             units = seen.look_at_units()
             if units is not None:
                 self.transports.update_units(units)

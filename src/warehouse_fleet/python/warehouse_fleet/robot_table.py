@@ -60,7 +60,8 @@ class RobotTable:
 
     Requests to drive, written by the phases of Transports: `goal` and `home` (cells; a home is the
     storage place that a loaded robot may enter), `loaded`, `busy` (lifts or is served: stays).
-    By what robots report, written by align() and update_health(): `gone` (deleted), `charge` (0…1),
+    By what robots report, written by align() and update_health(): `gone` (deleted; another array
+    once it has changed), `charge` (0…1),
     `failures` (bits as in FleetState), `broken` (it stands, or is not heard), `lifts_not`.
     By execution, written by Traffic: `cell` (in which the robot stands, or stood last), `stands`
     (nothing released lies ahead), `waits_for` (a robot), `still_since` [s], `stalled` (it does not
@@ -110,15 +111,16 @@ class RobotTable:
         Robots that are gone stand nowhere (NaN) and are OUT_OF_SERVICE. Those that come back are in
         the mode that they report.
         """
-        gone = np.zeros(len(self), bool)
-        if not np.array_equal(reports["kiva_id"], self.kiva_ids):
+        if np.array_equal(reports["kiva_id"], self.kiva_ids):
+            gone = np.zeros(len(self), bool)
+        else:
             gone = ~np.isin(self.kiva_ids, reports["kiva_id"])
             reports = self._spread(reports, gone)
-        if gone.any() or self.gone.any():
+        self.mode[gone] = OUT_OF_SERVICE
+        if not np.array_equal(gone, self.gone):
             back = self.gone & ~gone
-            self.mode[gone] = OUT_OF_SERVICE
             self.mode[back] = reports["mode"][back]
-        self.gone = gone
+            self.gone = gone
         return reports
 
     def _spread(self, reports: Reports, gone: np.ndarray) -> np.ndarray:

@@ -190,7 +190,7 @@ class Traffic:
         """Returns the robots that stand at their goal, of those `among`, (n,) bool."""
         robots = self.robots
         there = robots.stands & ~robots.busy & (robots.cell == robots.goal)
-        return np.flatnonzero(there & among)
+        return (there & among).nonzero()[0]
 
     def on_refused(self, model: str) -> None:
         """Notes that a robot, by its model's name, has refused its path."""

@@ -251,10 +251,14 @@ class Transports:
         recover.run(self, reports)
         carry.run(self, reports)
         admit.run(self)
-        self.charging.advance(self.without_work(), True)
+        self._charge(is_wanted=True)
         assign.run(self)
-        self.charging.advance(self.without_work(), bool(self.book.open))
+        self._charge(is_wanted=bool(self.book.open))
         park.run(self)
+
+    def _charge(self, is_wanted: bool) -> None:
+        if self.charging.is_simulated:
+            self.charging.advance(self.without_work(), is_wanted)
 
     def without_work(self) -> np.ndarray:
         """Returns (n,) bool: robots that could be given work."""

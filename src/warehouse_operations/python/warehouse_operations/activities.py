@@ -19,21 +19,24 @@ OF_STEP = ("idle", "to unit", "queue", "lift", "to station", "service", "back", 
 class ActivityLog:
     """Robot-seconds by activity of a fleet that Transports drives."""
 
-    def __init__(self, robots: int) -> None:
-        self.robots = robots
-        self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
+    def __init__(self) -> None:
+        self._by_step = np.zeros(1 + len(OF_STEP))  # the first: without a transport
+        self._in_lanes = 0.0  # of those at BRINGING
 
     def observe(self, elapsed: float, transports: Any, standing: np.ndarray) -> None:
         """Adds what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
         steps = transports.book.step_of
         queues = standing & (steps == BRINGING)
-        waiting = int(np.count_nonzero(queues & transports.in_lane())) if queues.any() else 0
-        doing = np.bincount(steps + 1, minlength=len(OF_STEP) + 1)[1:].tolist()
-        counts = dict.fromkeys(ACTIVITIES, 0)
-        for activity, count in zip(OF_STEP, doing):
-            counts[activity] += count
-        counts["to station"] -= waiting
-        counts["queue"] += waiting
-        counts["idle"] = self.robots - sum(doing)
-        for activity, count in counts.items():
-            self.seconds[activity] += elapsed * count
+        if queues.any():
+            self._in_lanes += elapsed * int(np.count_nonzero(queues & transports.in_lane()))
+        self._by_step += elapsed * np.bincount(steps + 1, minlength=len(self._by_step))
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """The robot-seconds spent on each of ACTIVITIES up to now."""
+        out = dict.fromkeys(ACTIVITIES, 0.0)
+        for activity, seconds in zip(("idle", *OF_STEP), self._by_step.tolist()):
+            out[activity] += seconds
+        out["to station"] -= self._in_lanes
+        out["queue"] += self._in_lanes
+        return out

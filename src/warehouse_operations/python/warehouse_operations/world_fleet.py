@@ -35,7 +35,7 @@ class WorldFleet(FleetDriver):
         self.robot_count = len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
         self._cells = self.robots.cell
-        self._activities = ActivityLog(self.robot_count)
+        self._activities = ActivityLog()
         self._passages, self._waiting = np.zeros((2, site.plan.passable.size))
 
     def set_hooks(self, hooks: Hooks) -> None:
@@ -97,7 +97,7 @@ class WorldFleet(FleetDriver):
 
     def activities(self) -> dict[str, float]:
         """Returns the robot-seconds spent on each of activities.ACTIVITIES up to now."""
-        return dict(self._activities.seconds)
+        return self._activities.seconds
 
     @property
     def energy(self) -> dict[str, float]:

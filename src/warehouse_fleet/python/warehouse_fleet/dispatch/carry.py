@@ -35,7 +35,7 @@ def run(work: "Transports", reports: Reports) -> None:
     book, robots = work.book, work.robots
     lifting = (book.step_of == LIFTING) | (book.step_of == DROPPING)
     ended = lifting & robots.busy & (reports["status"] == IDLE)
-    for robot in np.flatnonzero(ended).tolist():
+    for robot in ended.nonzero()[0].tolist():
         _watch_lift(work, robot, int(reports["shelf_id"][robot]))
     for robot in work.traffic.arrived(DRIVES[book.step_of]).tolist():
         _arrive(work, robot)

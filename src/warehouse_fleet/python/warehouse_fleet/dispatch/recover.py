@@ -36,7 +36,7 @@ def _lost(work: "Transports") -> np.ndarray:
 def _drop_lost(work: "Transports") -> None:
     robots, lost = work.robots, _lost(work)
     has_one = work.book.step_of != NOWHERE
-    for robot in np.flatnonzero(has_one & (lost | robots.broken | robots.lifts_not)).tolist():
+    for robot in (has_one & (lost | robots.broken | robots.lifts_not)).nonzero()[0].tolist():
         transport = work.book.of_robot[robot]
         if transport.step <= READY:
             work.book.unassign(transport)
@@ -64,7 +64,7 @@ def _adopt_loaded(work: "Transports", reports: Reports) -> None:
     # A robot that broke while it lifted, or was served, and lost its transport, is free again.
     robots.busy[without & ~robots.broken & (reports["status"] == IDLE)] = False
     ready = without & loaded & robots.stands & ~robots.broken & ~_lost(work)
-    for robot in np.flatnonzero(ready).tolist():
+    for robot in ready.nonzero()[0].tolist():
         _adopt(work, robot, int(shelf[robot]))
 
 
