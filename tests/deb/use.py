@@ -75,9 +75,9 @@ def drive(command):
     print(command, "-> DONE")
 
 
-def open_page(patience=0.0):
-    """Fetches the page, waiting for it so long [s], and all that it names."""
-    end = time.monotonic() + patience
+def open_page():
+    """Fetches the page, once the viewer serves it, and all that it names."""
+    end = time.monotonic() + PATIENCE
     while True:
         try:
             page = urllib.request.urlopen(PAGE, timeout=60).read().decode()
@@ -119,7 +119,7 @@ def serve():
         command = next(line[10:] for line in lines if line.startswith("ExecStart="))
         command = Template(command).substitute(environment).split()
         with launched(*command, env=environment, cwd=environment["HOME"]):
-            open_page(patience=PATIENCE)
+            open_page()
         assert list(Path(environment["ROS_HOME"]).iterdir()), "logs are kept where the unit says"
     print("the service's command runs")
 
