@@ -39,7 +39,7 @@ def main():
         raise SystemExit(f"rware_train: {error}") from error
     if wanted.imitate or begin:
         # Gently: what was learnt is soon unlearnt.
-        settings = replace(settings, warm_up=30, rate=7e-4, entropy=0.003)
+        settings = replace(settings, warm_up=15, rate=7e-4, entropy=0.003)
     for seed in range(wanted.first_seed, wanted.first_seed + wanted.seeds):
         train(wanted, settings, seed, out, begin)
 

@@ -25,6 +25,8 @@ LATE = 124  # exit code of `timeout`
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
 TRIED = 10.0  # how long a command may take that tells whether a program is ready [s]
 ENDING = 20.0  # until a program that got Ctrl-C is asked in another way [s]
+STARTS = 3  # of a launch whose master does not come up in time, on a busy machine
+MASTERLESS = "could not contact master"
 LAUNCHED = re.compile(r"^(?:make run(?: ARGS=\"(?P<run>[^\"]*)\")?|make operate)(?: +#.*)?$")
 WORLDS = re.compile(r"\b(?:warehouse|operations)\.launch\b|empty_world\.launch\b")
 COMMON = 'make run ARGS="coordinator:=true"'  # beside pages that start none
@@ -74,8 +76,9 @@ class Program:
 class Session:
     """A ROS master's address, a page's address, a home, and what was started there."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, slowness: float = 1.0) -> None:
         self._folder, self._programs, self._number, self._kept = folder, [], 0, 0
+        self._tried = slowness * TRIED
         self.home = folder / "home"
         self.home.mkdir()
         self._renew()
@@ -110,11 +113,22 @@ class Session:
                 self._renew(exported)
                 if "empty_world" not in launched:
                     launched += f" viewer_port:={self.page}"
-            program = self._begin(launched)
-            self._programs.append(program)
-            if begins_world(command):
-                self._wait(program, self._has_master, patience)
+                self._begin_world(launched, patience)
+            else:
+                self._programs.append(self._begin(launched))
         self._wait(self._programs[-1], lambda: not self._try(ready), patience)
+
+    def _begin_world(self, launched, patience):
+        """Begins a launch, and again where it gave up its master: it gives it 10 s to come up."""
+        for left in reversed(range(STARTS)):
+            self._programs.append(self._begin(launched))
+            try:
+                self._wait(self._programs[-1], self._has_master, patience)
+                break
+            except ValueError as error:
+                if not left or MASTERLESS not in str(error):
+                    raise
+                self._programs.pop()
 
     def begin(self, command: str, ready: str, patience: float) -> Program:
         """Returns a program that outlives worlds, once the command `ready` succeeds."""
@@ -186,7 +200,7 @@ class Session:
     def _try(self, command):
         """Returns how a command ends."""
         done = subprocess.run(
-            ["timeout", f"{TRIED:g}", "bash", "-c", self._local(command)],
+            ["timeout", f"{self._tried:g}", "bash", "-c", self._local(command)],
             env=self.environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
@@ -206,8 +220,9 @@ class Session:
 class Shells:
     """The sessions of all pages: one that they share, and one for each that starts its own."""
 
-    def __init__(self, stack: contextlib.ExitStack) -> None:
+    def __init__(self, stack: contextlib.ExitStack, slowness: float = 1.0) -> None:
         self._stack, self._common, self._own, self._page = stack, None, None, None
+        self._slowness = slowness  # of the machine: all may take as many times as long
         self._broken = False  # what the page has started
         self._helpers: list[Program] = []
         stack.callback(self._leave)
@@ -227,7 +242,7 @@ class Shells:
         self._run(text, example.notes)
 
     def _run(self, text, notes):
-        patience = float(notes.get("patience", PATIENCE))
+        patience = self._slowness * float(notes.get("patience", PATIENCE))
         if self._own is None and any(begins_world(line) for line in _lines(text)):
             self._own = self._session()
             if self._common:
@@ -265,7 +280,7 @@ class Shells:
     def _shared(self):
         if self._common is None:
             self._common = self._session()
-            self._common.start(COMMON, DIRECTORY, PATIENCE)
+            self._common.start(COMMON, DIRECTORY, self._slowness * PATIENCE)
             running.wait(lambda: running.ask(self._address()), "the page of a warehouse")
             self.names = self._common.names()
             self._common.keep()
@@ -276,7 +291,7 @@ class Shells:
 
     def _session(self):
         folder = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="examples-"))
-        session = Session(Path(folder))
+        session = Session(Path(folder), self._slowness)
         self._stack.callback(session.end)
         return session
 

@@ -110,16 +110,25 @@ def _sentence(node):
 
 
 @cache
-def advices() -> list[tuple[re.Pattern[str], str]]:
-    """Returns what to do, by a pattern of the sentences; the first that is found holds."""
+def advices() -> list[tuple[re.Pattern[str], bool, str]]:
+    """Returns what to do, by a pattern; whether the pattern is one of places, else of sentences."""
     lines = [line for line in ADVICE.read_text().splitlines() if line and line[0] != "#"]
-    return [(re.compile(one), told) for one, _, told in (line.partition(" => ") for line in lines)]
+    parts = [line.partition(" => ") for line in lines]
+    return [(re.compile(one.removeprefix("@")), one[0] == "@", told) for one, _, told in parts]
 
 
-def advice(package: str, sentence: str) -> str:
-    """Returns what to do about a refusal of a package, "" where nothing is known."""
-    text = f"{package}: {sentence}"
-    return next((told for one, told in advices() if one.search(text)), "")
+def advice(package: str, sentence: str, place: str) -> str:
+    """Returns what to do about a refusal of a package's file, "" where nothing is known.
+
+    The first pattern that is found holds.
+    """
+    of_sentence, of_place = f"{package}: {sentence}", f"{package}/{place}"
+    found = (
+        told
+        for pattern, is_place, told in advices()
+        if pattern.search(of_place if is_place else of_sentence)
+    )
+    return next(found, "")
 
 
 def written() -> str:
@@ -138,7 +147,7 @@ def written() -> str:
         f"### {package}\n\n"
         + table(
             ["sentence", "what to do", "in"],
-            [(prose(one), advice(package, one), code(place)) for one, place in found],
+            [(prose(one), advice(package, one, place), code(place)) for one, place in found],
         )
         for package, found in refusals().items()
     ]

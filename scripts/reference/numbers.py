@@ -35,7 +35,7 @@ PLUGINS = (
     'A plugin stands in a model or a world: `<plugin name="…" filename="lib….so">`, with its '
     "parameters inside. A parameter that a plugin of a robot or a world does not know is refused; "
     "plugins known from gazebo_ros leave unknown ones out. How to write one: "
-    "[worlds](worlds.md#a-plugin-of-ones-own)."
+    "[worlds](worlds.md#a-plugin-of-your-own)."
 )
 
 

@@ -126,7 +126,7 @@ def test_the_planner_delivers_more_than_chance_and_without_a_stop():
 
 def test_what_is_no_policy_says_so(tmp_path):
     (tmp_path / "no.npz").write_text("hello")
-    with pytest.raises(policy.PolicyError, match="no.npz is no policy"):
+    with pytest.raises(policy.PolicyError, match="no.npz is not a policy"):
         policy.load(tmp_path / "no.npz")
     with pytest.raises(policy.PolicyError, match="huge-99ag: there is no such file"):
         policy.load("huge-99ag")

@@ -87,7 +87,7 @@ def test_a_shift_that_is_left_ends_its_thread():
         ({"decides": ["bins"]}, "decides is"),
         ({"decides": []}, "decides is"),
         ({"minutes": 0}, "minutes is 0"),
-        ({"seed": 3}, "seed is no option; there are"),
+        ({"seed": 3}, "seed is not an option; there are"),
     ],
 )
 def test_bad_options(options, said):

@@ -20,6 +20,7 @@ from rware.warehouse import ImageLayer, ObservationType, RewardType  # noqa: E40
 from rware.warehouse import Warehouse as Theirs  # noqa: E402
 
 from warehouse_learning import rware as ours  # noqa: E402
+from warehouse_learning.rware.task import Task  # noqa: E402
 
 STEPS = int(os.environ.get("RWARE_STEPS", "300"))
 LIKELY = [0.05, 0.55, 0.1, 0.1, 0.2]  # mostly forward: robots meet
@@ -177,7 +178,21 @@ def test_gymnasium_makes_vectors():
 def checked():
     """Every id that importing RWARE registers, and those with images; or one of forty."""
     ids = [*ours.ids.plain(), *ours.ids.of_images()]
-    return [name for name, _ in (ids if os.environ.get("RWARE_IDS") == "all" else ids[::40])]
+    chosen = ids if os.environ.get("RWARE_IDS") == "all" else ids[::40]
+    return [name for name, options in chosen if is_playable(options)]
+
+
+def is_playable(options):
+    """tiny-17ag-easy to tiny-19ag-easy request more shelves than there are."""
+    return options["request_queue_size"] <= (Task(**options).floor.highways == 0).sum()
+
+
+def test_what_the_package_registers_but_can_not_begin_is_refused():
+    for name, expected in (("rware", "larger sample"), ("kiva-rware", "request_queue_size is 34")):
+        with pytest.raises(ValueError, match=expected):
+            make(f"{name}-tiny-17ag-easy-v2").reset(seed=1)
+    unplayable = [name for name, options in ours.ids.plain() if not is_playable(options)]
+    assert unplayable == [f"rware-tiny-{n}ag-easy-v2" for n in (17, 18, 19)]
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")

@@ -143,7 +143,7 @@ class Commands(unittest.TestCase):
             ("person1", [1, 2], [0], "2 x and 1 y"),
             ("person2", [], [], "there is no 'person2', and no place to come to"),
             ("person2", [float("nan")], [0], "person2"),
-            ("kiva1", [1], [1], "kiva1: it is no person"),
+            ("kiva1", [1], [1], "kiva1: it is not a person"),
         ):
             refused = call("/warehouse/person", Person, name, x, y, 0, False)
             self.assertFalse(refused.success)

@@ -75,7 +75,7 @@ class Layouts(unittest.TestCase):
     def test_5_a_wrong_one_ends_roslaunch(self):
         for args, reason in (
             ([f"layout:={LAYOUTS}/blocked.layout.yaml"], "loaded robots that meet at"),
-            (["layout:=nix"], "no such layout file, and 'nix' is no preset"),
+            (["layout:=nix"], "no such layout file, and 'nix' is not a preset"),
             ([f"layout:={NORTH}", "size:=small"], "size:=small: with layout:="),
             ([f"layout:={NORTH}", "robots:=99"], "99 robots, but there is room for 23"),
         ):

@@ -167,8 +167,8 @@ class Checkpoints(unittest.TestCase):
     def test_only_names_in_the_folder_are_written_and_read(self):
         for name in ("/etc/passwd", "../up.checkpoint", "a/b.checkpoint", ".hidden.checkpoint", "",
                      "x" * 101, "a\nb"):  # fmt: skip
-            self.refused(save(name), "is no name")
-            self.refused(restore(name), "is no name")
+            self.refused(save(name), "is not a name")
+            self.refused(restore(name), "is not a name")
         self.assertEqual([p.name for p in self.outside.rglob("*") if p.is_file()], [])
         self.assertTrue(save("mine.checkpoint").success)
         self.assertTrue(restore("mine.checkpoint").success)

@@ -146,7 +146,7 @@ class ViewerApi(ViewerTest):
         self.refused(409, "off the grid", command(1, "mov", x=0.3, y=0))
         self.refused(409, "does not carry", command(1, "lift", status=0, shelf_id=1))
         self.refused(409, "can't be negative", ask("/warehouse", {"name": "x", "robots": -1}))
-        self.refused(409, "is no preset", ask("/warehouse", {"name": "nonsense"}))
+        self.refused(409, "is not a preset", ask("/warehouse", {"name": "nonsense"}))
 
     def test_what_is_no_command_is_refused(self):
         self.assertEqual(command(1, "jump")[0], 422)

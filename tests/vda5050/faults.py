@@ -39,7 +39,7 @@ HOSTILE = {  # by a part of what is told of each
     "JSON deeper than": b"[" * 50_000,
     "a message of": b'{"orderId": "' + b"x" * (1 << 20) + b'"}',
     "more than 200000 values": b'{"a": [' + b"1," * 250_000 + b"1]}",
-    "NaN is no number": b'{"orderId": NaN}',
+    "NaN is not a number": b'{"orderId": NaN}',
     "beyond what a double holds": b'{"orderUpdateId": 1e999}',
     "an object was expected": b"5",
     "can't decode byte": b"\xff\xfe\x00",

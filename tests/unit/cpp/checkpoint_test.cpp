@@ -355,7 +355,7 @@ TEST_F(Checkpoint, TheFieldIsNamed) {
   w.world.apply(wrench);
   refusal("external_inputs.wrenches[0].force.X", "not nan", 1.0625, nowhere);
   w.world.post(Command{Command::Kind::kMoveX, 123456, 1});
-  refusal("commands[0].kind", "77 is none of its values",
+  refusal("commands[0].kind", "77 is not one of its values",
           std::array<std::uint8_t, 5>{1, 0x40, 0xe2, 0x01, 0}, std::uint8_t{77});
 }
 

@@ -122,9 +122,9 @@ TEST_F(Commands, WithoutAFiniteNumberAreRefused) {
 
 TEST_F(Commands, ForHalfACellAreRefused) {
   w.movx(1, 0.5);
-  expectRefused("distance 0.5 m is no whole number of 1 m cells");
+  expectRefused("distance 0.5 m is not a whole number of 1 m cells");
   w.movy(1, -2.3);
-  expectRefused("distance -2.3 m is no whole number");
+  expectRefused("distance -2.3 m is not a whole number");
   w.mov(1, 1, 2.5);
   expectRefused("y = 2.5 m is off the grid of 1 m");
   w.mov(1, -0.01, 2);
@@ -374,14 +374,14 @@ TEST(Grid, OfHalfAMetre) {
   w.runUntilIdle(1);
   w.expectAt(1, -0.5, 2.5);
   w.movx(1, 0.25);
-  EXPECT_PRED2(contains, w.refusal(), "no whole number of 0.5 m cells");
+  EXPECT_PRED2(contains, w.refusal(), "not a whole number of 0.5 m cells");
 }
 
 TEST(Grid, OfOneAndAHalfMetres) {
   Warehouse w(Floorplan{20, 1.5});
   w.spawn("kiva", "kiva1", 1.5, -3);
   w.movx(1, 1);
-  EXPECT_PRED2(contains, w.refusal(), "no whole number of 1.5 m cells");
+  EXPECT_PRED2(contains, w.refusal(), "not a whole number of 1.5 m cells");
   w.mov(1, 2, 0);
   EXPECT_PRED2(contains, w.refusal(), "x = 2 m is off the grid of 1.5 m");
   w.mov(1, -4.5, 6);

@@ -110,10 +110,10 @@ TEST(Limits, EndIncludesThatNestTooDeep) {
 TEST(Limits, EndTextsThatAreTooLong) {
   const Models models;
   const std::string blanks(20'000'001, ' ');
-  EXPECT_PRED2(contains, warningsOf(blanks, {}), "expected 20000000 at the most");
+  EXPECT_PRED2(contains, warningsOf(blanks, {}), "expected at most 20000000");
   models.add("long", blanks);
   for (const std::string& outer : {include("model://long", "m"), model(include("model://long"))}) {
-    EXPECT_PRED2(contains, warningsOf(outer, models.paths()), "expected 20000000 at the most");
+    EXPECT_PRED2(contains, warningsOf(outer, models.paths()), "expected at most 20000000");
   }
   models.write("long.world", blanks);
   try {
@@ -165,7 +165,7 @@ TEST(Limits, EndMeshFilesThatAreTooLong) {
   models.write("long.dae", "<COLLADA/>");
   fs::resize_file(models.path("long.dae"), 100'000'001);
   EXPECT_PRED2(contains, warningsOf(mesh(models.path("long.dae")), {}),
-               "expected 100000000 at the most");
+               "expected at most 100000000");
 }
 
 TEST(Limits, EndMeshFilesThatNestTooDeep) {

@@ -229,8 +229,8 @@ TEST_F(People, WhoAreTakenAwayLetRobotsGoOn) {
 TEST_F(People, AreRefusedWhatMakesNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusalOf("missing", through({{1, 1}})), "there is no model 'missing'");
-  EXPECT_EQ(refusalOf("kiva1", through({{1, 1}})), "kiva1: it is no person");
-  EXPECT_EQ(refusalOf("ground_plane", through({{1, 1}})), "ground_plane: it is no person");
+  EXPECT_EQ(refusalOf("kiva1", through({{1, 1}})), "kiva1: it is not a person");
+  EXPECT_EQ(refusalOf("ground_plane", through({{1, 1}})), "ground_plane: it is not a person");
   EXPECT_EQ(refusalOf("person1", through({{1, 1}, {nan, 1}})),
             "person1: waypoint 1: it is not finite");
   EXPECT_EQ(refusalOf("person1", through({{1, 30}})),

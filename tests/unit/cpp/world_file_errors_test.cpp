@@ -122,7 +122,7 @@ const std::map<std::string, Loss> kWarnings = {
        kCube}}},
     {"gravity",
      {0,
-      {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
+      {":5: world 'w', gravity: this gravity is left out: '0 0 down' is not a value for <gravity>; "
        "expected three numbers"}}},
     {"gravity_huge",
      {0,
@@ -177,7 +177,7 @@ const std::map<std::string, Loss> kWarnings = {
     {"mass_text",
      {1,
       {":8:" + kLink +
-       ", inertial/mass: this mass is left out: 'heavy' is no value for <mass>; expected a "
+       ", inertial/mass: this mass is left out: 'heavy' is not a value for <mass>; expected a "
        "number"}}},
     {"mass_zero",
      {1,
@@ -249,11 +249,11 @@ const std::map<std::string, Loss> kWarnings = {
     {"size_nan",
      {1,
       {":9:" + kGeometry + "/box/size" + kNoCollision +
-       "'1 nan 1' is no value for <size>; expected three numbers"}}},
+       "'1 nan 1' is not a value for <size>; expected three numbers"}}},
     {"size_short",
      {1,
       {":9:" + kGeometry + "/box/size" + kNoCollision +
-       "'1 1' is no value for <size>; expected three numbers"}}},
+       "'1 1' is not a value for <size>; expected three numbers"}}},
     {"sphere_radius",
      {1,
       {":9:" + kGeometry + "/sphere/radius" + kNoCollision + "expected lengths above 0 m, found -1",
@@ -307,7 +307,7 @@ TEST(WorldFileWarnings, NameTheFileOfTheModelThatIsIncluded) {
   EXPECT_EQ(warningsOf(pathOf("include_broken")),
             std::vector<std::string>{
                 kBrokenModels + "/broken/model.sdf:6: model 'broken', link 'l', inertial/mass: "
-                                "this mass is left out: 'heavy' is no value for <mass>; "
+                                "this mass is left out: 'heavy' is not a value for <mass>; "
                                 "expected a number"});
 }
 
@@ -364,7 +364,7 @@ TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
       {"<model><sdf>model.sdf</sdf></model>", "expected a <name>"},
       {"<model><sdf version='1.6'/></model>", "expected a <name>"},
       {"<model><sdf version='99'>model.sdf</sdf></model>", "expected a <name>"},
-      {"<model><name>m</name><sdf version='1.x'>model.sdf</sdf></model>", "'1.x' is no number"},
+      {"<model><name>m</name><sdf version='1.x'>model.sdf</sdf></model>", "'1.x' is not a number"},
       {"<model><sdf version='1.6'>model.sdf</sdf></model>", ""},
       {"<model><name>m</name><sdf>model.sdf</sdf></model>", ""}};
   const std::string include = "<include><uri>model://m</uri></include>";
@@ -416,10 +416,10 @@ TEST(WorldFileErrors, NameTheLineOfAUrdf) {
       "<geometry><box size='a b c'/></geometry></visual></link></robot>";
   EXPECT_EQ(warningsOfText(urdf),
             (std::vector<std::string>{
-                "text:3: robot 'r', link 'a', visual/origin: this xyz is left out: '1 2' is no "
-                "value for it; expected three numbers",
+                "text:3: robot 'r', link 'a', visual/origin: this xyz is left out: '1 2' is not "
+                "a value for it; expected three numbers",
                 "text:4: model 'r', link 'a', visual 'a_visual', geometry/box/size: this visual is "
-                "left out: 'a b c' is no value for <size>; expected three numbers"}));
+                "left out: 'a b c' is not a value for <size>; expected three numbers"}));
 }
 
 TEST(WorldFileWarnings, AreNoneForAMeshBesideItsUrdf) {
@@ -444,7 +444,7 @@ TEST(WorldFileErrors, LeaveEntitiesAsTheyAre) {
   const std::vector<std::string> warnings = warningsOfText(xml);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_PRED2(test::contains, warnings[0], "text:3: world 'w', model 'm', pose: ");
-  EXPECT_PRED2(test::contains, warnings[0], "'&a9;' is no value for <pose>");
+  EXPECT_PRED2(test::contains, warnings[0], "'&a9;' is not a value for <pose>");
 }
 
 /// Each fault costs itself alone, and no second look at the rest.
@@ -522,7 +522,7 @@ TEST(WorldFileWarnings, KeepTheirLineBehindIncludesThatWereTakenOut) {
   EXPECT_EQ(parseWorld(xml, kPaths, "text", &warnings).models.size(), 2u);
   EXPECT_EQ(warnings, std::vector<std::string>{
                           "text:7: world 'w', model 'm', link 'l', inertial/mass: this mass is "
-                          "left out: 'heavy' is no value for <mass>; expected a number"});
+                          "left out: 'heavy' is not a value for <mass>; expected a number"});
 }
 
 TEST(WorldFileWarnings, KnowNamesOfIncludesAndOfModelsBesideThem) {

@@ -37,8 +37,8 @@ test('simulated time in minutes and seconds', () => {
 
 test('reasons of refusals', () => {
   assert.equal(reasonOf('no'), 'no');
-  assert.equal(reasonOf([{ loc: ['body', 'x'], msg: 'is no number' }, { loc: ['body', 'y'], msg: 'missing' }]),
-    'x: is no number; y: missing');
+  assert.equal(reasonOf([{ loc: ['body', 'x'], msg: 'is not a number' }, { loc: ['body', 'y'], msg: 'missing' }]),
+    'x: is not a number; y: missing');
 });
 
 test('a preset is named alone, one of your own with its counts', () => {

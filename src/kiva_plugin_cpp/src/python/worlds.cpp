@@ -147,7 +147,7 @@ py::array_t<bool> Worlds::drive(
     for (std::size_t k = 0; k < all; ++k) {
       if (std::isfinite(speeds->data()[k])) continue;
       throw py::value_error("wheel speed of robot " + std::to_string(k % robots_) + " in world " +
-                            std::to_string(k / robots_) + " is no finite number");
+                            std::to_string(k / robots_) + " is not a finite number");
     }
   }
   py::array_t<bool> out({static_cast<py::ssize_t>(size()), static_cast<py::ssize_t>(robots_)});

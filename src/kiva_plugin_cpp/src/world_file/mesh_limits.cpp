@@ -76,8 +76,8 @@ void checkMeshFile(const std::string& file, const std::string& ending) {
   if (failed) return;  // Assimp says why.
   const std::size_t most = ending == ".dae" ? kMostColladaBytes : kMostMeshBytes;
   if (size > most) {
-    throw DescriptionError("it has " + std::to_string(size) + " bytes; expected " +
-                           std::to_string(most) + " at the most");
+    throw DescriptionError("it has " + std::to_string(size) + " bytes; expected at most " +
+                           std::to_string(most));
   }
   if (ending == ".stl") checkTriangles(trianglesOfStl(file, size));
   if (ending == ".obj") checkTriangles(trianglesOfObj(file));

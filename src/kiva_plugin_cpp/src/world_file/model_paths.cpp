@@ -107,7 +107,7 @@ std::string newestFile(const std::string& config) {
        sdf = sdf->NextSiblingElement("sdf")) {
     const std::string version = attributeOf(*sdf, "version");
     if (!std::regex_match(version, kVersion)) {
-      throw SdfError(noteAt(*sdf, "version '" + version + "' is no number"));
+      throw SdfError(noteAt(*sdf, "version '" + version + "' is not a number"));
     }
     const double number = std::atof(version.c_str());
     if (contentOf(sdf).empty() || number <= best || number > kNewest) continue;

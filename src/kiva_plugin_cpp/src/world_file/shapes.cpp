@@ -97,7 +97,7 @@ std::vector<Vector2> pointsOf(const XmlElement& polyline) {
     points.push_back(pairIn(*point));
     const bool is_finite = std::isfinite(points.back().x) && std::isfinite(points.back().y);
     if (!is_finite) failAt(*point, "expected finite numbers");
-    if (points.size() > kMostPoints) failAt(polyline, "expected 2000 points at the most");
+    if (points.size() > kMostPoints) failAt(polyline, "expected at most 2000 points");
   }
   return points;
 }

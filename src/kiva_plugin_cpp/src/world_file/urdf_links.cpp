@@ -39,7 +39,7 @@ class Attributes {
     if (!element.Attribute(attribute.c_str())) return otherwise;
     warnings_->push_back(noteAt(element, "this " + attribute + " is left out: '" +
                                              attributeOf(element, attribute.c_str()) +
-                                             "' is no value for it; expected " + expected));
+                                             "' is not a value for it; expected " + expected));
     return otherwise;
   }
 

@@ -109,7 +109,7 @@ std::string faultOfValue(const std::string& text, const std::string& name,
   if (format.type == 's') return "";
   if (format.type == 'b' && !readFlag(text)) return "Invalid boolean value; expected true or false";
   if (!isValue(text, format.type)) {
-    return "'" + text + "' is no value for <" + name + ">; expected " + wordsFor(format.type);
+    return "'" + text + "' is not a value for <" + name + ">; expected " + wordsFor(format.type);
   }
   return format.type == 'd' ? faultOfRange(*readDouble(text), text, name, format) : "";
 }
@@ -127,7 +127,7 @@ std::string faultOfPoseText(const XmlElement& pose) {
   const auto words = wordsOf(text);
   for (const std::string& word : words) {
     const auto number = readDouble(word);
-    if (!number) return "'" + text + "' is no value for <pose>; expected " + wordsFor('p');
+    if (!number) return "'" + text + "' is not a value for <pose>; expected " + wordsFor('p');
     if (!std::isfinite(*number)) return "Pose values must be finite";
   }
   if (words.size() == count) return "";

@@ -130,8 +130,8 @@ const XmlElement* XmlDocument::findFrame(const XmlElement& scope, const std::str
 
 std::unique_ptr<XmlDocument> parseXml(const std::string& text) {
   if (text.size() > kMostBytes) {
-    throw SdfError({"it has " + std::to_string(text.size()) + " bytes; expected " +
-                        std::to_string(kMostBytes) + " at the most",
+    throw SdfError({"it has " + std::to_string(text.size()) + " bytes; expected at most " +
+                        std::to_string(kMostBytes),
                     "", "", 0});
   }
   auto document = std::make_unique<XmlDocument>();

@@ -30,7 +30,7 @@ def add_robot(engine: Engine, x: float, y: float, heading: float) -> int:
     _check_free(point, found, _cells(engine))
     quarters = round(heading / (math.pi / 2))
     if abs(heading - quarters * math.pi / 2) > OFF:
-        raise PlaceError(f"heading {heading:g} rad is no whole number of quarter turns")
+        raise PlaceError(f"heading {heading:g} rad is not a whole number of quarter turns")
     number = next(n for n in count(1) if n not in found.kiva)
     part = models.include("kiva", number, *point, yaw=quarters * math.pi / 2)
     engine.spawn(models.document([part]), part.name)

@@ -107,7 +107,7 @@ class CoordinatorServices:
 
 
 def check_mode(mode: int) -> None:
-    """Raises ValueError for a number that is no Mode."""
+    """Raises ValueError for a number that is not a Mode."""
     if mode not in list(Mode):
         text = f"mode is {mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE) was expected"
         raise ValueError(text)

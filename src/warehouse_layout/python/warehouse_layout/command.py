@@ -124,7 +124,7 @@ def _request(args: argparse.Namespace) -> Request:
     if not args.preset and (args.robots is None or args.units is None):
         raise RequestError("--robots and --units are needed, or the name of a preset")
     if not robots + units:
-        raise RequestError("0 robots and 0 storage units; one of them at least was expected")
+        raise RequestError("0 robots and 0 storage units; at least one of either was expected")
     items = args.items
     if items is None:
         items = min(items_for(units), base.items or LIMITS["items"])

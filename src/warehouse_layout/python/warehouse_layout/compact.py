@@ -211,7 +211,7 @@ class _Plan:
         """Draws storage in the blocks nearest to the stations, and parking behind it.
 
         Stations on several sides need a longer edge than storage needs room: what no robot parks
-        on in the middle is no floor then.
+        on in the middle is not a floor then.
         """
         blocks = np.ones(inside.shape, bool)
         blocks[self.street_y] = blocks[:, self.street_x] = False

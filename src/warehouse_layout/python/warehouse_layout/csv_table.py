@@ -66,7 +66,7 @@ class CsvTable:
     def _text(self, path: Path) -> str:
         try:
             if path.exists() and not path.is_file():
-                raise self._error(f"{path}: is no file")
+                raise self._error(f"{path}: is not a file")
             if (size := path.stat().st_size) > MOST_BYTES:
                 raise self._error(
                     f"{path}: has {size >> 20} MB; {MOST_BYTES >> 20} MB or less were expected; "
@@ -76,7 +76,7 @@ class CsvTable:
         except OSError as fault:
             raise self._error(f"{path}: {fault.strerror}") from fault
         if data.startswith(UTF_16) or b"\0" in data[:200]:
-            raise self._error(f"{path}: is in UTF-16, or no text; {SAVE_AS}")
+            raise self._error(f"{path}: is in UTF-16, or not text; {SAVE_AS}")
         try:
             return data.decode("utf-8-sig")
         except UnicodeDecodeError as fault:

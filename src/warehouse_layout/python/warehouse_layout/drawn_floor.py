@@ -58,7 +58,7 @@ def exits(floor: np.ndarray, drawn: DrawnFloor, stations: list[Station]) -> np.n
     out = np.full(floor.shape, ALL_EXITS, np.uint8)
     for heading in range(4):
         along = along_x if heading % 2 == 0 else along_y
-        # Ahead, into what is no street (places, lanes), and into streets that lead away.
+        # Ahead, into what is not a street (places, lanes), and into streets that lead away.
         leaves = one_way[heading] | along | ~neighbour(street, heading)
         leaves |= neighbour(one_way[heading], heading) | neighbour(along, heading)
         against = street & neighbour(one_way[(heading + 2) % 4], heading)

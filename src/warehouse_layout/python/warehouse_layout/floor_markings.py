@@ -214,7 +214,9 @@ def read(visuals: Iterable[Any], pose: np.ndarray, model: str = "") -> list[Mark
     yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
     quarters = round(yaw / (np.pi / 2))
     if abs(yaw - quarters * np.pi / 2) > 1e-3:
-        raise FloorError(f"floor markings are turned by {yaw:g} rad, no whole number of quarters")
+        raise FloorError(
+            f"floor markings are turned by {yaw:g} rad, not a whole number of quarters"
+        )
     c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarters % 4]
     marks = []
     for link, place, size in visuals:

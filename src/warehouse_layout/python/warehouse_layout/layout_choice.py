@@ -37,7 +37,7 @@ def chosen(name: str | os.PathLike[str], folder: str | Path | None = None) -> La
     path = path_of(name, folder)
     if not path.exists() and not Path(name).suffix and os.sep not in name:
         raise LayoutFileError(
-            f"{path}: there is no such layout file, and '{name}' is no preset; known are"
+            f"{path}: there is no such layout file, and '{name}' is not a preset; known are"
             f" {', '.join(PRESETS)}"
         )
     return layout_file.read(path)

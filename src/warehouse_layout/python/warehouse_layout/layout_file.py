@@ -75,7 +75,7 @@ def read(path: str | Path) -> LayoutFile:
     except OSError as error:
         raise LayoutFileError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise LayoutFileError(f"{path}: is no text in UTF-8") from error
+        raise LayoutFileError(f"{path}: is not text in UTF-8") from error
     return parse(text, str(path))
 
 
@@ -133,7 +133,7 @@ def _places(value: Any) -> Any:
 def _flow(value: Any) -> str:
     """Returns a value in a line, as people write YAML."""
     if isinstance(value, float) and value.is_integer():
-        return f"{value:.1f}"  # a share of 1 is no count of 1
+        return f"{value:.1f}"  # a share of 1 is not a count of 1
     if isinstance(value, (int, float)):
         return json.dumps(value)
     text: str = yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=10**9)

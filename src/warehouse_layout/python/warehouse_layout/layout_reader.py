@@ -74,9 +74,9 @@ class LayoutReader:
             node = yaml.compose(self._text, Loader=yaml.SafeLoader)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
-            self._fail_at(mark.line, mark.column, f"is no YAML: {error.problem or error.context}")
+            self._fail_at(mark.line, mark.column, f"is not YAML: {error.problem or error.context}")
         except (yaml.YAMLError, RecursionError, ValueError) as error:
-            self._fail(None, f"is no YAML: {' '.join(str(error).split())}")
+            self._fail(None, f"is not YAML: {' '.join(str(error).split())}")
         if node is None:
             self._fail(None, "is empty; a layout was expected")
         return node
@@ -88,7 +88,7 @@ class LayoutReader:
             if key.value not in keys:
                 near = difflib.get_close_matches(str(key.value), keys, 1)
                 hint = f"; did you mean '{near[0]}'?" if near else f"; known: {', '.join(keys)}"
-                self._fail(key, f"'{key.value}' is no key of {what}{hint}")
+                self._fail(key, f"'{key.value}' is not a key of {what}{hint}")
             if key.value in out:
                 self._fail(key, f"'{key.value}' is there twice")
             out[key.value] = value
@@ -175,7 +175,7 @@ class LayoutReader:
                     self._fail_at(
                         at,
                         column + i,
-                        f"{character!r} is no cell of a drawing; known: {known}, space, A…Z",
+                        f"{character!r} is not a cell of a drawing; known: {known}, space, A…Z",
                     )
         if not width or width * len(lines) > MOST_CELLS:
             self._fail(node, f"floor: 1 to {MOST_CELLS} cells were expected")

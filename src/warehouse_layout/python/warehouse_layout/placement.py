@@ -132,7 +132,9 @@ class _Placement:
         wanted = self._file.storage_units
         if isinstance(wanted, tuple):
             storage = self._drawn.storage
-            return self._named(wanted, storage, "a storage unit", "which is no storage place 's'")
+            return self._named(
+                wanted, storage, "a storage unit", "which is not a storage place 's'"
+            )
         count = round(wanted * len(places)) if isinstance(wanted, float) else wanted
         if count > len(places):
             raise self._fail(

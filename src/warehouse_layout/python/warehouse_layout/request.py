@@ -92,7 +92,7 @@ def _preset(name: str) -> Request:
     except KeyError:
         known = ", ".join(PRESETS)
         raise RequestError(
-            f"'{name}' is no preset and all counts are 0; give counts, or one of: {known}"
+            f"'{name}' is not a preset and all counts are 0; give counts, or one of: {known}"
         ) from None
 
 

@@ -91,7 +91,7 @@ def read(path: str | Path) -> SdfWorld:
     except OSError as error:
         raise WorldError(f"{path}: {error.strerror}") from error
     except (ElementTree.ParseError, ValueError, RecursionError) as error:
-        raise WorldError(f"{path}: is no XML: {error}") from error
+        raise WorldError(f"{path}: is not XML: {error}") from error
     world = root.find("world") if root.tag == "sdf" else None
     if world is None:
         raise WorldError(f"{path}: an <sdf> with a <world> was expected")

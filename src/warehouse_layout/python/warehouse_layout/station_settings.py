@@ -53,7 +53,7 @@ def _hours(value: Any) -> Hours:
     is_pairs = isinstance(value, list) and all(isinstance(v, list) and len(v) == 2 for v in value)
     if not is_pairs or not value:
         raise StationSettingError(
-            f"hours is {value!r}; pairs [from, to] in hours from the begin of the shift were"
+            f"hours is {value!r}; pairs [from, to] in hours since the shift began were"
             " expected, as in [[0, 4], [5, 8]]"
         )
     edges = [_number("hours", edge) for pair in value for edge in pair]

@@ -74,7 +74,7 @@ def _parse(path: str | Path) -> tuple[ElementTree.Element, ElementTree.Element]:
     try:
         root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
-        raise WorldFileError(f"{path} is no XML: {error}") from error
+        raise WorldFileError(f"{path} is not XML: {error}") from error
     world = root.find("world") if root.tag == "sdf" else None
     if world is None:
         raise WorldFileError(f"{path} holds no <sdf> with a <world>")

@@ -78,7 +78,7 @@ py::tuple makeWays(const Array<Cell>& next, const Array<std::uint8_t>& end, Cell
   const RouteGraph graph = makeGraph(next, end, start, step, turn);
   const std::vector<Cell> ends = copied<Cell>(to);
   for (const Cell cell : ends) {
-    if (cell < 0 || cell >= graph.cells) throw py::value_error("to holds what is no cell");
+    if (cell < 0 || cell >= graph.cells) throw py::value_error("to holds what is not a cell");
   }
   Ways ways;
   {

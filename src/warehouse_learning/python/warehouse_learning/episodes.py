@@ -18,7 +18,7 @@ FORMAT = "kiva-episode 1"
 
 
 class EpisodeError(ValueError):
-    """A file that is no episode; the message names it and why."""
+    """A file that is not an episode; the message names it and why."""
 
 
 def save(path: Any, options: Options, seed: int, actions: Any) -> None:

@@ -56,7 +56,7 @@ class KivaOperationsEnv(gymnasium.Env):
         known = {f.name for f in fields(simulation.Description)} - {"seconds", "seed"}
         for name in options:
             if name not in known:
-                raise ValueError(f"{name} is no option; there are {', '.join(sorted(known))}")
+                raise ValueError(f"{name} is not an option; there are {', '.join(sorted(known))}")
         if not 0 < minutes <= 24 * 60:
             raise ValueError(f"minutes is {minutes!r}; a number above 0, up to 1440, was expected")
         self.decides, self.render_mode = tuple(decides), render_mode
@@ -95,7 +95,7 @@ class KivaOperationsEnv(gymnasium.Env):
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Takes a candidate, and lets the shift go on to the next decision.
 
-        Raises ActionError for what is no candidate.
+        Raises ActionError for what is not a candidate.
         """
         if self._shift is None or self._decision is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")

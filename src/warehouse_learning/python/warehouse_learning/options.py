@@ -136,7 +136,7 @@ class Options:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in given:
             if name not in known:
-                raise OptionError(f"{name} is no option; there are {', '.join(known)}")
+                raise OptionError(f"{name} is not an option; there are {', '.join(known)}")
         return cls(**given)
 
 

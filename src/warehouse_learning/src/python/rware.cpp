@@ -191,7 +191,8 @@ class Rware {
 
   static void checkAction(long action) {
     if (action >= 0 && action < rware::kActions) return;
-    throw py::value_error("actions: " + std::to_string(action) + " is none; 0 to 4 were expected");
+    throw py::value_error("actions: " + std::to_string(action) +
+                          " is not an action; 0 to 4 were expected");
   }
 
   static std::int8_t actionOf(const py::handle& given) {

@@ -48,7 +48,7 @@ def make_engine(text: Any) -> Engine:
         url = make_url(url_of(text))
     except (SQLAlchemyError, ValueError) as error:
         kind = str(text).partition("://")[0]
-        raise DatabaseError(f"{kind}://…: is no URL of a database") from error
+        raise DatabaseError(f"{kind}://…: is not a URL of a database") from error
     try:
         is_file = url.get_backend_name() == "sqlite"
         options: dict[str, Any] = (
@@ -106,7 +106,7 @@ def _check_file(path: Path) -> None:
         with path.open("rb") as file:
             begin = file.read(len(MAGIC))
         if begin and begin != MAGIC:
-            raise schema.SchemaError("is no SQLite database; another file was expected")
+            raise schema.SchemaError("is not an SQLite database; another file was expected")
 
 
 def _check_pages(connection: Any) -> None:

@@ -51,7 +51,7 @@ class NearestHooks:
 class IdealFleet:
     """Robots, units and stations of a FloorPlan, as protocols.Requests offers them.
 
-    robots, units: the cell of each, by id. Raises ValueError where a unit's cell is no storage
+    robots, units: the cell of each, by id. Raises ValueError where a unit's cell is not a storage
     place. collisions, blocked, watchdog, stuck, fallen_items, plan_ms and executed_over_planned are
     as if nothing ever went wrong.
     """

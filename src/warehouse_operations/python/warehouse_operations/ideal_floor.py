@@ -85,7 +85,7 @@ class IdealFloor:
             raise UnreachableError("a station, or x and y, was expected")
         cell = int(self.plan.cell_of(x, y))
         if not 0 <= cell < self.plan.passable.size or not self.plan.passable.flat[cell]:
-            raise UnreachableError(f"({x}, {y}) is no cell to drive to")
+            raise UnreachableError(f"({x}, {y}) is not a cell to drive to")
         if self.plan.storage.flat[cell] and not self.free[cell]:
             raise UnreachableError(f"the storage place at ({x}, {y}) is taken")
         self._check_way(shelf_id, cell, f"({x}, {y})")

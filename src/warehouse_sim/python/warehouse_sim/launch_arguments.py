@@ -117,7 +117,7 @@ def _file(what: str) -> Check:
         path = place.cwd / text
         if not text or (path.is_file() and os.access(path, os.R_OK)):
             return ""
-        return f"{what} was expected; {path} is {'no file' if path.exists() else 'not there'}"
+        return f"{what} was expected; {path} is {'not a file' if path.exists() else 'not there'}"
 
     return check
 

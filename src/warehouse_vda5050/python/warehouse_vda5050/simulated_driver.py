@@ -108,7 +108,7 @@ class SimulatedDriver(Driver):
         self._world.follow(self.kiva_id, path_id, first, points, released)
 
     def lift(self, unit: str, up: bool) -> None:
-        """Sends a lift; a unit that is no number refuses itself."""
+        """Sends a lift; a unit that is not a number refuses itself."""
         self.refusal = ""
         try:
             shelf_id = int(unit.removeprefix("storage_unit") or 0)

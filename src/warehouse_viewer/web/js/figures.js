@@ -11,7 +11,7 @@ const exact = (value) => `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %`;
 /** What the server calls each; `most`: less is better. */
 const LEADING = [
   { name: 'pieces', title: 'Pieces per hour', told: count, aim: ({ target, of }) => `target ${count(target)}: 90 % of what stations can, ${count(of)}` },
-  { name: 'orders', title: 'Orders done per hour', told: count, aim: ({ target }) => (target ? `target ${count(target)}: so many come in` : 'target: as many as come in') },
+  { name: 'orders', title: 'Orders done per hour', told: count, aim: ({ target }) => (target ? `target ${count(target)}: as many arrive` : 'target: as many as come in') },
   { name: 'late', title: 'Late orders', told: exact, most: true, aim: ({ target }) => `target ${percent(target)} at most` },
   { name: 'available', title: 'Robots available', told: percent, aim: ({ target, of, value }) => `${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
 ];

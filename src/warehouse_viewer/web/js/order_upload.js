@@ -65,7 +65,7 @@ export class OrderUpload {
 
   show(answer) {
     if (!answer.accepted) {
-      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : 'The first of what is wrong';
+      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : 'The first fault';
       this.say(`${this.name} is not accepted`, `None of its orders is in the list. ${some}:`, answer.faults);
       return;
     }
@@ -110,7 +110,7 @@ async function textOf(file) {
   } catch {
     throw new Error(`it is not in UTF-8; ${SAVE_AS}`);
   }
-  if (text.includes('\0')) throw new Error(`it is no text; ${SAVE_AS}`);
+  if (text.includes('\0')) throw new Error(`it is not text; ${SAVE_AS}`);
   if (!text.trim()) throw new Error('there is nothing in it');
   return text;
 }

@@ -16,7 +16,7 @@ export function lasting(seconds) {
   return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
-/** A span [s] on an axis: '12 min', or '3:45' where it is no whole number of minutes. */
+/** A span [s] on an axis: '12 min', or '3:45' where it is not a whole number of minutes. */
 export function before(seconds) {
   const s = Math.round(seconds);
   if (s < 60) return `${s} s`;

@@ -200,7 +200,7 @@ def test_a_misspelt_size_is_told_and_the_service_comes_all_the_same():
     world, told = FakeWorld(standing=[FLOOR]), []
     service(world, told).start("smal")
     assert set(world.standing) == {FLOOR}
-    assert told[0].startswith("nothing was built: 'smal' is no preset")
+    assert told[0].startswith("nothing was built: 'smal' is not a preset")
 
 
 def test_long_work_tells_how_far_it_is(monkeypatch):

@@ -4,6 +4,8 @@
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
+from functools import cache
 
 import pytest
 from paths import ROOT
@@ -28,6 +30,8 @@ SOURCES = [
     *ROOT.glob("src/*/python/**/*.py"),
     *ROOT.glob("src/kiva_plugin_cpp/src/ros/**/*.cpp"),
 ]
+BACK = re.compile(r"sentence|(?i:correct the value)|what (?:is|was) (?:accepted|expected)")
+MANY = 40  # refusals that one advice may be for
 # No topic and no service: parameters, files, and beginnings of names.
 OTHERS = {
     "/warehouse",
@@ -231,24 +235,52 @@ def test_each_refusal_is_listed():
     assert "it carries nothing" in written and "is off the grid of … m" in written
 
 
+def advised():
+    """Counts the refusals of each advice."""
+    return Counter(
+        events.advice(package, sentence, place)
+        for package, found in events.refusals().items()
+        for sentence, place in found
+    )
+
+
 def test_each_refusal_says_what_to_do():
     lacking = [
-        f"{package}: {sentence}"
+        f"{package}/{place}: {sentence}"
         for package, found in events.refusals().items()
-        for sentence, _ in found
-        if not events.advice(package, sentence)
+        for sentence, place in found
+        if not events.advice(package, sentence, place)
     ]
     assert not lacking, "scripts/reference/advice.txt has no line for these"
 
 
+def test_no_advice_is_general():
+    """What only sends back to the sentence, or fits too many of them, tells nothing new."""
+    assert [told for told in advised() if BACK.search(told)] == []
+    assert {told: count for told, count in advised().items() if count > MANY} == {}
+
+
 def test_each_advice_is_of_use():
-    given = {
-        events.advice(package, sentence)
-        for package, found in events.refusals().items()
-        for sentence, _ in found
-    }
-    assert {told for _, told in events.advices()} <= given
-    assert events.advice("warehouse_fleet", "green cheese") == ""
+    assert {told for *_, told in events.advices()} <= set(advised())
+    assert events.advice("warehouse_fleet", "green cheese", "elsewhere.py") == ""
+
+
+@cache
+def slugs(page):
+    """Returns what links name the headings of a page of the reference by, as MyST does."""
+    file = ROOT / "doc/reference" / page
+    text = file.read_text() if file.is_file() else PAGES[page]()
+    heads = re.findall(r"^#+ (.*)", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.M)
+    plain = [re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", head).strip().lower() for head in heads]
+    return {re.sub(r"[^\w\- ]", "", head.replace(" ", "-")) for head in plain}
+
+
+@pytest.mark.parametrize("told", sorted({told for *_, told in events.advices()}))
+def test_each_advice_leads_to_a_place(told):
+    for page, place in re.findall(r"\]\(([^)#]+)#?([^)]*)\)", told):
+        there = page in PAGES or (ROOT / "doc/reference" / page).is_file()
+        assert there, page
+        assert not place or place in slugs(page), f"{page} has {sorted(slugs(page))}"
 
 
 def test_each_key_of_a_layout_file_is_listed():

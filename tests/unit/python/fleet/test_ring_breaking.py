@@ -38,7 +38,7 @@ def test_rings_are_found_among_queues_that_follow_each_other():
     before = np.array([*SQUARE, 20, 21, 22, 0])
     after = np.array([*turned(SQUARE, range(4)), 21, 22, 23, 0])
     assert rings_of(before, after, standing(before)) == [[0, 1, 2, 3]]
-    after[2] = SQUARE[2]  # one stands, and the others run into it: that is no ring
+    after[2] = SQUARE[2]  # one stands, and the others run into it: that is not a ring
     assert rings_of(before, after, standing(before)) == []
 
 

@@ -105,7 +105,7 @@ def test_another_grid_than_that_of_the_building_is_told(tmp_path):
 
 
 def test_a_name_of_nothing_is_told_with_the_presets():
-    with pytest.raises(ValueError, match="no preset; known are empty, small, medium"):
+    with pytest.raises(ValueError, match="not a preset; known are empty, small, medium"):
         World.layout("smal")
     with pytest.raises(ValueError, match="can't pass each other"):
         World.layout(LAYOUTS / "blocked.layout.yaml")

@@ -98,7 +98,7 @@ def test_wrong_arguments_are_told():
         worlds.post([0, 1], turns(3))
     with pytest.raises(ValueError, match="world 1 has 3 robots"):
         Worlds.of([World.preset("small"), World.create(robots=3, shelves=12)])
-    with pytest.raises(ValueError, match="robot 1 in world 0 is no finite"):
+    with pytest.raises(ValueError, match="robot 1 in world 0 is not a finite"):
         worlds.drive(np.array([[0, np.nan, 0, 0]] * 2), np.zeros((2, 4)))
     with pytest.raises(ValueError, match="checkpoint"):
         worlds.restore(0, b"nonsense")

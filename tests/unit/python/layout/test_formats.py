@@ -122,9 +122,9 @@ def test_a_thousand_cells_square_take_seconds(write, tmp_path):
         (LEAGUE.replace("width 12\n", ""), "width is ''"),
         (LEAGUE.replace("map\n", ""), ":4: '@@@@@@@@@@@@'; type, height, width, map were expected"),
         (LEAGUE.replace(".E@", "E@", 1), ":7: 11 cells; width says 12"),
-        (LEAGUE.replace("TT", "T?"), r":9:9: '\?' is no cell of a map"),
+        (LEAGUE.replace("TT", "T?"), r":9:9: '\?' is not a cell of a map"),
         ("", ":1: no map"),
-        (b"\xff\xfe\x00", "byte 0 is no text in UTF-8"),
+        (b"\xff\xfe\x00", "byte 0 is not text in UTF-8"),
     ],
 )
 def test_a_wrong_map_is_told(write, text, message):
@@ -145,7 +145,7 @@ def test_names_of_files_tell_the_format(write, tmp_path):
     with pytest.raises(FormatError, match="b.map: No such file or directory"):
         formats.convert(path, tmp_path / "none" / "b.map")
     wrong = write(LAYOUT.replace("floor", "flor"), "b.layout.yaml")
-    with pytest.raises(FormatError, match="b.layout.yaml:3:1: 'flor' is no key"):
+    with pytest.raises(FormatError, match="b.layout.yaml:3:1: 'flor' is not a key"):
         formats.convert(wrong, tmp_path / "b.map")
 
 

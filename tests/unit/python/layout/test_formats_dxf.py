@@ -103,9 +103,9 @@ def test_layers_of_ones_own(path, tmp_path):
     _, told = formats.read(path, layers)
     assert "layer 'A-parking-NEW': 1 entity left out; --layers can say what it holds" in told
     for text, message in (
-        ("wals: A", "'wals' is none of our names; did you mean 'walls'"),
+        ("wals: A", "'wals' is not one of our names; did you mean 'walls'"),
         ("walls: {a: 1}", "walls is {'a': 1}; names of layers were expected"),
-        ("walls: [", "layers.yaml:1: is no YAML"),
+        ("walls: [", "layers.yaml:1: is not YAML"),
         ("[]", "our names with layers were expected"),
     ):
         layers.write_text(text)
@@ -158,7 +158,7 @@ def test_walls_with_gaps(path):
 
 def test_what_is_wrong_is_told(path):
     document = drawing()
-    path.write_text("0\nSECTION\nthis is no drawing")
+    path.write_text("0\nSECTION\nthis is not a drawing")
     with pytest.raises(FormatError, match="hall.dxf: "):
         formats.read(path)
     space = document.modelspace()

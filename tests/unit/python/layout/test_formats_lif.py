@@ -165,7 +165,7 @@ def changed(**at):
 @pytest.mark.parametrize(
     "values, message",
     [
-        ("[1, 2", r"hall.lif.json:1:6: is no JSON: Expecting ',' delimiter"),
+        ("[1, 2", r"hall.lif.json:1:6: is not JSON: Expecting ',' delimiter"),
         ("[1, 2]", r"is \[1, 2\]; an object was expected"),
         ('{"layouts": []}', "layouts is missing or empty"),
         ("[" * 100_000, "too large or too deep"),
@@ -181,10 +181,10 @@ def changed(**at):
         (changed(**{"0__nodes__3__nodeId": 7}), r"layouts\[0\].nodes\[3\].nodeId is 7; a text"),
         (changed(**{"0__nodes__3__nodeId": "N1"}), "nodeId is 'N1', as that of another node"),
         (changed(**{"0__nodes": {}}), r"layouts\[0\].nodes is {}; a list was expected"),
-        (changed(**{"0__nodes": []}), r"edges\[0\].startNodeId is 'N1', which is no node"),
+        (changed(**{"0__nodes": []}), r"edges\[0\].startNodeId is 'N1', which is not a node"),
         (
             changed(**{"0__edges__1__endNodeId": "N9"}),
-            r"edges\[1\].endNodeId is 'N9', which is no node",
+            r"edges\[1\].endNodeId is 'N9', which is not a node",
         ),
         (changed(**{"0__stations__0__interactionNodeIds": ["Q"]}), "name no node that there is"),
         (changed(**{"0__stations__0__interactionNodeIds": [3]}), r"interactionNodeIds\[0\] is 3"),

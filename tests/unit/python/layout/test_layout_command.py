@@ -80,7 +80,7 @@ def test_a_wrong_file_is_one_sentence(run, good, tmp_path, command):
     out = {"check": [], "draw": ["--out", "a.svg"], "world": ["--out", "a.sdf"]}[command]
     done = run(command, good, *out)
     assert done.returncode == 1
-    assert done.stderr.startswith(f"layout: {good}:5:5: '?' is no cell of a drawing")
+    assert done.stderr.startswith(f"layout: {good}:5:5: '?' is not a cell of a drawing")
     assert done.stderr.count("\n") == 1
     assert not list(tmp_path.glob("a.*"))
 

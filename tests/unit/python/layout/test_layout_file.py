@@ -44,9 +44,9 @@ def test_what_is_left_out_has_a_default():
 
 # The text is replaced once; the error begins with file, line and column.
 WRONG = {
-    "an unknown key": ("robots: 1", "robotz: 1", "11:1: 'robotz' is no key of a layout file"),
+    "an unknown key": ("robots: 1", "robotz: 1", "11:1: 'robotz' is not a key of a layout file"),
     "a ragged line": ("  #s..#", "  #s.#", "6:7: this line of the drawing has 4 cells, the first"),
-    "an unknown character": ("#s..#", "#s?.#", "6:5: '?' is no cell of a drawing"),
+    "an unknown character": ("#s..#", "#s?.#", "6:5: '?' is not a cell of a drawing"),
     "a station not drawn": ("#pA.#", "#p..#", "9:3: station 'A' is not drawn"),
     "a station not told": ("  A: {", "  B: {", "9:3: station 'B' is not drawn"),
     "a letter without a station": ("#s..#", "#sB.#", "6:5: 'B' is drawn, but 'stations' has no"),
@@ -56,11 +56,11 @@ WRONG = {
     "a cell twice": ("[[3, 2]]", "[[3, 2], [3, 2]]", "9:64: station 'A': exit: [3, 2] is there"),
     "no cell": ("[[3, 2]]", "[[3]]", "9:56: station 'A': exit: a cell [column, row] was expected"),
     "an unknown kind": ("kind: pick", "kind: pack", "9:26: station 'A': kind is 'pack'; known:"),
-    "an unknown key of a station": ("kind:", "kid:", "9:20: 'kid' is no key of a station; did"),
+    "an unknown key of a station": ("kind:", "kid:", "9:20: 'kid' is not a key of a station; did"),
     "another version": ("layout: 1", "layout: 2", "1:9: layout is 2; this reads version 1"),
     "a count below 0": ("robots: 1", "robots: -1", "11:9: robots is -1; a whole number"),
     "a share above 1": ("units: 1", "units: 1.5", "10:16: storage_units (a share) is 1.5"),
-    "no YAML": ("robots: 1", "robots: [1", "12:1: is no YAML"),
+    "no YAML": ("robots: 1", "robots: [1", "12:1: is not YAML"),
 }
 
 

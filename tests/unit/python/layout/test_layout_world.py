@@ -173,7 +173,7 @@ def test_a_layout_stands_in_its_building(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "is no XML"),
+        ("", "is not XML"),
         ("<sdf><model name='m'/></sdf>", "an <sdf> with a <world> was expected"),
         ("<sdf><world name='w'/></sdf>", "neither a floor nor anything solid"),
         (

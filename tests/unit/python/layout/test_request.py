@@ -59,7 +59,7 @@ def test_more_stations_are_refused(counts, words):
 @pytest.mark.parametrize(
     "counts, words",
     [
-        ({}, "'yard' is no preset.*empty, small, medium, large, huge"),
+        ({}, "'yard' is not a preset.*empty, small, medium, large, huge"),
         ({"robots": -1, "shelves": 4}, "robots is -1.*negative"),
         ({"items": -2, "shelves": 4}, "items is -2.*negative"),
         ({"shelves": -3, "robots": 4}, "shelves is -3.*negative"),

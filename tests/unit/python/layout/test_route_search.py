@@ -59,7 +59,7 @@ def test_ways_are_the_quickest_routes_in_any_heading(seed):
     nodes = to * 4 + all_seconds.reshape(-1, 4)[to].argmin(axis=1)
     assert np.array_equal(seconds, all_seconds[nodes])
     assert np.array_equal(steps, all_steps[nodes])
-    with pytest.raises(ValueError, match="to holds what is no cell"):
+    with pytest.raises(ValueError, match="to holds what is not a cell"):
         ways(following, end, 3, STEP, TURN, to + 40)
 
 

@@ -32,7 +32,7 @@ def test_rows_are_bins_on_units(tmp_path):
         (HEAD + "bolt,1,1\n" * 100, "column storage_unit: unit 1 has more than"),
         ("sku,quantity\nbolt,1\n", ":1: there is no column storage_unit; the first line has to"),
         (HEAD.strip() + ",sku\n", ":1: there are two columns sku"),
-        ("\0\1", "is in UTF-16, or no text"),
+        ("\0\1", "is in UTF-16, or not text"),
     ],
 )
 def test_wrong_rows_are_told_with_line_and_column(text, message, tmp_path):

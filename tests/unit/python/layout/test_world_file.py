@@ -93,7 +93,7 @@ def test_not_found(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text, words", [("<sdf", "is no XML: .*line 1"), ("<sdf/>", "holds no <sdf> with a <world>")]
+    "text, words", [("<sdf", "is not XML: .*line 1"), ("<sdf/>", "holds no <sdf> with a <world>")]
 )
 def test_no_world_in_it(tmp_path, text, words):
     path = tmp_path / "bad.sdf"

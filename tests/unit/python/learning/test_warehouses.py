@@ -298,7 +298,7 @@ def test_bad_options_are_named():
         ({"max_cycles": 0}, "max_cycles"),
         ({"decision": float("nan")}, "decision is nan"),
         ({"rewards": {"profit": 1}}, "rewards has 'profit'"),
-        ({"colour": "red"}, "colour is no option"),
+        ({"colour": "red"}, "colour is not an option"),
     ):
         with pytest.raises(OptionError, match=said):
             Options.of(given)

@@ -71,8 +71,8 @@ def test_tables_that_are_not_as_expected(database, statement, message):
 @pytest.mark.parametrize(
     "content, message",
     [
-        (b"reference,sku,quantity\n" * 100, "is no SQLite database; another file was expected"),
-        (b"\0" * 8192, "is no SQLite database"),
+        (b"reference,sku,quantity\n" * 100, "is not an SQLite database; another file was expected"),
+        (b"\0" * 8192, "is not an SQLite database"),
         (b"SQLite format 3\0" + b"\xff" * 8192, ""),
         (b"SQLite format 3\0", ""),
     ],

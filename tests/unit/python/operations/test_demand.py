@@ -100,8 +100,8 @@ def test_files_as_spreadsheets_write_them(tmp_path, data):
 @pytest.mark.parametrize(
     "data, message",
     [
-        ((COLUMNS + ROWS).encode("utf-16"), ": is in UTF-16, or no text; save it as CSV in UTF-8"),
-        ((COLUMNS + ROWS).encode("utf-16-be"), ": is in UTF-16, or no text"),
+        ((COLUMNS + ROWS).encode("utf-16"), ": is in UTF-16, or not text; save it as CSV in UTF-8"),
+        ((COLUMNS + ROWS).encode("utf-16-be"), ": is in UTF-16, or not text"),
         ((COLUMNS + ROWS).encode("cp1252"), ":2: byte 0xfc is not UTF-8; save it as CSV in UTF-8"),
         (b"", ":1: there is no column reference, sku, quantity; the first line has to name"),
         (b"a;b\n", "those in it are: a, b"),
@@ -132,7 +132,7 @@ def test_files_that_are_too_large(tmp_path):
     path.write_text(GOOD + "".join(f"A,sku-{i},1,,,\n" for i in range(100_000)))
     with pytest.raises(DemandError, match=":1002: A has more than 1000 lines"):
         read_csv(path)
-    with pytest.raises(DemandError, match=f"{tmp_path}: is no file"):
+    with pytest.raises(DemandError, match=f"{tmp_path}: is not a file"):
         read_csv(tmp_path)
 
 

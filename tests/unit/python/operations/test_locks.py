@@ -95,7 +95,7 @@ def test_a_second_shift_on_a_server_is_refused(hold):
 def test_a_database_that_can_not_be_opened_is_not_held(tmp_path):
     (tmp_path / "run.db").write_bytes(b"no database")
     for _ in range(2):
-        with pytest.raises(DatabaseError, match="is no SQLite database"):
+        with pytest.raises(DatabaseError, match="is not an SQLite database"):
             Operations(site=site(), database=tmp_path / "run.db")
     assert not list(tmp_path.glob("*.lock"))
 

@@ -76,7 +76,7 @@ def test_an_object_decides():
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("order: random", "'order' is no role; expected orders, units"),
+        ("order: random", "'order' is not a role; expected orders, units"),
         ("orders: best", "orders: there is no 'best'; random, first come"),
         ("orders: json:Best", "module 'json' has no attribute 'Best'"),
         ("orders: nowhere_at_all:Best", "No module named 'nowhere_at_all'"),

@@ -134,7 +134,7 @@ def test_the_days_troubles_are_told_with_what_each_cost(tmp_path, instance):
 def test_a_shift_that_goes_wrong_is_told(tmp_path, instance):
     for arguments, message in (
         (("--instance", tmp_path / "no.xinst"), "No such file"),
-        (("--size", "vast", "--no-physics"), "'vast' is no preset"),
+        (("--size", "vast", "--no-physics"), "'vast' is not a preset"),
         (("--instance", instance, "--no-physics", "--orders", "many"), "orders are 'many'"),
         (("--instance", instance, "--no-physics", "--policies", tmp_path / "p"), "No such file"),
     ):

@@ -49,7 +49,7 @@ def test_a_report_that_comes_twice_is_carried_out_once():
         answer = ops.shift.tasks.report(report)
         assert (answer.success, answer.quantity) == (True, report.quantity)
     assert station.pieces == report.quantity and second in station.here.picks
-    # The same pick with another outcome is no repetition.
+    # The same pick with another outcome is not a repetition.
     other = replace(report, outcome=Outcome.DAMAGED)
     assert ops.shift.tasks.report(other).message == "that was reported as DONE already"
 

@@ -23,7 +23,7 @@ def conflicts(**values):
         ("in_hall.layout.yaml", ""),
         ("blocked.layout.yaml", "loaded robots that meet at"),
         ("north.csv", "north.csv:1:1:"),
-        ("nix", "no such layout file, and 'nix' is no preset; known are empty, small"),
+        ("nix", "no such layout file, and 'nix' is not a preset; known are empty, small"),
         ("nix.layout.yaml", "nix.layout.yaml: No such file or directory"),
     ],
 )

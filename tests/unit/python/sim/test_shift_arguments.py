@@ -23,7 +23,7 @@ def place(tmp_path):
         ("orders", "fill:-1", None, "orders are 'fill:-1'; a number above 0"),
         ("policies", "bad.yaml", b"orders: nonsense", "bad.yaml: orders: there is no 'nonsense'"),
         ("policies", "none.yaml", None, "none.yaml: No such file or directory"),
-        ("database", "bad.db", b"nonsense", "bad.db: is no SQLite database"),
+        ("database", "bad.db", b"nonsense", "bad.db: is not an SQLite database"),
         ("database", "no/such.db", None, "there is no folder"),
         ("database", "oracle-of-delphi://x:secret@y", None, "oracle-of-delphi"),
     ],

@@ -94,8 +94,8 @@ def test_unknown_fields_are_named_and_ignored():
 @pytest.mark.parametrize(
     "payload,text",
     [
-        (b"", "no JSON"),
-        (b"\xff\xfe", "no JSON"),
+        (b"", "not JSON"),
+        (b"\xff\xfe", "not JSON"),
         (b"[]", "an object was expected"),
         (b"[" * 100_000, "deeper"),
         (b'{"a":' * 17 + b"1" + b"}" * 17, "deeper"),
@@ -104,7 +104,7 @@ def test_unknown_fields_are_named_and_ignored():
         (b'{"a": 1e999}', "double"),
         (b'{"a": "' + b"x" * 20_000 + b'"}', "more than 10000 characters"),
         (b" " * (1 << 21), "bytes"),
-        (b'{"a":' + b"9" * 5000 + b"}", "no JSON"),
+        (b'{"a":' + b"9" * 5000 + b"}", "not JSON"),
         (encoded(orderId=5), "orderId is 5; a string"),
         (encoded(orderUpdateId=-1), "whole number"),
         (encoded(orderUpdateId=1.5), "whole number"),

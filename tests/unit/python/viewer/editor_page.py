@@ -75,7 +75,7 @@ def keys(page, text):
 
 
 def press(page, key, control=False):
-    """A key that is no character, or one with control, where the focus is."""
+    """A key that is not a character, or one with control, where the focus is."""
     page.driver.execute_script(
         "document.activeElement.dispatchEvent(new KeyboardEvent('keydown',"
         " {key: arguments[0], ctrlKey: arguments[1], bubbles: true, cancelable: true}))",

@@ -65,7 +65,7 @@ def test_faults_have_sentences_and_cells():
     _, told = ask("/layout/check", {"text": text.replace("storage_units: 24", "storage_units: 99")})
     assert told["faults"] and all(f["text"] and "cells" in f for f in told["faults"])
     _, told = ask("/layout/check", {"text": "layout: 1\nfloor: |\n  .?\n"})
-    assert told["faults"][0]["text"].startswith("3:4: '?' is no cell")
+    assert told["faults"][0]["text"].startswith("3:4: '?' is not a cell")
 
 
 def test_lanes_that_are_found_leave_room_for_each_other():
@@ -86,7 +86,7 @@ def test_a_file_is_opened_as_it_is():
 @pytest.mark.parametrize(
     ("sent", "reason"),
     [
-        (files(a_layout_yaml="layout: 1\nflor: x"), "a.layout.yaml:2:1: 'flor' is no key"),
+        (files(a_layout_yaml="layout: 1\nflor: x"), "a.layout.yaml:2:1: 'flor' is not a key"),
         (files(), "one file to open was expected, not nothing"),
         (files(a_layout_yaml=SMALL, b_layout_yaml=SMALL), "one file to open was expected"),
         ({"files": {"../../x.layout.yaml": "?"}}, "x.layout.yaml: can't be taken"),

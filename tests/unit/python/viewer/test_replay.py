@@ -223,8 +223,8 @@ def test_a_bomb_is_not_unpacked(monkeypatch, tmp_path):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "a recording was expected; this file is none"),
-        (b"#ROSBAG V2.0\n", "a recording was expected; this file is none"),
+        (b"", "a recording was expected; this file is not one"),
+        (b"#ROSBAG V2.0\n", "a recording was expected; this file is not one"),
         (blocks.MAGIC, "nothing is recorded in it; byte 8: it was cut off"),
         (blocks.MAGIC + bytes(40), "byte 8: a block was expected; the file is damaged"),
         (blocks.MAGIC + struct.pack("<4sIIQ", b"CHNK", 0, 9, 2**60), "beyond the end of the file"),

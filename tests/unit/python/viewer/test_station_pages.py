@@ -57,9 +57,9 @@ def test_a_name_of_no_station_is_told():
     ("skus", "fault"),
     [
         (["sku-1"], ""),
-        ([""], "'' is no SKU"),
-        (["x" * 81], "is no SKU"),
-        (["a\nb"], "is no SKU"),
+        ([""], "'' is not an SKU"),
+        (["x" * 81], "is not an SKU"),
+        (["a\nb"], "is not an SKU"),
         (["a"] * 201, "201 SKUs are asked for; 200 at most were expected"),
     ],
     ids=["good", "empty", "long", "line", "many"],

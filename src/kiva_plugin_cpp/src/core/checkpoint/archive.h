@@ -177,7 +177,7 @@ class Archive : public Bytes {
     if constexpr (std::is_enum_v<T>) {
       const auto number = static_cast<std::int64_t>(value);
       if (number >= 0 && number <= static_cast<std::int64_t>(lastOf(value))) return;
-      throw ArchiveError(std::to_string(number) + " is none of its values");
+      throw ArchiveError(std::to_string(number) + " is not one of its values");
     } else if constexpr (std::is_floating_point_v<T>) {
       if (!(value >= least && value <= most)) throw ArchiveError(outside(value, least, most));
     }

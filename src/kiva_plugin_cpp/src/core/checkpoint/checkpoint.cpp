@@ -194,7 +194,7 @@ Reader opened(const std::string& bytes) {
   std::uint32_t version;
   std::uint64_t size, hash;
   reader(magic);
-  if (std::memcmp(magic, kMagic, 8) != 0) throw ArchiveError("these bytes are none");
+  if (std::memcmp(magic, kMagic, 8) != 0) throw ArchiveError("these bytes are no checkpoint");
   reader(version);
   if (version != kVersion) {
     throw ArchiveError("it has format " + std::to_string(version) + ", and this is format " +

@@ -390,7 +390,7 @@ void checkLists(const WorldState& world) {
     const Walker& walker = world.people.walkers[i];
     const Model* model = modelAt(world, walker.model);
     require(model && model->isStatic() && model->kind == ModelKind::kOther, "walkers", i, "model",
-            "it is no person");
+            "it is not a person");
     require(walker.next <= walker.walk.waypoints.size(), "walkers", i, "next",
             "there is no such waypoint");
   }

@@ -28,7 +28,7 @@ double checkedDistance(const Settings& settings, double distance) {
   const double whole = nearestGrid(settings, distance);
   if (std::abs(whole - distance) <= kGoalTolerance) return whole;
   throw Refusal(
-      format("distance %g m is no whole number of %g m cells", distance, settings.grid_spacing));
+      format("distance %g m is not a whole number of %g m cells", distance, settings.grid_spacing));
 }
 
 Plan planMoveTo(const Scene& world, int robot, const Command& command) {
@@ -78,7 +78,7 @@ void checkCarry(const Scene& world, int robot, int unit) {
   if (holder >= 0) throw Refusal(u.name + " is carried by " + f.robots[holder].name);
   const double distance = unitDistance(world, robot, unit);
   if (!(distance <= lift.proximity)) {
-    throw Refusal(format("%s is %.3f m away; %g m at the most is close enough", u.name.c_str(),
+    throw Refusal(format("%s is %.3f m away; at most %g m is close enough", u.name.c_str(),
                          distance, lift.proximity));
   }
   if (!standsUpright(world, unit)) throw Refusal(u.name + " does not stand upright on the floor");

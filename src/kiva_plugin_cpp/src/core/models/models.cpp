@@ -46,7 +46,7 @@ void checkTwist(const std::string& name, const Twist& twist) {
 void checkInstance(const ModelTable& models, const ModelInstance& instance) {
   const std::string& name = instance.name;
   if (name.empty()) throw DescriptionError("a model needs a name");
-  if (name.size() > 200) refuse(instance, "a name may have 200 characters at the most");
+  if (name.size() > 200) refuse(instance, "a name may have up to 200 characters");
   if (name.find("::") != std::string::npos) refuse(instance, "'::' can't be part of a name");
   if (models.find(name)) refuse(instance, "entity already exists");
   checkPose(name, instance.pose);

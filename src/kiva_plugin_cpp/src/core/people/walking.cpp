@@ -16,7 +16,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kLargest = 1;        // [m]: a longer or wider model is no person
+constexpr double kLargest = 1;        // [m]: a longer or wider model is not a person
 constexpr double kLook = 0.02;        // [s] between two looks ahead,
 constexpr double kLookAhead = 0.35;   // [m] that they reach: half a pace
 constexpr double kPatience = 2;       // [s] before the first search for a detour,
@@ -159,7 +159,7 @@ void advanceWalker(ContactView& world, Walker* walker) {
 void walk(ContactView& world, People& people, const std::string& person, const Walk& walk) {
   const Model* model = world.models.find(person);
   if (!model) throw std::invalid_argument("there is no model '" + person + "'");
-  if (!isPerson(*model)) refuse(person, "it is no person");
+  if (!isPerson(*model)) refuse(person, "it is not a person");
   checkOnFloor(world, walk, person);
   startWalk(world.fleet, &walkerOf(people, *model), walk);
 }

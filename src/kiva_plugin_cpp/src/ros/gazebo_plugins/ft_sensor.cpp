@@ -13,7 +13,7 @@ void FtSensor::load(kiva::World& world, const std::string& model, const kiva::Pa
   const kiva::Joint* joint = description().findJoint(joint_);
   if (!joint || !world.jointWrench(model, joint_)) {
     throw kiva::DescriptionError(
-        "<jointName> is '" + joint_ + "', which is no joint of '" + model +
+        "<jointName> is '" + joint_ + "', which is not a joint of '" + model +
         "' (a URDF's fixed joints are merged away unless they are preserved by "
         "<gazebo><preserveFixedJoint>)");
   }

@@ -100,8 +100,8 @@ std::string GazeboPlugin::link(const kiva::Parameters& parameters, const std::st
   for (const std::string& tried : {name, scope == model_ ? inner : name}) {
     if (description_->findLink(tried)) return tried;
   }
-  throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is no link of '" + model_ +
-                               "'");
+  throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is not a link of '" +
+                               model_ + "'");
 }
 
 std::string GazeboPlugin::joint(const kiva::World& world, const kiva::Parameters& parameters,
@@ -109,8 +109,8 @@ std::string GazeboPlugin::joint(const kiva::World& world, const kiva::Parameters
   std::string name = parameters.text(key, fallback);
   const kiva::Joint* joint = description_->findJoint(name);
   if (joint && joint->hasAxis() && world.joint(model_, name)) return name;
-  throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is no joint of '" + model_ +
-                               "' that moves");
+  throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is not a joint of '" +
+                               model_ + "' that moves");
 }
 
 kiva::Vector3 GazeboPlugin::noisy(const kiva::World& world, const kiva::Vector3& vector,

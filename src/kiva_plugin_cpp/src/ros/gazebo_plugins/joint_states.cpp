@@ -27,7 +27,7 @@ void JointStates::load(kiva::World& world, const std::string& model, const kiva:
   joints_ = listOf(p.text("jointName", ""));
   for (const std::string& joint : joints_) {
     if (description().findJoint(joint)) continue;
-    throw kiva::DescriptionError("<jointName>: '" + joint + "' is no joint of '" + model + "'");
+    throw kiva::DescriptionError("<jointName>: '" + joint + "' is not a joint of '" + model + "'");
   }
   if (joints_.empty()) {
     for (const kiva::Joint& joint : description().joints) {

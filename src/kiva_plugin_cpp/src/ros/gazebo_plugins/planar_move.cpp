@@ -8,7 +8,7 @@ namespace kiva_ros {
 void PlanarMove::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
   enter(world, model, p, "", "");
   if (description().is_static || world.kind(model) != kiva::ModelKind::kOther) {
-    throw kiva::DescriptionError("'" + model + "' is no model that can be given a velocity");
+    throw kiva::DescriptionError("'" + model + "' is not a model that can be given a velocity");
   }
   timeout_ = p.number("cmdTimeout", -1, -kMost, kMost);
   schedule_ = Schedule(p.number("odometryRate", 20, 0, kMost));

@@ -49,7 +49,7 @@ Replayer::Replayer(const std::string& path) : path_(path) {
   next_ = view_->begin();
   if (next_ == view_->end() || next_->getTopic() != kKeyframeTopic) {
     throw std::runtime_error("can't replay " + path +
-                             ": it is no recording of a world, which has " + kKeyframeTopic +
+                             ": it is not a recording of a world, which has " + kKeyframeTopic +
                              " first");
   }
 }

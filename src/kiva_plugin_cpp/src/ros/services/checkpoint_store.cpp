@@ -30,7 +30,7 @@ void checkName(const std::string& name) {
   const bool fits = !name.empty() && name.size() <= kLongestName && name[0] != '.' &&
                     std::all_of(name.begin(), name.end(), isFit);
   if (fits) return;
-  throw Refusal("'" + name.substr(0, kLongestName) + "' is no name: up to " +
+  throw Refusal("'" + name.substr(0, kLongestName) + "' is not a name: up to " +
                 std::to_string(kLongestName) +
                 " characters without '/' were expected, that do not begin with '.'; with " +
                 kSuffix + " at its end it is a file");

@@ -30,7 +30,7 @@ kiva::ShadowReport reportOf(const warehouse_msgs::FleetState& m, std::size_t i) 
   out.failures = at(m.failures, i, std::uint8_t{0});
   out.charge = at(m.charge, i, 1.0f);
   if (out.report.status > kiva::Status::kBlocked || out.report.state > kiva::State::kWaiting) {
-    throw std::invalid_argument("a status or a state that is none");
+    throw std::invalid_argument("a status or a state that does not exist");
   }
   return out;
 }

@@ -31,7 +31,7 @@ def text_of(path: PathName) -> str:
     except OSError as error:
         raise FormatError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise FormatError(f"{path}: byte {error.start} is no text in UTF-8") from error
+        raise FormatError(f"{path}: byte {error.start} is not text in UTF-8") from error
 
 
 def bytes_of(path: PathName) -> bytes:

@@ -59,7 +59,7 @@ def read(path: Path | None) -> Layers:
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f":{mark.line + 1}" if mark else ""
-        raise FormatError(f"{path}{place}: is no YAML") from error
+        raise FormatError(f"{path}{place}: is not YAML") from error
     if not isinstance(told, dict):
         raise FormatError(f"{path}: our names with layers were expected, like 'walls: A-WALL'")
     return Layers({**NAMES, **{str(k): _patterns(path, str(k), v) for k, v in told.items()}})
@@ -69,7 +69,7 @@ def _patterns(path: Path, kind: str, value: object) -> tuple[str, ...]:
     if kind not in NAMES:
         near = difflib.get_close_matches(kind, NAMES, 1)
         hint = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(NAMES)}"
-        raise FormatError(f"{path}: '{kind}' is none of our names; {hint}")
+        raise FormatError(f"{path}: '{kind}' is not one of our names; {hint}")
     values = value if isinstance(value, list) else [value]
     if not all(isinstance(v, (str, int)) and not isinstance(v, bool) for v in values):
         raise FormatError(f"{path}: {kind} is {value!r}; names of layers were expected")

@@ -108,12 +108,12 @@ def _document(path: Path, told: list[str]) -> Any:
     try:
         return ezdxf.readfile(str(path))
     except OSError as error:
-        raise FormatError(f"{path}: {error.strerror or 'is no DXF drawing'}") from error
+        raise FormatError(f"{path}: {error.strerror or 'is not a DXF drawing'}") from error
     except Exception:  # a flawed file: ezdxf can mend many
         try:
             document, auditor = recover.readfile(str(path))
         except Exception as error:
-            raise FormatError(f"{path}: is no DXF drawing: {_sentence(error)}") from error
+            raise FormatError(f"{path}: is not a DXF drawing: {_sentence(error)}") from error
     faults = len(auditor.errors) + len(auditor.fixes)
     told.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
     return document

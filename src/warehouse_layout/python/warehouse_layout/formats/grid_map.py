@@ -84,7 +84,7 @@ def _grid(path: PathName) -> np.ndarray:
     if unknown.any():
         row, column = np.argwhere(unknown[::-1])[0].tolist()
         raise FormatError(
-            f"{path}:{first + 1 + row}:{column + 1}: {rows[row][column]!r} is no cell of a map;"
+            f"{path}:{first + 1 + row}:{column + 1}: {rows[row][column]!r} is not a cell of a map;"
             f" known: {' '.join(MEANING)}"
         )
     return grid

@@ -58,7 +58,7 @@ def _numbers(path: Path, text: bytes) -> np.ndarray:
     try:
         values = np.array(re.sub(rb"#[^\n]*", b"", text).split(), np.float32)
     except ValueError as error:
-        raise FormatError(f"{path}: a pixel is no number: {error}") from error
+        raise FormatError(f"{path}: a pixel is not a number: {error}") from error
     if not (values >= 0).all():
         raise FormatError(f"{path}: a pixel is below 0")
     return values

@@ -86,7 +86,7 @@ def read(path: PathName) -> Fields:
         return Fields(path, "", json.loads(text_of(path)))
     except json.JSONDecodeError as error:
         place = f"{path}:{error.lineno}:{error.colno}"
-        raise FormatError(f"{place}: is no JSON: {error.msg}") from error
+        raise FormatError(f"{place}: is not JSON: {error.msg}") from error
 
 
 def _short(value: Any) -> str:

@@ -102,7 +102,7 @@ def _take_edges(layout: Fields, reading: _Reading) -> None:
         ends = [one.text(name) for name in ("startNodeId", "endNodeId")]
         for name, number in zip(("startNodeId", "endNodeId"), ends):
             if number not in reading.graph.nodes:
-                one.fail(name, f"is '{number}', which is no node")
+                one.fail(name, f"is '{number}', which is not a node")
         loaded = False
         for types in one.each("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"):
             reading.types |= set(_types(types))

@@ -104,7 +104,7 @@ def _lane(
         if number in lane:
             continue
         if lane[0] not in waypoints[number].paths or waypoints[number].storage:
-            break  # from here on the queue is no single lane
+            break  # from here on the queue is not a single lane
         lane.insert(0, number)
     service = len(lane) - 1
     while True:

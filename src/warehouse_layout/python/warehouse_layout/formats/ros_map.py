@@ -3,7 +3,7 @@
 
 Such maps are mostly made by SLAM: walls waver and lie askew, specks are noise. The picture is
 turned until its walls lie along the axes, specks are left out, and a cell with a wall in it becomes
-a wall. What was never seen is no floor.
+a wall. What was never seen is not a floor.
 """
 
 import math
@@ -83,9 +83,9 @@ def _mapping(path: Path) -> dict[str, Any]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f":{mark.line + 1}" if mark else ""
-        raise FormatError(f"{path}{place}: is no YAML: {error.problem}") from error
+        raise FormatError(f"{path}{place}: is not YAML: {error.problem}") from error
     except (yaml.YAMLError, ValueError) as error:
-        raise FormatError(f"{path}: is no YAML: {' '.join(str(error).split())}") from error
+        raise FormatError(f"{path}: is not YAML: {' '.join(str(error).split())}") from error
     if not isinstance(told, dict) or "image" not in told:
         raise FormatError(f"{path}: image is missing; a map.yaml of map_server was expected")
     return told

@@ -19,7 +19,7 @@ ACTIONS = 5
 
 
 class PolicyError(ValueError):
-    """A file that is no policy; the message names it and what was expected."""
+    """A file that is not a policy; the message names it and what was expected."""
 
 
 def drawn(logits: np.ndarray, random: np.random.Generator) -> np.ndarray:
@@ -82,7 +82,7 @@ def load(name: Any) -> GridPolicy:
     except (OSError, KeyError, ValueError, EOFError) as error:
         if isinstance(error, PolicyError):
             raise
-        raise PolicyError(f"{path} is no policy: {error}") from error
+        raise PolicyError(f"{path} is not a policy: {error}") from error
 
 
 def _assembled(parameters, about):

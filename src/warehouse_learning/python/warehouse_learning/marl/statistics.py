@@ -15,7 +15,7 @@ def interquartile_mean(scores: np.ndarray) -> np.ndarray:
     """Returns the mean of the middle half of (…, n) scores, (…,)."""
     ordered = np.sort(scores, axis=-1)
     n = ordered.shape[-1]
-    # Where n is no multiple of 4 scores at the quarters count by part.
+    # Where n is not a multiple of 4 scores at the quarters count by part.
     edge = np.clip(np.minimum(np.arange(1, n + 1), np.arange(n, 0, -1)) - n / 4, 0, 1)
     return (ordered * edge).sum(-1) / edge.sum()
 

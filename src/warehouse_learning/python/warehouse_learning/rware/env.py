@@ -78,7 +78,7 @@ class Warehouse(gymnasium.Env):
     def step(self, actions: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """actions: an Action an agent, or with messages [Action, bit, …] an agent.
 
-        Raises ValueError for what is no action, or not one an agent.
+        Raises ValueError for what is not an action, or not one an agent.
         """
         if not self._has_begun:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")

@@ -21,10 +21,10 @@ class RwareVectorEnv(VectorEnv):
     """num_envs warehouses of one Task, on `threads` threads (0: as many as there are cores).
 
     Observations are (num_envs, agents, …) float32, or with IMAGE_DICT a dictionary of two such;
-    DICT is no array and refused. Rewards are (num_envs, agents) float64, actions (num_envs, agents)
-    or, with messages, (num_envs, agents, 1 + msg_bits). Each warehouse draws from its own stream:
-    environment i with seed s gives what a Warehouse with seed s + i does. physics, decision: as of
-    Warehouse; infos hold arrays then, (num_envs,) and (num_envs, agents).
+    DICT is not an array, and is refused. Rewards are (num_envs, agents) float64, actions
+    (num_envs, agents) or, with messages, (num_envs, agents, 1 + msg_bits). Each warehouse draws
+    from its own stream: environment i with seed s gives what a Warehouse with seed s + i does.
+    physics, decision: as of Warehouse; infos hold arrays then, (num_envs,) and (num_envs, agents).
     """
 
     def __init__(

@@ -180,7 +180,7 @@ class Policies:
             raise PolicyError(f"{source}: roles with a policy each were expected")
         for role in chosen:
             if role not in ROLES:
-                raise PolicyError(f"{source}: '{role}' is no role; expected {', '.join(ROLES)}")
+                raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
         self.given = chosen
         self.chosen: dict[str, Any] = {}  # as a file has them
         for role in ROLES:

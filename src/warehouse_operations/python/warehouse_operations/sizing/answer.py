@@ -134,7 +134,8 @@ class Answer:
         name, bound = named(wish.stations[:fewer]), wish.bound(fewer)
         if bound < wish.pieces_per_hour:
             yield (
-                f"{name} can do {bound:,.0f} pieces an hour; {wish.pieces_per_hour:,.0f} are asked."
+                f"{name} can do {bound:,.0f} pieces an hour;"
+                f" {wish.pieces_per_hour:,.0f} are asked for."
             )
         elif self.study.frontier.get(fewer, 0) is None:
             yield f"With {name} alone no number of robots meets it."

@@ -26,7 +26,7 @@ Chosen = tuple[int, int] | None  # robots and stations of the answer
 def throughput(study: Study, chosen: Chosen) -> Chart:
     """Returns orders an hour over robots, a line for each number of stations with its knee."""
     asked = study.wish.orders_per_hour
-    title = f"Orders completed an hour, where {asked:,.0f} are asked"
+    title = f"Orders completed an hour, where {asked:,.0f} are asked for"
     return Chart(
         title,
         "Means over robots, a line for each number of open picking stations",

@@ -136,7 +136,7 @@ class Study:
         pieces = verdict.estimate("pieces_per_hour").mean
         return (
             f"{count(verdict.robots, 'robot')} and {named(wish.stations)} pick {pieces:,.0f} pieces"
-            f" an hour where {wish.pieces_per_hour:,.0f} are asked, and miss"
+            f" an hour where {wish.pieces_per_hour:,.0f} are asked for, and miss"
             f" {100 * verdict.estimate('missed').mean:.1f} % of the orders;"
             f" {100 * wish.late:g} % may be late"
         )

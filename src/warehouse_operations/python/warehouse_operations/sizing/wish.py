@@ -105,7 +105,7 @@ class Wish:
                 return count
         raise ImpossibleError(
             f"{named(self.stations)} can do {self.bound(len(self.stations)):,.0f} pieces an hour;"
-            f" {self.pieces_per_hour:,.0f} are asked"
+            f" {self.pieces_per_hour:,.0f} are asked for"
         )
 
     def robots(self, stations: int) -> int:

@@ -24,7 +24,7 @@ def parse(payload: bytes, max_bytes: int = MAX_BYTES) -> dict[str, Any]:
     except RecursionError:
         raise MessageError(f"JSON deeper than {MAX_DEPTH}") from None
     except ValueError as error:  # of UTF-8, of JSON, of numbers too long
-        raise MessageError(f"no JSON: {error}") from None
+        raise MessageError(f"not JSON: {error}") from None
     if not isinstance(value, dict):
         raise MessageError(f"the message is a {type(value).__name__}; an object was expected")
     _check(value)
@@ -32,7 +32,7 @@ def parse(payload: bytes, max_bytes: int = MAX_BYTES) -> dict[str, Any]:
 
 
 def _refuse(name: str) -> NoReturn:
-    raise MessageError(f"{name} is no number of JSON")
+    raise MessageError(f"{name} is not a number of JSON")
 
 
 def _check(value: Any) -> None:

@@ -43,7 +43,7 @@ class InstantDesk:
         try:
             begin = ACTIONS.get(action.type)
             if begin is None:
-                raise ActionError(f"{action.type!r} is no instant action of this vehicle")
+                raise ActionError(f"{action.type!r} is not an instant action of this vehicle")
             over = begin(self._vehicle, action, now)
         except ActionError as failure:
             self._set(action, ActionStatus.FAILED, str(failure))

@@ -146,7 +146,7 @@ def _velocity(report: Report) -> Velocity:
 
 
 def _lasting(state: State) -> State:
-    """Returns a state without what changes all the time and is no event."""
+    """Returns a state without what changes all the time and is not an event."""
     position = state.position
     known = position and replace(position, x=0.0, y=0.0, theta=0.0)
     battery = Battery(0.0, state.battery.charging)

@@ -60,7 +60,7 @@ class _Conversion:
 
     def take(self, topic: str, message: Any, wall: float) -> None:
         """Takes a message that was recorded then [s since 1970, or simulated]."""
-        # rosbag writes simulated time where the clock of the warehouse ran: that is no date.
+        # rosbag writes simulated time where the clock of the warehouse ran: that is not a date.
         self._wall = wall if wall > 1e9 else None
         if topic == EVENTS:
             self._journal.add(catalogue.event(message))

@@ -51,9 +51,9 @@ def write_block(file: BinaryIO, what: bytes, about: Any, data: bytes = b"") -> B
 
 def read_blocks(file: BinaryIO, name: str) -> tuple[list[Block], str]:
     """Returns all blocks of a file without reading their data, and why there are no more: an
-    empty text where DONE was reached. Raises RecordingError where it is no recording."""
+    empty text where DONE was reached. Raises RecordingError where it is not a recording."""
     if file.read(len(MAGIC)) != MAGIC:
-        raise RecordingError(f"{name}: a recording was expected; this file is none")
+        raise RecordingError(f"{name}: a recording was expected; this file is not one")
     blocks: list[Block] = []
     size = os.fstat(file.fileno()).st_size
     while not blocks or blocks[-1].what != DONE:

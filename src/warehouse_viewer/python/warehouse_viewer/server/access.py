@@ -131,7 +131,7 @@ class AccessControl:
         host = headers.get("host", "")
         # Starlette's TrustedHostMiddleware knows no IPv6 addresses.
         if not self._token and not is_local(_split(f"//{host}").hostname or ""):
-            raise Refusal(403, f"'{host}' is no name of this machine alone; that needs a token")
+            raise Refusal(403, f"'{host}' is not a name of this machine alone; that needs a token")
         origin = headers.get("origin")
         if origin is not None and _split(origin).netloc != host:
             raise Refusal(403, f"the origin '{origin}' is foreign")
@@ -156,7 +156,7 @@ def _split(address):
     try:
         return urlsplit(address)
     except ValueError as error:
-        raise Refusal(400, f"'{address}' is no address: {error}") from error
+        raise Refusal(400, f"'{address}' is not an address: {error}") from error
 
 
 def _query_token(scope):

@@ -55,7 +55,7 @@ def fault_of(skus: Sequence[str]) -> str:
     if len(skus) > MOST_SKUS:
         return f"{len(skus)} SKUs are asked for; {MOST_SKUS} at most were expected"
     wrong = [sku for sku in skus if not 0 < len(sku) <= LONGEST_SKU or not sku.isprintable()]
-    return f"'{wrong[0][:LONGEST_SKU]}' is no SKU" if wrong else ""
+    return f"'{wrong[0][:LONGEST_SKU]}' is not an SKU" if wrong else ""
 
 
 def _section(title: str, labels: Iterable[tuple[str, str]]) -> str:

@@ -49,7 +49,7 @@ def read(path: Path) -> str:
         with open(path, encoding="ascii", errors="replace") as file:
             mode = os.fstat(file.fileno()).st_mode
             if not stat.S_ISREG(mode):
-                raise TokenError(f"{path} is no regular file")
+                raise TokenError(f"{path} is not a regular file")
             if mode & 0o077:
                 raise TokenError(f"{path} can be read by others: chmod 600 {path}")
             return _checked(file.read(1000).strip(), path)

@@ -102,7 +102,7 @@ export function tellLost(told) {
 /** Builds the drawing in place of the warehouse that runs. */
 export async function build(editor, post) {
   const name = editor.drawing.name || 'this layout';
-  const isSure = await confirmed(`Build ${name}?`, 'It takes the place of the warehouse that runs; robots and stock there are gone.', 'Build');
+  const isSure = await confirmed(`Build ${name}?`, 'It replaces the running warehouse. The robots and the stock there are lost.', 'Build');
   if (!isSure) return;
   try {
     editor.say('building …');

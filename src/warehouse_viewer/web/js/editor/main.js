@@ -43,7 +43,7 @@ function begin(editor, store, about) {
   if (!kept) tellLost(about.told);
   if (!kept || (about.drawing && Store.isSame(kept.drawing, about.drawing))) return;
   const when = new Date(kept.time).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
-  $('notice-text').textContent = `What you drew here last is back, from ${when}.`;
+  $('notice-text').textContent = `Your last drawing is back, from ${when}.`;
   $('notice-button').textContent = about.drawing ? 'Take the file instead' : 'Start with empty paper';
   $('notice').hidden = false;
   on($('notice-button'), 'click', () => {

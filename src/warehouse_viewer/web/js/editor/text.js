@@ -79,7 +79,7 @@ export function textOf(drawing) {
 
 const keyText = (key) => (/^[A-Za-z]\w*$/.test(key) ? key : JSON.stringify(key));
 
-/** A share of 1 is no count of 1. */
+/** A share of 1 is not a count of 1. */
 function unitsOf({ storage_units: units, is_share: isShare }) {
   return isShare && Number.isInteger(units) ? units.toFixed(1) : JSON.stringify(units);
 }

@@ -232,5 +232,5 @@ export const TOOLS = {
   select: ['m', 'mark', 'Mark an area to copy, mirror or repeat; click a station to choose it', (e) => new Select(e)],
   queue: ['q', 'queue', 'Draw the queue of the chosen station, up to its letter', (e) => new Lane(e, 'queue')],
   exit: ['e', 'exit', 'Draw the way out of the chosen station, from its letter on', (e) => new Lane(e, 'exit')],
-  hand: ['h', 'move', 'Move the paper; also by the right mouse button or two fingers', (e) => new Hand(e)],
+  hand: ['h', 'move', 'Move the paper (also with the right mouse button or two fingers)', (e) => new Hand(e)],
 };

@@ -92,7 +92,7 @@ export class View {
     if (!told) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];
     if (told.mode !== StationMode.MANUAL) return [`${told.name} works automatically.`, '', 'Work manually'];
     if (kept && link !== 'live') return ['All is done here.', 'The next storage unit comes when the network is back.', ''];
-    if (kept) return ['All is done here.', 'Telling the server …', ''];
+    if (kept) return ['All is done here.', 'Sending it to the server …', ''];
     const back = 'Back to automatic';
     if (!told.open) return ['The station is closed.', '', back];
     const { length: coming } = told.inbound;

@@ -19,7 +19,7 @@ COMMAND = Body(discriminator="command")
 
 
 async def _check_command(request: Request):
-    """Raises 422 where `command` is no text, for which pydantic 1 would fail an assertion."""
+    """Raises 422 where `command` is not text, for which pydantic 1 would fail an assertion."""
     try:
         body = await request.json()
     except (ValueError, RecursionError):
