@@ -25,8 +25,6 @@ LATE = 124  # exit code of `timeout`
 PATIENCE = 120.0  # for one block; a note says otherwise [s]
 TRIED = 10.0  # how long a command may take that tells whether a program is ready [s]
 ENDING = 20.0  # until a program that got Ctrl-C is asked in another way [s]
-STARTS = 3  # of a launch whose master does not come up in time, on a busy machine
-MASTERLESS = "could not contact master"
 LAUNCHED = re.compile(r"^(?:make run(?: ARGS=\"(?P<run>[^\"]*)\")?|make operate)(?: +#.*)?$")
 WORLDS = re.compile(r"\b(?:warehouse|operations)\.launch\b|empty_world\.launch\b")
 COMMON = 'make run ARGS="coordinator:=true"'  # beside pages that start none
@@ -119,16 +117,11 @@ class Session:
         self._wait(self._programs[-1], lambda: not self._try(ready), patience)
 
     def _begin_world(self, launched, patience):
-        """Begins a launch, and again where it gave up its master: it gives it 10 s to come up."""
-        for left in reversed(range(STARTS)):
-            self._programs.append(self._begin(launched))
-            try:
-                self._wait(self._programs[-1], self._has_master, patience)
-                break
-            except ValueError as error:
-                if not left or MASTERLESS not in str(error):
-                    raise
-                self._programs.pop()
+        """Begins a master, then a launch: roslaunch gives a master of its own 10 s to come up."""
+        port = self.uri.rpartition(":")[2]
+        self._programs.append(self._begin(f"rosmaster --core -p {port}"))
+        self._wait(self._programs[-1], self._has_master, patience)
+        self._programs.append(self._begin(launched))
 
     def begin(self, command: str, ready: str, patience: float) -> Program:
         """Returns a program that outlives worlds, once the command `ready` succeeds."""
