@@ -9,8 +9,9 @@ from paths import ROOT
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import NOWHERE
+from warehouse_fleet.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.transports import STAY, Kind, Step
 from warehouse_layout.floor_plan import FloorPlan
 
@@ -209,3 +210,21 @@ def test_a_plan_that_would_collide_is_refused_with_the_robots_names(drive):
     assert driver.traffic.plans.refused > 0
     assert "kiva" in driver.traffic.plans.alarm
     assert driver.collisions == 0 and (driver.traffic.robots.stands).all()
+
+
+def test_who_is_gone_is_another_array_once_it_has_changed():
+    def reports(*kivas):
+        out = np.zeros(len(kivas), REPORT)
+        out["kiva_id"] = kivas
+        return out
+
+    robots = RobotTable(np.array([1, 2, 3]))
+    at_first = robots.gone
+    robots.align(reports(1, 2, 3))
+    assert robots.gone is at_first
+    for _ in range(2):
+        robots.align(reports(1, 3))
+        assert robots.gone.tolist() == [False, True, False]
+        assert robots.mode[1] == Mode.OUT_OF_SERVICE
+    robots.align(reports(1, 2, 3))
+    assert not robots.gone.any() and robots.mode[1] == Mode.AUTOMATIC
