@@ -281,7 +281,7 @@ def test_orders_like_those_of_a_file(tmp_path):
 def test_a_wish_that_can_not_be_met_by_its_bound():
     with pytest.raises(ImpossibleError) as told:
         wish(orders_per_hour=1000, lines=1.9, pieces=1.0).least_stations()
-    assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked"
+    assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked for"
     assert wish(orders_per_hour=1000, lines=1.4, pieces=1.0).least_stations() == 4
     stocked = replace(generator.of_request(Request(4, 24, 9, 2), "full"), stock="s.csv")
     with pytest.raises(WishError, match="stock s.csv is not taken; items: a count was expected"):
