@@ -10,7 +10,7 @@ import { whole } from '../../../src/warehouse_viewer/web/js/order_entry.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
 import { sharesOf } from '../../../src/warehouse_viewer/web/js/robot_shares.js';
-import { waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
+import { waitsOf, Wanted } from '../../../src/warehouse_viewer/web/js/stations.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
@@ -23,6 +23,20 @@ test('rates are of the time that an interval really had', () => {
     { from: 0, length: 30, rate: 120 }, { from: 30, length: 60, rate: 180 }, { from: 90, length: 20, rate: 360 }]);
   // One that has hardly begun says nothing yet.
   assert.equal(ratesOf({ ...told, end: 185 }, [1, 3, 2]).length, 2);
+});
+
+test('what was set at a station counts until the server tells of it, for five seconds', () => {
+  const closed = { name: 'pick1', open: false, mode: 0 }, byHand = { ...closed, mode: 1 };
+  const wanted = new Wanted();
+  assert.deepEqual(wanted.upon(closed, 0), closed);
+  wanted.note({ open: false, mode: 1 }, 1000);
+  assert.deepEqual(wanted.upon(closed, 1100), byHand); // from before
+  wanted.note({ open: true, mode: 1 }, 1200);
+  assert.deepEqual(wanted.upon(byHand, 1300), { ...byHand, open: true });
+  assert.deepEqual(wanted.upon({ ...byHand, open: true }, 1400), { ...byHand, open: true });
+  assert.deepEqual(wanted.upon(closed, 1500), closed); // another person did that
+  wanted.note({ open: true, mode: 1 }, 2000);
+  assert.deepEqual(wanted.upon(closed, 7000), closed);
 });
 
 test('points of a chart lie in the middle of their intervals, in minutes before now', () => {

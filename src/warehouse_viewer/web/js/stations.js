@@ -10,6 +10,7 @@ import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from './words.js';
 
 const UNATTENDED = 60; // [s], simulated
 const CHIPS = 8; // of a queue that are shown
+const HOLDS = 5000; // [ms] in which the server surely tells of what was set
 
 export class Stations {
   /** `act(promise)` waits for what was asked of the server. */
@@ -35,9 +36,25 @@ export class Stations {
   }
 }
 
+/** What was set last. It counts until the server tells of it: a state that comes before may be older. */
+export class Wanted {
+  /** `wanted` is {open, mode}; it was set at `now` [ms]. */
+  note(wanted, now) {
+    Object.assign(this, { wanted, until: now + HOLDS });
+  }
+
+  /** A station as the server tells of it at `now` [ms], with what was set. */
+  upon(station, now) {
+    const { open, mode } = this.wanted ?? station;
+    if (now >= this.until || (station.open === open && station.mode === mode)) this.wanted = undefined;
+    return { ...station, ...this.wanted };
+  }
+}
+
 /** One that stays where it is: a finger may be on its way to a button. */
 class Row {
   constructor(act) {
+    this.wanted = new Wanted();
     this.name = make('strong');
     this.kind = make('span', { className: 'dim' });
     this.state = make('span', { className: 'badge' });
@@ -63,15 +80,16 @@ class Row {
     for (const button of [this.gate, this.hand]) button.disabled = true;
     try {
       const answer = await put(`/stations/${this.station.name}`, { open, mode });
-      this.show({ ...this.station, open, mode }, this.now);
+      this.wanted.note({ open, mode }, performance.now());
+      this.show(this.station, this.now);
       return answer;
     } finally {
       for (const button of [this.gate, this.hand]) button.disabled = false;
     }
   }
 
-  show(station, now) {
-    const before = this.station;
+  show(told, now) {
+    const before = this.station, station = this.wanted.upon(told, performance.now());
     this.station = station;
     this.tick(now);
     if (JSON.stringify(before) === JSON.stringify(station)) return;
