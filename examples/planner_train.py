@@ -27,7 +27,6 @@ from warehouse_fleet.random_transports import RandomTransports
 from warehouse_learning.marl.mlp import Adam
 
 BATCH, RATE = 512, 3e-3
-WAIT = 0  # Action
 
 
 def main():

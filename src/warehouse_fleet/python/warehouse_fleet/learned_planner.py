@@ -18,11 +18,11 @@ import numpy as np
 from warehouse_fleet import Fleet, Rules, scorer
 from warehouse_fleet.local_view import LocalView, Scene
 from warehouse_fleet.pibt import NOWHERE, Pibt
+from warehouse_fleet.plan_loop import HORIZON
+from warehouse_fleet.planner_plugins import FREE
 from warehouse_layout import Floor
 
 ROLE = "planner"
-HORIZON = 7  # ticks of a plan
-FREE = 0xFF  # in Fleet.committed: no commitment
 WAIT, FORWARD, POSITIVE, NEGATIVE = range(4)  # Action
 TURN = np.array([FORWARD, POSITIVE, POSITIVE, NEGATIVE], np.uint8)  # by quarters to the next cell
 QUARTERS = np.array([0, 0, 1, 3])  # by Action
@@ -49,7 +49,6 @@ class Learned:
     def start(self, floor: Floor, rules: Rules, seed: int) -> None:
         """Prepares for planning on a floor."""
         self.view, self.rules = LocalView(floor), rules
-        self.step = np.array([1, floor.width, -1, -floor.width])
         self.waited = np.zeros(0)
 
     def plan(self, fleet: Fleet) -> np.ndarray:

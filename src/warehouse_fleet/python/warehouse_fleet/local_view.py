@@ -32,10 +32,11 @@ class Scene:
         self.tight = np.isin(self.cell, fleet.tight)
         self._tight = fleet.tight
         self.waited, self.intent = waited, np.full(n, NOWHERE)
+        self.ways: list[np.ndarray | None] | None = None  # what LocalView has found at this tick
 
     def move(self, cell: np.ndarray, heading: np.ndarray) -> None:
         """Goes on to where robots are a tick later."""
-        self.cell, self.heading = cell, heading
+        self.cell, self.heading, self.ways = cell, heading, None
         self.tight = np.isin(cell, self._tight)
 
 
@@ -115,8 +116,11 @@ class LocalView:
         return np.stack(rows, axis=-1).astype(np.float32), possible
 
     def ranks(self, scene: Scene) -> np.ndarray:
-        """Returns whose turn it is, (robots,), the least first: who has least to go, or has waited
-        for long, and in the end those that go nowhere."""
+        """Returns a rank for each robot, (robots,); the robot with the least rank chooses first.
+
+        The rank is the cells that are left to go, less what the robot has waited. Robots without a
+        goal come last.
+        """
         far = [
             UNREACHED if table is None else table[cell]
             for table, cell in zip(self._tables(scene), scene.cell.tolist())
@@ -145,6 +149,8 @@ class LocalView:
 
     def _tables(self, scene: Scene) -> list[np.ndarray | None]:
         """Of each robot the cells to its goal around obstacles, or through them if need be."""
+        if scene.ways is not None:
+            return scene.ways
         out: list[np.ndarray | None] = []
         for goal, loaded, cell in zip(
             scene.goal.tolist(), scene.loaded.tolist(), scene.cell.tolist()
@@ -153,6 +159,7 @@ class LocalView:
             if table is not None and table[cell] >= UNREACHED:
                 table = self.far(goal, loaded, frozenset())
             out.append(table)
+        scene.ways = out
         return out
 
     def _far(self, goal: int, loaded: bool, obstacles: frozenset[int]) -> np.ndarray:
