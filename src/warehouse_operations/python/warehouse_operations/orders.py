@@ -64,7 +64,7 @@ class Order:
     @property
     def pieces(self) -> int:
         """The number of pieces not picked yet."""
-        return sum([line.quantity - line.picked for line in self.lines])
+        return sum(line.open for line in self.lines)
 
     @property
     def done(self) -> bool:
@@ -77,6 +77,7 @@ class Backlog:
 
     def __init__(self) -> None:
         self.orders: dict[int, Order] = {}  # by id
+        self.pieces: dict[Order, int] = {}  # not picked yet: asked of many at each choice
         self.lines = 0  # of all of them
         self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
         self._by_sku: dict[str, dict[Line, int]] = defaultdict(dict)  # open pieces by line
@@ -91,6 +92,7 @@ class Backlog:
     def add(self, order: Order) -> None:
         """Adds an order, with the demand of its open lines."""
         self.orders[order.order_id] = order
+        self.pieces[order] = order.pieces
         bisect.insort(self._urgencies, order.urgency)
         self.lines += len(order.lines)
         for line in order.lines:
@@ -100,7 +102,7 @@ class Backlog:
 
     def remove(self, order: Order) -> None:
         """Removes an order and its demand. Raises KeyError."""
-        del self.orders[order.order_id]
+        del self.orders[order.order_id], self.pieces[order]
         del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
         self.lines -= len(order.lines)
         for line in order.lines:

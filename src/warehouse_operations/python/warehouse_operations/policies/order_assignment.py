@@ -73,7 +73,7 @@ class PileOn:
         best: Order | None = None
         best_score: tuple = ()
         for order, served in view.backlog.served_by(stock).items():
-            missing = order.pieces > served
+            missing = view.backlog.pieces[order] > served
             if missing and complete:
                 continue
             score = (-order.priority, missing, -served, order.urgency)
