@@ -126,7 +126,9 @@ def main():
     parser.add_argument("--worlds", type=int, default=64)
     parser.add_argument("--robots", type=int, default=10)
     parser.add_argument("--seconds", type=float, default=10, help="of each case")
-    parser.add_argument("--resets", action="store_true", help="a line of JSON a size, for bench/run")
+    parser.add_argument(
+        "--resets", action="store_true", help="a line of JSON a size, for bench/run"
+    )
     wanted = parser.parse_args()
     if wanted.resets:
         for size in warehouse_learning.SIZES:
