@@ -131,7 +131,8 @@ class _Page:
         layout = self._subject.layout
         if layout:
             yield plural(len(layout.robots), "robot")
-            yield f"{plural(len(layout.units), 'storage unit')} on {plural(len(layout.places), 'place')}"
+            units, places = len(layout.units), len(layout.places)
+            yield f"{plural(units, 'storage unit')} on {plural(places, 'place')}"
         yield plural(len(file.stations), "station")
 
     # --- dimensions
