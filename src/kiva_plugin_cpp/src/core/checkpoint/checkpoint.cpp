@@ -156,13 +156,13 @@ void indexNames(WorldState& world) {
     if (world.models[slot])
       world.models.slot_of_name[world.models[slot]->name] = static_cast<int>(slot);
   }
+  for (std::size_t i = 0; i < world.storage.units.size(); ++i) {
+    world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
+  }
 }
 
 /// Works out what follows from that which is described.
 void deriveRest(WorldState& world) {
-  for (std::size_t i = 0; i < world.storage.units.size(); ++i) {
-    world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
-  }
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
   world.storage.indexItems();
   for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
@@ -194,6 +194,7 @@ std::optional<Reader> readOrigin(const WorldState& world, const std::string& byt
 /// Returns whether the checkpoint's setting, which is read then, is that of the world.
 bool readSameSetting(Reader& reader, WorldState& world) {
   Writer now;
+  now.bytes.reserve(reader.left());
   describeSetting(now, world);
   const std::size_t size = now.bytes.size();
   if (reader.left() < size || std::memcmp(reader.at, now.bytes.data(), size) != 0) return false;
