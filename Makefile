@@ -78,9 +78,10 @@ test-deb: deb  ## install the packages on a bare Debian and use them
 test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install
 
-# catkin looks after each message in every build; where no source is newer than the last one that would be all.
+# catkin looks after each message in every build; where no source is newer than the last one that would be all. Python
+# that is imported touches its folder.
 build: configured  ## compile everything but the tests
-	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -print -quit)" ] || \
+	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -not -exec test -e '{}/__pycache__' \; -print -quit)" ] || \
 	{ touch build/.begun; $(BUILD); mv build/.begun build/.built; }
 
 build-tests: configured  # all of it in one go: what the tests need fills the gaps of the rest

@@ -168,6 +168,15 @@ def _rware(measured, _):
     ]
 
 
+def _resets(measured, scale):
+    return [
+        scale.time(
+            f"a reset of {f['size']}", f["ms_cpu"], "ms", "<= 1" if f["size"] == "large" else ""
+        )
+        for f in measured
+    ]
+
+
 def _others(measured, scale):
     return [scale.speed(name(f), f["rtf_cpu"], wall=f["rtf"]) for f in measured if "engine" in f]
 
@@ -301,6 +310,7 @@ OF_PART = {
     "ten_thousand": _shifts,
     "plans": _plans,
     "rware": _rware,
+    "resets": _resets,
     "recreations": _recreations,
     "start": _start,
     "build": _build,

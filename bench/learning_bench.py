@@ -3,7 +3,7 @@
 """Agent steps a second of the vector environment with physics, beside RWARE where it is installed,
 in turns of a second: .venv/bin/pip install rware; .venv/bin/python bench/learning_bench.py
 
-    [--worlds 64] [--robots 10] [--seconds 10]
+    [--worlds 64] [--robots 10] [--seconds 10]; or --resets
 
 An agent step is one decision of one robot, its observation and mask included. `tick` lets a
 decision last 2/3 s, the time of a cell at top speed; `action` lasts until every robot has ended
@@ -16,6 +16,7 @@ take, and what many worlds gain on all cores.
 """
 
 import argparse
+import json
 import os
 import time
 
@@ -125,7 +126,14 @@ def main():
     parser.add_argument("--worlds", type=int, default=64)
     parser.add_argument("--robots", type=int, default=10)
     parser.add_argument("--seconds", type=float, default=10, help="of each case")
+    parser.add_argument(
+        "--resets", action="store_true", help="a line of JSON a size, for bench/run"
+    )
     wanted = parser.parse_args()
+    if wanted.resets:
+        for size in warehouse_learning.SIZES:
+            print(json.dumps({"size": size, "ms_cpu": reset_time(size)}), flush=True)
+        return
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     speed_up, overhead = many_worlds(wanted.seconds / 2)
     print(f"64 worlds of small: {speed_up:.2f} x one thread; {overhead:.3f} ms a call at rest")

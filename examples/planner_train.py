@@ -24,7 +24,7 @@ from warehouse_fleet.learned_planner import ROLE, Learned, Rollout
 from warehouse_fleet.local_view import LocalView
 from warehouse_fleet.plan_loop import GUIDANCE, HORIZON
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_learning.marl.mlp import Adam
+from warehouse_learning.marl.mlp import Adam, log_softmax
 
 BATCH, RATE = 512, 3e-3
 
@@ -158,8 +158,7 @@ def learn(network, rows, choices, steps):
         x, there, choice = rows[drawn], possible[drawn], choices[drawn]
         hidden = np.tanh(x @ network.into + network.bias)
         scores = np.where(there, hidden @ network.out + x @ network.straight, -30)
-        slope = np.exp(scores - scores.max(1, keepdims=True))
-        slope /= slope.sum(1, keepdims=True)
+        slope = np.exp(log_softmax(scores))
         slope[np.arange(BATCH), choice] -= 1
         slope = slope / BATCH * there
         back = slope[..., None] * network.out * (1 - hidden**2)

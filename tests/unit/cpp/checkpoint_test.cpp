@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world that is restored goes on as the one that was saved did, bit by bit.
+#include "core/checkpoint/checkpoint.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <memory>
 #include <random>
 
@@ -258,6 +261,52 @@ TEST_P(CheckpointIn, SavingDoesNotChangeTheFutureAndRestoredWorldsShareIt) {
       if (piece % 5 == 0) restored->world.restore(bytes);
       ASSERT_EQ(restored->world.stateHash(), untouched->world.stateHash());
     }
+  }
+}
+
+TEST_P(CheckpointIn, AWayBackLeadsToWhatIsRestoredFromNothing) {
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const auto w = make(seed);
+    goOn(w->world, 700, seed);
+    const std::string saved = w->world.checkpoint();
+    w->world.restore(saved);
+    for (unsigned way = 0; way < 3; ++way) {
+      goOn(w->world, 400, 10 + way);
+      if (way % 2) w->world.setState("kiva1", {Pose(-3, -4, 0, 0, 0, 1), {}});
+      ASSERT_TRUE(returnTo(insideOf(w->world), saved)) << seed << " " << way;
+      const auto fresh = make(seed + 100);
+      fresh->world.restore(saved);
+      ASSERT_TRUE(w->world.checkpoint() == saved) << seed << " " << way;
+      ASSERT_EQ(goOn(w->world, 400, 20 + way), goOn(fresh->world, 400, 20 + way))
+          << seed << " " << way;
+      ASSERT_TRUE(w->world.checkpoint() == fresh->world.checkpoint()) << seed << " " << way;
+    }
+  }
+}
+
+TEST_F(Checkpoint, ThereIsNoWayBackToAnotherWorld) {
+  goOn(w.world, 500, 1);
+  const std::string saved = w.world.checkpoint();
+  const Hashes first = goOn(w.world, 500, 2);
+  const std::vector<std::function<void()>> changes = {
+      [&] { w.spawn("kiva", "kiva77", 3, -2); },
+      [&] { w.world.remove("storage_unit3"); },
+      [&] {
+        w.world.setState("conveyor_belt1", {Pose(3, -3, 0, 0, 0, 0), {}});
+      },
+      [&] {
+        w.world.setGravity({0, 0, -5});
+      },
+      [&] { w.world.setStepSize(0.01); },
+      [&] { w.world.restore(Warehouse(hall()).world.checkpoint()); },
+  };
+  EXPECT_FALSE(returnTo(insideOf(w.world), saved));
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    w.world.restore(saved);
+    changes[i]();
+    EXPECT_FALSE(returnTo(insideOf(w.world), saved)) << i;
+    w.world.restore(saved);
+    EXPECT_EQ(goOn(w.world, 500, 2), first) << i;
   }
 }
 

@@ -92,7 +92,7 @@ TEST(Room, ARobotThatIsWedgedIsToldSoUntilAUnitIsMoved) {
     w.run(0.01);
   }
   EXPECT_EQ(w.count(Kind::kRefused), 20);
-  EXPECT_PRED2(contains, w.last(Kind::kRefused).text, "no free grid point is near that it gets to");
+  EXPECT_PRED2(contains, w.last(Kind::kRefused).text, "it reaches no free grid point nearby");
   EXPECT_EQ(w.count(Kind::kCollision), 0);
   w.world.setState("storage_unit1", {Pose(5, 5, 0, 0, 0, 0), {}});
   w.movx(1, 3);

@@ -18,10 +18,10 @@ struct Command {
     kMoveY,
     kRotate,
     kLift,
-    kCancel,  ///< End what it does at the next grid point; a lift, when it is over.
+    kCancel,  ///< End the command at the next grid point; a lift is completed first.
     kStop,    ///< Stand at once, wheels and lift, and stay; kiva_id 0: every robot.
-    kGoOn,    ///< Go on with what it did when it was stopped; kiva_id 0: every robot.
-    kFollow   ///< Stands for a FollowPath among them; not to be posted.
+    kGoOn,    ///< Go on with the command that kStop interrupted; kiva_id 0: every robot.
+    kFollow   ///< Stands for a FollowPath among the commands; not to be posted.
   };
   Kind kind = Kind::kMoveTo;
   std::int32_t kiva_id = 0;
@@ -29,13 +29,13 @@ struct Command {
   double y = 0;               ///< MoveTo: goal in world [m]. MoveY: signed distance [m].
   int direction = 0;          ///< Rotate: +1 counterclockwise, -1 clockwise.
   int lift = 0;               ///< Lift: 1 carry, 0 drop.
-  std::int32_t shelf_id = 0;  ///< Lift: the storage unit's number; drop, 0: whichever it carries.
+  std::int32_t shelf_id = 0;  ///< Lift: number of the storage unit. Drop: 0 is any unit.
 };
 
-/// A path that a robot drives as far as it is released, without stopping but to turn. A new
-/// `path_id` is a command like any other. The same one, while that path is under way, changes it:
-/// points from `first` on are replaced, beyond the released ones, or none are if there are none
-/// here; `released` may shrink as far as the robot can still stop.
+/// A path. The robot drives as far as the path is released, and stops only to turn. A new `path_id`
+/// is a command like any other. The `path_id` of the path under way changes that path: points from
+/// `first` on are replaced, but not released ones. Without points here none are replaced.
+/// `released` may shrink as far as the robot can still stop.
 struct FollowPath {
   std::int32_t kiva_id = 0;
   std::uint32_t path_id = 0;   ///< The sender's choice, not 0.
@@ -43,15 +43,15 @@ struct FollowPath {
   std::vector<double> x, y;    ///< Grid points in world [m]; neighbours differ along one axis.
                                ///< Point 0 is where the robot stands.
   std::uint32_t released = 0;  ///< How many points of the whole path it may come to, at least 1.
-  std::string fault;           ///< Why it makes no sense, if it was found not to: it is refused so.
+  std::string fault;           ///< If not empty, the path is refused for this reason.
 };
 
 /// How two bodies met.
 struct Impact {
   Vector3 point;       ///< In world [m].
   Vector3 normal;      ///< Unit vector in world, from `other` towards `model`.
-  double speed = 0;    ///< With which they approached along the normal [m/s].
-  double impulse = 0;  ///< Along the normal, until they no longer approach [Ns].
+  double speed = 0;    ///< Speed of approach along the normal [m/s].
+  double impulse = 0;  ///< Impulse along the normal until the approach ends [Ns].
 };
 
 /// Something that happened.
@@ -63,7 +63,7 @@ struct Event {
   std::string model;
   std::string other;
   std::string text;           ///< For a person.
-  std::uint32_t command = 0;  ///< The command that it belongs to, counted from 1; 0 = none.
+  std::uint32_t command = 0;  ///< Number of its command, counted from 1; 0 = none.
   Impact impact{};            ///< Of a collision.
 };
 

@@ -16,7 +16,7 @@
 
 namespace kiva {
 
-// What a world takes, wherever it is said.
+// Limits of a world.
 constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
 constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
 constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
@@ -45,7 +45,7 @@ struct Shape {
   Vector3 mesh_scale{1, 1, 1};  ///< Mesh: what the file's lengths were multiplied by.
 };
 
-/// A shape that touches.
+/// A shape that touches others.
 struct Collision {
   std::string name;
   Pose pose_in_link;
@@ -88,7 +88,7 @@ struct Joint {
   double damping = 0;              ///< [Nm s/rad] or [N s/m].
   double friction = 0;             ///< Dry friction [Nm] or [N].
 
-  /// Whether it has a position, a rate and all else that is about an axis.
+  /// Returns whether the joint turns or slides along an axis, with a position and a rate.
   bool hasAxis() const { return kind != Kind::kFixed && kind != Kind::kBall; }
 };
 
@@ -99,7 +99,7 @@ struct PluginDescription {
   Parameters parameters;
 };
 
-/// A `<sensor>` of a link: what the plugins in it need to know.
+/// A `<sensor>` of a link, as the plugins in it need it.
 struct SensorDescription {
   std::string name;
   std::string type;  ///< As SDF has it: ray, imu, contact, …
@@ -110,7 +110,7 @@ struct SensorDescription {
   std::vector<PluginDescription> plugins;
 };
 
-/// Kept and told; nothing is rendered.
+/// A light. Clients can set and read it; nothing is rendered.
 struct Light {
   enum class Kind { kPoint, kSpot, kDirectional };
   std::string name;
@@ -125,7 +125,7 @@ struct Light {
   bool cast_shadows = false;
 };
 
-/// What a model is, wherever it stands and whatever it is called.
+/// A model without its name and place.
 struct ModelDescription {
   bool is_static = false;
   std::vector<Link> links;  ///< The first is the canonical link.
@@ -162,7 +162,7 @@ struct WorldDescription {
   std::string name = "default";
   Vector3 gravity{0, 0, -9.81};   ///< [m/s²]
   double step_size = 0.001;       ///< [s], > 0.
-  double real_time_factor = 1.0;  ///< Simulated seconds a wall second; 0 = as fast as it goes.
+  double real_time_factor = 1.0;  ///< Simulated seconds a wall second; 0 = as fast as possible.
   std::vector<ModelInstance> models;
   std::vector<Light> lights;
   std::vector<PluginDescription> plugins;

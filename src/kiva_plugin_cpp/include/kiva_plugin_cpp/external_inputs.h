@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What clients do to a world from outside, as plain structs: forces for a while, lights, settings.
-// They are state like any other: all of them are in one place, and a reset ends what is pending.
+// They are part of the world's state. A reset ends forces that still act or are still to come.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace kiva {
 
-/// When something acts [s, simulated]: at least for one step, and forever if `end` is infinite.
+/// When a force acts [s, simulated]: at least for one step, and forever if `end` is infinite.
 struct Period {
   double start = 0;
   double end = 0;
@@ -36,7 +36,7 @@ struct Effort {
   Period period;
 };
 
-/// What clients set for ODE and read again; Bullet has no counterpart that means the same.
+/// Settings of ODE. Clients can set and read them; Bullet has no equivalent, so they do nothing.
 struct OdeSettings {
   bool auto_disable_bodies = false;
   std::uint32_t sor_pgs_precon_iters = 0;

@@ -11,12 +11,12 @@ namespace kiva {
 
 constexpr int kFailureKinds = static_cast<int>(Failure::kWheelSlip);
 
-/// In Fleet::failures.
+/// Returns the bit of a failure in Fleet::failures.
 constexpr std::uint8_t bitOf(Failure failure) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(failure));
 }
 
-/// In Fleet::failures, beside those: its battery is empty, and it stands.
+/// In Fleet::failures, beside those bits: the battery is empty, and the robot stands.
 constexpr std::uint8_t kEmptyBattery = 1;
 
 }  // namespace kiva

@@ -70,7 +70,7 @@ struct LiftParameters {
   double height = 0.10;     ///< Stroke of the tower [m].
   double time = 2.2;        ///< For the whole stroke [s]; 0 = at once.
   double max_load = 450.0;  ///< [kg]
-  double max_force = 5500;  ///< At which it stalls: weight of the load and what holds that [N].
+  double max_force = 5500;  ///< The lift stalls at this weight of the load and what holds it [N].
   double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
 
   template <typename Self, typename Field>
@@ -154,7 +154,7 @@ struct PathPoint {
   double x = 0, y = 0;
 };
 
-/// What a robot tells of itself; as in Fleet.
+/// A robot's report; fields as in Fleet.
 struct RobotReport {
   double x = 0, y = 0, yaw = 0;         ///< In world [m, rad].
   double vx = 0, vy = 0, yaw_rate = 0;  ///< [m/s, rad/s]
@@ -165,9 +165,9 @@ struct RobotReport {
   std::uint8_t last_end = 0;
 };
 
-/// What is told of a robot that is elsewhere, and of which the world has a shadow.
+/// The report of a robot that is elsewhere, whose shadow stands in the world.
 struct ShadowReport {
-  RobotReport report;         ///< Its velocities are left out.
+  RobotReport report;         ///< The velocities are not used.
   std::uint8_t failures = 0;  ///< As in Fleet.
   float charge = 1;           ///< As in Fleet.
 };
@@ -187,28 +187,28 @@ struct Fleet {
   Column<std::int32_t> unit;      ///< Index of the carried storage unit, -1 = none.
   Column<Status> status;
   Column<State> state;
-  /// How its last command ended, until the next is accepted: 0 = none yet, else the value of
-  /// Event::Kind, kDone or kBlocked.
+  /// How the last command ended: kDone or kBlocked of Event::Kind, 0 = none yet. It stays until
+  /// the next command is accepted.
   Column<std::uint8_t> last_end;
-  /// The path that its last command is, if it is one; else 0, as are the two below.
+  /// The path of the last command; 0, as are the two below, if that was no path.
   Column<std::uint32_t> path_id;
-  /// How many leading points of the path the robot's centre has come to, within a millimetre: 1 as
-  /// it begins, since it stands on point 0, and all of them at its end.
+  /// How many leading points of the path the robot's centre has reached, within a millimetre: 1 at
+  /// the beginning, since the robot stands on point 0, and all of them at the end.
   Column<std::uint32_t> reached;
-  /// How many leading points' cells, squares of the grid's spacing around them, the robot and its
-  /// load have left wholly. By how far they extend along and across the way when they drive
-  /// straight: the corners of a load that turns reach some centimetres out of its cell.
+  /// How many cells of leading points the robot and its load have left wholly. A cell is a square
+  /// of the grid's spacing around its point. Extents are those of straight driving: the corners of
+  /// a load that turns reach some centimetres out of its cell.
   Column<std::uint32_t> left;
-  Column<std::uint8_t> stopped;   ///< 1 = it stands until Command::Kind::kGoOn.
-  Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
-  Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
-  /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
+  Column<std::uint8_t> stopped;   ///< 1 = stands until Command::Kind::kGoOn.
+  Column<std::uint8_t> failures;  ///< What is broken: bitOf() each Failure; 0 = nothing.
+  Column<float> charge;           ///< Charge of the battery, 0…1; 1 without a battery model.
+  /// The speed that the protective field allows near people [m/s]: 0 = the robot stands, +inf =
   /// no person is near.
   Column<double> allowed_speed;
-  /// Its mode, as in warehouse_msgs/SetRobotMode: kept for the program that coordinates the fleet.
-  /// The world goes by none of it.
+  /// The mode, as in warehouse_msgs/SetRobotMode. It is kept for the program that coordinates the
+  /// fleet, and changes nothing in the world.
   Column<std::uint8_t> mode;
-  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain with a person inside.
+  Column<std::uint8_t> curtained;  ///< 1 = stands within a light curtain with a person inside.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

@@ -8,20 +8,20 @@
 
 namespace kiva {
 
-/// Walking speed of people by ISO 13855, and the most that they walk with [m/s].
+/// The walking speed of people by ISO 13855, and the highest one here [m/s].
 constexpr double kMostWalkingSpeed = 1.6;
 
 /// A place on a person's way.
 struct Waypoint {
   double x = 0, y = 0;  ///< In world [m].
-  double speed = 1.2;   ///< With which they come there [m/s]; above 0, up to kMostWalkingSpeed.
-  double pause = 0;     ///< How long they stay there [s].
+  double speed = 1.2;   ///< Of walking there [m/s]; above 0, up to kMostWalkingSpeed.
+  double pause = 0;     ///< How long the person stays there [s].
 };
 
 /// Where a person goes, from one waypoint straight to the next.
 struct Walk {
-  std::vector<Waypoint> waypoints;  ///< None: they stay where they are.
-  bool loops = false;               ///< After the last one comes the first again.
+  std::vector<Waypoint> waypoints;  ///< None: the person stays there.
+  bool loops = false;               ///< The first waypoint follows the last.
 };
 
 /// A person now, in world.
@@ -29,8 +29,8 @@ struct Person {
   std::string name;
   double x = 0, y = 0, yaw = 0;     ///< [m, rad]
   double vx = 0, vy = 0;            ///< [m/s]
-  double ahead_x = 0, ahead_y = 0;  ///< Where they are to be within kForesight, straight on, and
-                                    ///< if they wait now, want to be [m].
+  double ahead_x = 0, ahead_y = 0;  ///< The place straight ahead after kForesight [m]; of a person
+                                    ///< that waits, the place after walking on.
 };
 
 /// How far ahead Person::ahead_x looks [s].

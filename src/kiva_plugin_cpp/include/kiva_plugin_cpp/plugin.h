@@ -25,28 +25,28 @@ class Plugin {
  public:
   virtual ~Plugin() = default;
 
-  /// Called once, when its model stands in the world. `model` is that model's name, empty for a
-  /// plugin of the world. Throw to refuse the model; keys of `parameters` that were not read refuse
-  /// it too.
+  /// Called once, when the plugin's model stands in the world. `model` is the name of that model,
+  /// empty for a plugin of the world. To refuse the model, throw. A key of `parameters` that was
+  /// not read refuses the model, too.
   virtual void load(World& world, const std::string& model, const Parameters& parameters) = 0;
 
-  /// Called before each physics step of `dt` seconds: commands, applies forces.
+  /// Called before each physics step of `dt` seconds, to command and to apply forces.
   virtual void beforeStep(World& /*world*/, double /*dt*/) {}
 
-  /// Called after it: observes.
+  /// Called after each physics step, to observe.
   virtual void afterStep(const World& /*world*/, double /*dt*/) {}
 
   /// Returns the plugin's state as bytes, for checkpoints.
   virtual std::string save() const { return ""; }
-  /// Restores a state of save(), once all models stand as they did then. A model that was gone
-  /// meanwhile comes back with a new plugin: load() is called before, and what it posts is dropped.
+  /// Restores a state of save(), once all models stand as they did then. For a model that had been
+  /// removed, load() is called first on a new plugin; commands posted there are dropped.
   virtual void restore(World& /*world*/, const std::string& /*state*/) {}
 
-  /// Called after the world was reset, perhaps with its time.
+  /// Called after the world was reset, with or without its time.
   virtual void reset(World& /*world*/) {}
 
-  /// Whether what it throws, and parameters that were not read, refuse the model; else they are a
-  /// warning, and a plugin that threw is left out.
+  /// Returns whether errors and unread parameters refuse the model. Otherwise they are warnings,
+  /// and a plugin that threw is left out.
   virtual bool isStrict() const { return true; }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What makes a day a real one: how far robots, sensors, radio and people differ from the ideal.
-// Every section is off unless it is asked for; doc/explanation/realism.md gives models, defaults
-// and sources.
+// Realism: how far robots, sensors, radio and people differ from the ideal. Every section is off
+// unless it is switched on. doc/explanation/realism.md gives models, defaults and sources.
+//
 //
 // A section lists its numbers once, in fields(): name, value, least, most. From that list they are
 // read, checked, compared and saved in checkpoints.
@@ -21,7 +21,7 @@ struct LocalisationRealism {
   bool enabled = false;
   double wheel_radius_error = 0.001;      ///< Of each wheel, as a share of its radius.
   double wheel_separation_error = 0.002;  ///< As a share of it.
-  double slip = 0.0003;  ///< Of the way of a wheel over one metre, growing as its root.
+  double slip = 0.0003;  ///< Of a wheel's way over 1 m [m]; grows with the root of the way.
   double code_position_noise = 0.0005;  ///< Of a reading, along each axis [m].
   double code_angle_noise = 0.001;      ///< Of a reading [rad].
   double missed_codes = 0.002;          ///< Share of codes that are passed without being read.
@@ -39,7 +39,7 @@ struct LocalisationRealism {
   }
 };
 
-/// What laser scans lack.
+/// Errors of laser scans.
 struct LaserRealism {
   bool enabled = false;
   double range_noise = 0.01;    ///< Standard deviation of a range [m].
@@ -67,7 +67,7 @@ struct ActuationRealism {
   }
 };
 
-/// Floors that don't grip everywhere: cells that are wet, oily or dusty, chosen by the seed.
+/// Slippery cells of the floor: wet, oily or dusty. The seed chooses them.
 struct FloorRealism {
   bool enabled = false;
   double slippery_cells = 0.01;  ///< Share of the grid's cells.
@@ -84,8 +84,8 @@ struct FloorRealism {
 /// the boards of their storage unit, and slide off where it is hit hard enough, or tips.
 struct LoadRealism {
   bool enabled = false;
-  /// Share of the acceleration at which its load would tip that a robot plans with; from 1 on it
-  /// takes no care.
+  /// A robot accelerates with at most this share of the acceleration at which its load would tip;
+  /// from 1 on, it does not avoid tipping.
   double tipping_share = 0.7;
   double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
   double item_friction_most = 0.5;   ///< distributed between these.
@@ -100,9 +100,9 @@ struct LoadRealism {
   }
 };
 
-/// What happens to commands on their way to the robots, which get theirs in the order in which they
-/// were given, and to what robots report. A latency is its `least` and a rest, exponentially
-/// distributed, that makes it its `mean` in the mean.
+/// Delay and loss of commands on their way to robots, and of reports on their way back. Each robot
+/// gets its commands in the order in which they were given. A latency is its `least` plus an
+/// exponentially distributed rest; its mean is `mean`.
 struct RadioRealism {
   bool enabled = false;
   double latency_least = 0.005;     ///< [s]
@@ -130,11 +130,11 @@ struct RadioRealism {
   }
 };
 
-/// Batteries: what robots use, and what they take up where charging is painted on the floor.
+/// Batteries: what robots use, and what charging places on the floor give them.
 struct EnergyRealism {
   bool enabled = false;
   double capacity = 960;              ///< Of a new battery [Wh].
-  double health = 1;                  ///< Share of it that age has left.
+  double health = 1;                  ///< Share of the capacity that age has left.
   double initial_least = 0.6;         ///< State of charge at the beginning, evenly distributed
   double initial_most = 1;            ///< between these, 0…1.
   double electronics = 80;            ///< Used at all times [W].
@@ -161,13 +161,13 @@ struct EnergyRealism {
   }
 };
 
-/// How often something breaks in robots by itself, and how long it takes to repair it. Times
-/// between failures and to a repair are exponentially distributed.
+/// How often robots fail, and how long a repair takes. Times between failures and times to a repair
+/// are exponentially distributed.
 struct FailureRealism {
   bool enabled = false;
   double per_robot_hour = 0.01;  ///< Failures an hour and robot.
-  double repair_time = 300;      ///< Mean, until it is repaired [s].
-  double motor = 0.3;  ///< How often each kind is what breaks, beside the others: the drive,
+  double repair_time = 300;      ///< Mean time to a repair [s].
+  double motor = 0.3;  ///< Weight of this kind of failure among the kinds; likewise below.
   double lift_stuck = 0.15;
   double laser_blind = 0.15;
   double radio_lost = 0.25;
@@ -220,10 +220,10 @@ void forEachSection(R& realism, Call call) {
   call("people", realism.people);
 }
 
-/// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
-/// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
-/// Throws DescriptionError for what is no number or out of its range; unknown keys are
-/// left to Parameters::rejectUnread.
+/// Reads `prefix` + `section/name` for every number. A section is on if any of its numbers is
+/// given, or if the section itself is `true`; `false` switches it off. Other numbers keep their
+/// defaults. Throws DescriptionError for a text that is not a number, and a number out of range.
+/// Unknown keys are left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 
 bool operator==(const Realism& a, const Realism& b);

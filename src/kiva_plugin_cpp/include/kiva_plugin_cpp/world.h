@@ -29,8 +29,8 @@ namespace kiva {
 class Plugin;
 struct WorldState;
 
-/// What a model is to the warehouse; told by its name (`kiva1`, `storage_unit1`, `item1`,
-/// `conveyor_belt1`) and, for robots, by the motion plugin.
+/// What a model is to the warehouse. Its name tells (`kiva1`, `storage_unit1`, `item1`,
+/// `conveyor_belt1`); a robot also has the motion plugin.
 enum class ModelKind : std::uint8_t { kRobot, kStorageUnit, kItem, kBelt, kFloor, kOther };
 
 struct Twist {
@@ -43,58 +43,59 @@ struct EntityState {
   Twist twist;
 };
 
-/// A storage unit: stands on the floor, or on the tower of its carrier.
+/// A storage unit. It stands on the floor, or on the tower of the robot that carries it.
 struct StorageUnit {
   std::string name;
   int id = 0;
   int model = -1;
   double mass = 0;       ///< With its items [kg].
   int carrier = -1;      ///< Index of the robot that carries it, -1 = none.
-  int claimed_by = -1;   ///< Index of the robot that is about to, -1 = none.
+  int claimed_by = -1;   ///< Index of the robot that is about to lift it, -1 = none.
   Pose pose_on_carrier;  ///< In the carrier's tower frame, while it is carried.
-  double raised = 0;     ///< How much higher than asked for it was put, to stand on the floor [m].
+  double raised = 0;     ///< How far it was raised when it was spawned, to stand on the floor [m].
 };
 
-/// An item: fixed to its storage unit, or a body of its own where no unit was when it came.
+/// An item. It is fixed to its storage unit, or a free body if no unit was there at its spawning.
 struct Item {
   std::string name;
   int id = 0;
   int model = -1;
   int unit = -1;  ///< Index of its storage unit, -1 = none.
   Pose pose_in_unit;
-  Pose spawn_pose_in_unit;  ///< Where a reset puts it.
+  Pose spawn_pose_in_unit;  ///< Where a reset puts the item.
   double mass = 0;          ///< [kg]
 };
 
-/// An item that fell off its storage unit, and belongs back there.
+/// An item that fell off its storage unit.
 struct FallenItem {
   std::string name;
-  std::string unit;  ///< Its storage unit's name.
+  std::string unit;  ///< Name of the storage unit that it belongs to.
   Pose pose;         ///< In world.
 };
 
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
-  double z = 0;  ///< Its height.
+  double z = 0;  ///< Height of the floor.
 };
 
-/// Which cells of the grid are in the way of robots: those where a model that belongs to no
-/// warehouse reaches in, or would be hit by a loaded robot that turns there, and those that are not
-/// on the floor as a whole. Where there is no floor, all around what stands there are taken.
+/// The cells of the grid, and what keeps robots out of each. A cell is taken if a model that
+/// belongs to no warehouse reaches into it, if a loaded robot that turns in it would hit such a
+/// model, or if part of it is off the floor. In a world without a floor, all cells around its
+/// models are taken.
 struct Occupancy {
   double x = 0, y = 0;        ///< The first cell's grid point, of the lowest x and y [m].
-  double z = 0;               ///< Of the floor [m].
+  double z = 0;               ///< Height of the floor [m].
   double spacing = 1;         ///< Edge of a cell [m].
   int columns = 0, rows = 0;  ///< Cells along x and y.
-  /// Row by row, x first: what is in the way there, the worst of it.
+  /// Row by row, x first: the greatest of the values below that applies to the cell.
   std::vector<std::uint8_t> cells;
 
-  // Of a cell. Like the percentages of a nav_msgs/OccupancyGrid.
+  // Values of cells, like the percentages of a nav_msgs/OccupancyGrid.
   static constexpr std::uint8_t kFree = 0;
-  static constexpr std::uint8_t kStorageUnit = 50;  ///< Robots without a load pass beneath.
-  static constexpr std::uint8_t kBelt = 99;         ///< It goes when its warehouse does.
-  static constexpr std::uint8_t kTaken = 100;       ///< By the building; no floor; or too near.
+  static constexpr std::uint8_t kStorageUnit = 50;  ///< Robots without a load drive beneath.
+  static constexpr std::uint8_t kBelt = 99;         ///< Removed with its warehouse.
+  static constexpr std::uint8_t kTaken = 100;       ///< Building, no floor, or too near.
 };
 
 /// One robot's status at the moment when it changed.
@@ -112,52 +113,52 @@ class CheckpointError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a joint is like, and what its motor is asked for.
+/// The properties of a joint, and what its motor is to do.
 struct JointSettings {
   double damping = 0;       ///< [Nm s/rad] or [N s/m], >= 0.
-  double friction = 0;      ///< Dry friction [Nm] or [N], >= 0; a motor takes its place.
+  double friction = 0;      ///< Dry friction [Nm] or [N], >= 0; without effect under a motor.
   double lower = -1e16;     ///< [rad] or [m].
   double upper = 1e16;      ///< [rad] or [m].
   double motor_speed = 0;   ///< [rad/s] or [m/s].
   double motor_effort = 0;  ///< The most that the motor may use [Nm] or [N]; 0 = no motor.
 };
 
-/// A joint as it is now.
+/// The present state of a joint.
 struct JointState {
   double position = 0;  ///< [rad], counting full turns, or [m].
   double rate = 0;      ///< [rad/s] or [m/s].
   JointSettings settings;
 };
 
-/// What a joint does to its child link, about that link's origin, in world.
+/// The wrench of a joint on its child link, about that link's origin, in world.
 struct JointWrench {
   Vector3 force;   ///< [N]
   Vector3 torque;  ///< [Nm]
 };
 
-/// A point at which two collisions touch. Names are `model::link::collision`; in world.
+/// A point at which two collisions touch, in world. Names are `model::link::collision`.
 struct ContactPoint {
   std::string collision1, collision2;
   Vector3 position;  ///< [m]
-  Vector3 normal;    ///< Unit vector, from the second towards the first.
-  double depth = 0;  ///< How far they overlap [m], >= 0.
-  Vector3 force;     ///< On the first, in the last step [N].
+  Vector3 normal;    ///< Unit vector, from collision2 towards collision1.
+  double depth = 0;  ///< Overlap of the two [m], >= 0.
+  Vector3 force;     ///< On collision1, in the last step [N].
 };
 
-/// Makes the plugin of that file name, or null if it knows none. `sensor`: the one that it sits
-/// in, null for a plugin of a model or a world; it lives as long as the plugin.
+/// Makes the plugin with a file name, or returns null for an unknown name. `sensor` is the sensor
+/// that the plugin sits in, null for a plugin of a model or a world; it outlives the plugin.
 using PluginFactory = std::function<std::shared_ptr<Plugin>(const std::string& filename,
                                                             const SensorDescription* sensor)>;
 
 struct WorldOptions {
-  std::uint64_t seed = 1;      ///< Of everything random.
+  std::uint64_t seed = 1;      ///< Seed of everything random.
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
-  /// Every robot is a Bullet body at all times, slowly: the reference that the arrays are held to.
+  /// Every robot is a Bullet body at all times. It is slow: the reference to test the arrays by.
   bool always_in_bullet = false;
-  /// On which robots are stepped, look ahead and scan, with the same result however many there are;
-  /// 1 to kMostThreads. A checkpoint keeps to those of the world that restores it.
+  /// Threads that step robots, look ahead and scan, 1 to kMostThreads. The result is the same for
+  /// every number. A checkpoint does not keep it.
   int threads = 1;
-  /// Of all robots, in place of what their files say in `<realism>`; without either, all is ideal.
+  /// Realism of all robots, in place of `<realism>` in their files. Without both, all is ideal.
   std::optional<Realism> realism;
   PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
@@ -174,38 +175,38 @@ class World {
 
   // --- time
   void step();
-  double time() const;          ///< Simulated [s], since the last reset of time.
-  std::uint64_t steps() const;  ///< Since then.
+  double time() const;          ///< Simulated time [s] since the last reset of time.
+  std::uint64_t steps() const;  ///< Steps since the last reset of time.
   double stepSize() const;      ///< [s]
-  /// From the next step on; throws std::invalid_argument unless 1e-6 <= seconds <= 1.
+  /// Sets the step size from the next step on. Throws std::invalid_argument unless it is 1e-6 to 1.
   void setStepSize(double seconds);
   const Vector3& gravity() const;  ///< [m/s²]
-  /// Throws std::invalid_argument if it is not finite or above 1000 m/s².
+  /// Throws std::invalid_argument if gravity is not finite, or above 1000 m/s².
   void setGravity(const Vector3& gravity);
-  std::uint64_t seed() const;  ///< Of everything random.
+  std::uint64_t seed() const;  ///< Seed of everything random.
   const Realism& realism() const;
   const std::string& name() const;
-  /// Puts everything back to where it was spawned, at rest, tower down, without commands; units and
-  /// items too. What clients apply ends. Time goes back to 0 as well if `time_too`.
+  /// Puts robots, units and items back to where they were spawned, at rest, towers down, without
+  /// commands. Forces that clients apply end. With `time_too` the time goes back to 0.
   void reset(bool time_too);
 
   // --- commands
   /// Queues a command; an ACCEPTED or REFUSED event answers it at the next step.
   void post(const Command& command);
-  /// The same, in one row with those; a change of the path under way is only answered if it is
+  /// Queues a path among the commands. A change of the path under way is answered only if it is
   /// refused.
   void post(FollowPath path);
 
   // --- failures
-  /// Breaks something in a robot now: FAILED. `repair_after` [s]; 0 = until repair() is called.
-  /// What is broken already is repaired then instead. Throws std::invalid_argument if there is no
-  /// such robot, or the time is negative or not finite.
+  /// Breaks something in a robot now: FAILED. It is repaired after `repair_after` [s], or by
+  /// repair() if that is 0. If it is broken already, only the time of its repair changes. Throws
+  /// std::invalid_argument for an unknown robot, and a time that is negative or not finite.
   void fail(int kiva_id, Failure failure, double repair_after);
-  /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
+  /// Repairs all that is broken in a robot now: REPAIRED for each failure. An empty battery is
   /// exchanged for a full one. Throws as fail().
   void repair(int kiva_id);
-  /// What was heard last of a robot whose radio is lost, and of every robot where reports go by
-  /// radio; nothing of one that is heard at once.
+  /// Returns the last report of a robot whose radio is lost, and of every robot if reports go by
+  /// radio. Returns nothing for a robot that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
   // --- modes of robots
@@ -214,97 +215,99 @@ class World {
   void keepMode(int kiva_id, int mode);
 
   // --- shadows of robots that are elsewhere
-  /// Puts a robot where another one is that it is the shadow of: in a hall, behind a broker. From
-  /// the first report on it takes no commands, since others answer them: lasers see it, its load
-  /// goes with it, and it tells what it is told. Ends when the robot is removed. Throws
-  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit,
-  /// another robot carries the unit, or a number is not finite.
+  /// Makes a robot the shadow of one that is elsewhere, as in a hall behind a broker, and puts it
+  /// where that one is. A shadow takes no commands. Lasers see it, its load goes with it, and its
+  /// state is the one reported. It stays a shadow until it is removed. Throws
+  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, if
+  /// another robot carries the unit, or if a number is not finite.
   void shadow(int kiva_id, const ShadowReport& report);
   bool isShadow(int kiva_id) const;
 
   // --- people
-  /// Makes a person walk that way from now on: an actor, or a static model that is no larger than a
-  /// person, which is one from then on: robots keep away from people. Without waypoints they stay
-  /// where they are. They stop before what is in their way, and walk around it where they can.
-  /// Throws std::invalid_argument, with nothing changed, if there is no such model, it is no
-  /// person, or a waypoint is not finite, off the floor, or to be reached too fast.
+  /// Makes a person walk along waypoints from now on. The person is an actor, or a static model no
+  /// larger than a person; robots keep away from it. Without waypoints the person stays there.
+  /// People stop before obstacles, and walk around them where they can. Throws
+  /// std::invalid_argument, with nothing changed, if there is no such model, if it can't be a
+  /// person, or if a waypoint is not finite, off the floor, or to be reached too fast.
   void walk(const std::string& person, const Walk& walk);
-  /// Returns them in the order in which they were added.
+  /// Returns all people, in the order in which they were added.
   std::vector<Person> people() const;
-  /// A new one, or in place of the one of that name. Throws std::invalid_argument if it has no
-  /// name, or its edges are not finite or in the wrong order.
+  /// Adds a light curtain, or replaces the one of that name. Throws std::invalid_argument if it has
+  /// no name, or if its edges are not finite or in the wrong order.
   void setLightCurtain(const LightCurtain& curtain);
   bool removeLightCurtain(const std::string& name);
   const std::vector<LightCurtain>& lightCurtains() const;
 
   // --- fallen items
-  /// Returns them in the order in which they fell.
+  /// Returns fallen items, in the order in which they fell.
   std::vector<FallenItem> fallenItems() const;
-  /// Puts an item that fell back in its place on its storage unit: PICKED_UP.
-  /// Throws std::invalid_argument, with nothing changed, if it did not fall, or its unit does not
+  /// Puts a fallen item back into its place on its storage unit: PICKED_UP. Throws
+  /// std::invalid_argument, with nothing changed, if the item did not fall, or if its unit does not
   /// stand upright.
   void pickUp(const std::string& item);
 
   // --- models
-  /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
-  /// exists"), a plugin is unknown or a parameter is wrong. Never half a model.
+  /// Adds a model. Throws DescriptionError, with nothing changed, if the name is taken or unfit, if
+  /// a plugin is unknown, or if a parameter is wrong.
   void spawn(const ModelInstance& instance);
-  /// All of them, or none: what was already spawned is removed again before the error goes on.
+  /// Adds all of these models, or throws and adds none.
   void spawn(const std::vector<ModelInstance>& instances);
-  /// A carried unit is put down if its carrier goes; a unit's items go with their unit.
+  /// Removes a model. A unit that it carries is put down; the items of a unit go with the unit.
   /// Returns false if there is no such model.
   bool remove(const std::string& name);
   bool has(const std::string& name) const;
-  /// Returns them in the order in which they were added.
+  /// Returns the names of all models, in the order in which they were added.
   std::vector<std::string> modelNames() const;
   ModelKind kind(const std::string& name) const;
   /// Returns a number that grows whenever a model is added or removed.
   std::uint64_t modelsRevision() const;
-  /// Nothing if there is no such model. `link` empty: the model itself (its canonical link's
-  /// twist).
+  /// Returns the state of a link, or of the model (with its canonical link's twist) if `link` is
+  /// empty. Returns nothing if there is no such model or link.
   std::optional<EntityState> state(const std::string& model, const std::string& link = "") const;
   std::shared_ptr<const ModelDescription> description(const std::string& model) const;
-  /// Moves a model and everything fixed to it, at that velocity. Returns false if there is no such
-  /// model; throws DescriptionError if the state is not finite or too far away.
+  /// Moves a model, with everything fixed to it, and sets its velocity. Returns false if there is
+  /// no such model. Throws DescriptionError if the state is not finite, or too far away.
   bool setState(const std::string& model, const EntityState& state);
-  /// Gives a model of free bodies this velocity where it is: its joints go on turning as they do.
-  /// Returns false if there is no such model; throws DescriptionError if it is not finite.
+  /// Sets the velocity of a model of free bodies; its joints go on turning as they do. Returns
+  /// false if there is no such model. Throws DescriptionError if the velocity is not finite.
   bool setVelocity(const std::string& model, const Twist& twist);
-  /// Moves a link and everything that joints hold to it, the link at that velocity. Returns false
-  /// if there is no such link; throws as setState.
+  /// Moves a link, with everything that joints hold to it, and sets the link's velocity. Returns
+  /// false if there is no such link. Throws as setState().
   bool setLinkState(const std::string& model, const std::string& link, const EntityState& state);
-  /// Returns all models at once, in the order of modelNames().
+  /// Writes the states of all models, in the order of modelNames().
   void states(std::vector<EntityState>* out) const;
-  /// Returns every `model::link`, models in the order of modelNames().
+  /// Writes names (`model::link`) and states of all links, by model in the order of modelNames().
   void linkStates(std::vector<std::string>* names, std::vector<EntityState>* states) const;
-  /// Gives the link of that name this mass, centre of mass, inertia and gravity flag. Returns false
-  /// if there is no such link; throws std::invalid_argument if no body can be like that.
+  /// Sets mass, centre of mass, inertia and gravity flag of the link with that name. Returns false
+  /// if there is no such link. Throws std::invalid_argument for an inertia that no body can have.
   bool setLinkInertia(const std::string& model, const Link& link);
 
   // --- joints
-  /// Nothing if there is no such joint; a fixed one is always at 0.
+  /// Returns nothing if there is no such joint. A fixed joint is always at 0.
   std::optional<JointState> joint(const std::string& model, const std::string& joint) const;
-  /// Of the last step, dampers and applied efforts left out. Nothing if there is no such joint, or
-  /// its model has no free bodies.
+  /// Returns the wrench of the last step, without dampers and applied efforts. Returns nothing if
+  /// there is no such joint, or if its model has no free bodies.
   std::optional<JointWrench> jointWrench(const std::string& model, const std::string& joint) const;
-  /// Returns false if there is no such joint; throws std::invalid_argument where a number is out of
+  /// Returns false if there is no such joint. Throws std::invalid_argument for a number out of
   /// range, and for the joints of a robot, which its plugins drive.
   bool setJoint(const std::string& model, const std::string& joint, const JointSettings& settings);
-  /// Puts joints at positions [rad] or [m], with what hangs on them, at rest. All or none: throws
-  /// std::invalid_argument that names the joint that can't be put there.
+  /// Sets positions of joints [rad] or [m], at rest; what hangs on the joints moves along. Throws
+  /// std::invalid_argument, with nothing changed, that names the joint that can't be there.
   void setJointPositions(const std::string& model, const std::map<std::string, double>& positions);
 
   // --- what clients apply
   const ExternalInputs& externalInputs() const;
-  /// Acts in the next step only. Returns false if there is no such link or it does not move.
+  /// Applies a wrench in the next step only. Returns false if there is no such link, or if it is
+  /// fixed.
   bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                    const Vector3& torque);
-  /// Act for a period. Return false if there is no such link or joint, or it does not move.
+  /// Applies a wrench or an effort for its period. Returns false if there is no such link or joint,
+  /// or if it is fixed.
   bool apply(const Wrench& wrench);
   bool apply(const Effort& effort);
   void clearWrenches(const std::string& model, const std::string& link);
   void clearEfforts(const std::string& model, const std::string& joint);
-  void setLight(const Light& light);  ///< A new one, or in place of the one of that name.
+  void setLight(const Light& light);  ///< Adds a light, or replaces the one of that name.
   bool removeLight(const std::string& name);
   void setOde(const OdeSettings& settings);
 
@@ -314,63 +317,65 @@ class World {
   const std::vector<Item>& items() const;
   Pose storageUnitPose(int unit) const;  ///< In world.
   Pose itemPose(int item) const;         ///< In world.
-  /// Where the robot is still to turn or to stop on its present way; on a path the end of what is
-  /// released is one, and what is not released belongs to it.
+  /// Returns the points at which the robot is still to turn or to stop. On a path, the last
+  /// released point is among them, and points that are not released yet follow it.
   std::vector<PathPoint> pathAhead(int robot) const;
-  /// Where the robot believes to be, which it drives by: (x, y, yaw) in world [m, rad], yaw
-  /// unwrapped. Where it is, unless localisation is real.
+  /// Returns where the robot believes to be: (x, y, yaw) in world [m, rad], yaw unwrapped. Robots
+  /// drive by this pose. It is the true pose unless localisation is realistic.
   Vector3 believedPose(int robot) const;
-  /// What the robot keeps its acceleration below so that its load does not tip [m/s²]; +inf without
-  /// a load, or where loads are ideal.
+  /// Returns the acceleration below which the robot stays so that its load does not tip [m/s²]. It
+  /// is +inf without a load, and if loads are ideal.
   double loadLimit(int robot) const;
-  Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
-  /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
+  Pose basePose(int robot) const;  ///< Pose of the chassis, on the floor, in world.
+  /// Returns a number that grows whenever a storage unit, or an item that lies on no unit, moves or
+  /// changes its carrier.
   std::uint64_t unitsRevision() const;
   const Floor& floor() const;
   Occupancy occupancy() const;
   double gridSpacing() const;  ///< [m]
 
   // --- sensing
-  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117); NaN of a
-  /// laser that is blind.
+  /// Writes one range a ray [m]. +inf is no return, -inf nearer than the minimum (REP 117), NaN a
+  /// blind laser.
   void scan(int robot, std::vector<float>* ranges) const;
-  /// The same of several robots that have lasers, a row each, on the world's threads.
+  /// Writes the ranges of several robots that have lasers, a row each, on the world's threads.
   void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;
-  /// Robots whose scan is due at this step, in the fleet's order; scans are staggered over the
-  /// fleet. Valid until the next step or until a robot is removed.
+  /// Returns the robots whose scan is due at this step, in the fleet's order. Scans are staggered
+  /// over the fleet. Valid until the next step, or until a robot is removed.
   const std::vector<int>& scansDue() const;
-  /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
-  /// stands on the floor; +inf = none within `range`. `but`: a model that the ray passes.
+  /// Returns the distance [m] from a point in world, level, in the direction `yaw`, to the first
+  /// body that stands on the floor; +inf without one within `range`. The ray passes the model
+  /// `but`.
   double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
-  /// Distances [m] from a point in world along unit vectors to the first collision, the floor's
-  /// among them; +inf = none within `range`. On the world's threads, about a microsecond a ray.
+  /// Writes distances [m] from a point in world along unit vectors to the first collision, the
+  /// floor's included; +inf without one within `range`. On the world's threads; about 1 µs a ray.
   void rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
                const std::string& but, std::vector<double>* ranges) const;
-  /// Where that model touches others now, itself the first of each pair.
+  /// Returns where a model touches others now. The model is the first of each pair.
   std::vector<ContactPoint> contacts(const std::string& model) const;
 
   // --- checkpoints
-  /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
-  /// events not yet taken, what plugins save. This world and any that restores the bytes go on the
-  /// same from here, bit by bit, as long as they are given the same commands.
+  /// Returns the whole state as bytes: time, models, motion, commands under way and pending, events
+  /// not yet taken, and what plugins save. A world that restores these bytes goes on exactly as
+  /// this one does, bit by bit, if both are given the same commands.
   std::string checkpoint() const;
-  /// Makes this world the one that was saved, whatever it was before. Throws CheckpointError, with
-  /// nothing changed, if the bytes are damaged or of another version, and DescriptionError if a
-  /// plugin of a model can't be loaded.
+  /// Turns this world into the one that was saved. Throws CheckpointError, with nothing changed, if
+  /// the bytes are damaged or of another version, and DescriptionError if a plugin of a model can't
+  /// be loaded.
   void restore(const std::string& checkpoint);
-  /// Of all that decides what happens next, commands posted but not yet answered left out. Equal
-  /// worlds have equal hashes.
+  /// Returns a hash of all that decides what happens next, without commands that are not answered
+  /// yet. Equal worlds have equal hashes.
   std::uint64_t stateHash() const;
 
   // --- what happened since the last call
   std::vector<Event> takeEvents();
   std::vector<StatusChange> takeStatusChanges();
-  /// What was left out, a plugin that is not known say; each once.
+  /// Returns warnings, each once: what was left out, such as an unknown plugin.
   std::vector<std::string> takeWarnings();
-  /// For plugins: one more of these.
+  /// Adds a warning; for plugins.
   void warn(const std::string& warning);
 
-  /// What clients don't see; for tests and the parts of the world itself, see src/core/state.
+  /// Gives access to the private state, for tests and parts of the world; see src/core/state.
   friend WorldState& insideOf(World& world);
   friend const WorldState& insideOf(const World& world);
 

@@ -27,10 +27,10 @@ ModelPaths environmentModelPaths();
 ModelPaths modelPathsAround(const std::string& world_file);
 
 /// Returns the world in the file at `path`.
-/// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if
-/// given, is told so: file, line, entity and cause.
-/// Throws DescriptionError, in the same words, where no world would be left: what is no XML, no
-/// SDF, has more than 20 MB or nests deeper than 100 elements.
+///
+/// Faulty parts are left out, as small as possible. `warnings`, if given, gets a line for each:
+/// file, line, entity and cause. Throws DescriptionError if no world would be left: the file is not
+/// XML, not SDF, larger than 20 MB, or nested deeper than 100 elements.
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
                            std::vector<std::string>* warnings = nullptr);
 

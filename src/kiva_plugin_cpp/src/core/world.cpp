@@ -566,6 +566,7 @@ std::string World::checkpoint() const { return kiva::checkpoint(*state_); }
 std::uint64_t World::stateHash() const { return kiva::stateHash(*state_); }
 
 void World::restore(const std::string& checkpoint) {
+  if (returnTo(*state_, checkpoint)) return;
   Restored next = readCheckpoint(checkpoint);
   const std::vector<PluginState> before = savePlugins(*state_);
   next.world->plugins.owner = this;

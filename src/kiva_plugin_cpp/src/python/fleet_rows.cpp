@@ -16,13 +16,13 @@ FleetRows::FleetRows(std::size_t size) {
   counts.resize(size * Event::kKinds);
 }
 
-void FleetRows::take(const World& world, std::size_t at) {
+void FleetRows::take(const World& world, std::size_t at, int begin, int end) {
   const Fleet& f = world.fleet();
+  const auto first = static_cast<std::ptrdiff_t>(at) + begin;
   const auto copy = [&](const auto& from, auto& to) {
-    std::transform(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at),
-                   [](auto value) {
-                     return static_cast<typename std::decay_t<decltype(to)>::value_type>(value);
-                   });
+    std::transform(from.begin() + begin, from.begin() + end, to.begin() + first, [](auto value) {
+      return static_cast<typename std::decay_t<decltype(to)>::value_type>(value);
+    });
   };
   copy(f.x, x);
   copy(f.y, y);
@@ -36,7 +36,7 @@ void FleetRows::take(const World& world, std::size_t at) {
   copy(f.status, status);
   copy(f.state, state);
   copy(f.last_end, last_end);
-  std::transform(f.unit.begin(), f.unit.end(), shelf_id.begin() + static_cast<std::ptrdiff_t>(at),
+  std::transform(f.unit.begin() + begin, f.unit.begin() + end, shelf_id.begin() + first,
                  [&](int unit) { return unit < 0 ? 0 : world.storageUnits()[unit].id; });
 }
 

@@ -21,8 +21,8 @@ struct FleetRows {
   /// Makes room for `size` robots.
   explicit FleetRows(std::size_t size);
 
-  /// Copies a world's robots, the first to place `at`.
-  void take(const World& world, std::size_t at);
+  /// Copies a world's robots, from `begin` to before `end`; its first one's place is `at`.
+  void take(const World& world, std::size_t at, int begin, int end);
 };
 
 }  // namespace kiva::python

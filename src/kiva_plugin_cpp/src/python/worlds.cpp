@@ -128,7 +128,8 @@ void Worlds::place(const ArrayLike& which, const ArrayLike& kiva_id, const Array
     }
     at.world.setState(at.world.fleet().robots[robot].name,
                       {Pose(xs[i], ys[i], 0, 0, 0, yaws[i]), {}});
-    copyRobots(static_cast<std::size_t>(worlds[i]));
+    const auto w = static_cast<std::size_t>(worlds[i]);
+    copyRobots(w, robot, robot + 1);
   }
 }
 
@@ -240,13 +241,15 @@ bool Worlds::advance(std::size_t i, std::int64_t steps, bool until_idle, std::in
   return idle;
 }
 
-void Worlds::copyRobots(std::size_t i) {
+void Worlds::copyRobots(std::size_t i) { copyRobots(i, 0, robots_); }
+
+void Worlds::copyRobots(std::size_t i, int begin, int end) {
   if (hosts_[i]->world.fleet().size() != robots_) {
     throw std::invalid_argument(
         "world " + std::to_string(i) + " has " + std::to_string(hosts_[i]->world.fleet().size()) +
         " robots and world 0 had " + std::to_string(robots_) + "; the same number was expected");
   }
-  rows_.take(hosts_[i]->world, i * static_cast<std::size_t>(robots_));
+  rows_.take(hosts_[i]->world, i * static_cast<std::size_t>(robots_), begin, end);
 }
 
 void Worlds::takeEvents(std::size_t i, std::vector<Event>* kept) {

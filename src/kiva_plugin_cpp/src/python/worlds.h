@@ -82,6 +82,7 @@ class Worlds {
   bool advance(std::size_t i, std::int64_t steps, bool until_idle, std::int64_t* made);
 
   void copyRobots(std::size_t i);
+  void copyRobots(std::size_t i, int begin, int end);
   void takeEvents(std::size_t i, std::vector<Event>* kept);
   void scanInto(std::size_t i, float* out, std::size_t rays);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which robot holds which cell, and which cells are closed. Each cell is held by one robot at the
-// most, from before the robot may enter until it and its load have left.
+// Which robot holds which cell, and which cells are closed. At most one robot holds a cell, from
+// before it may enter until it and its load have left.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +29,13 @@ class CellHolders {
     return holder_[cell] == kNobody || holder_[cell] == robot;
   }
 
-  /// Closes a cell until `until` [s]; nothing for a cell off the floor.
+  /// Closes a cell until `until` [s]; ignores a cell off the floor.
   void close(Cell cell, double until);
   bool isClosed(Cell cell, double now) const { return closed_until_[cell] > now; }
   /// Returns whether a cell is closed by close().
   bool isClosing(double now) const;
-  /// Closes these cells, where people are or are about to be, instead of those before. A robot
-  /// inside goes on with what was released, and out.
+  /// Closes cells where people are or are about to be, in place of the former zone. A robot inside
+  /// drives on along its released cells, and out.
   void setZone(std::vector<Cell> cells);
   bool isInZone(Cell cell) const { return is_in_zone_[cell] != 0; }
   /// Returns the cells of the zone, and those closed by close(), in no order.

@@ -25,16 +25,16 @@ enum class Phase : std::uint8_t {
   kObstacle,   ///< Commanded by others, or pushed off the floor.
   kStanding,   ///< A member of the fleet without a path.
   kSent,       ///< The path was sent, and not reported yet.
-  kRefused,    ///< Refused; a release may have been sent twice, and the duplicate be accepted.
+  kRefused,    ///< The robot refused the path. It may still accept a duplicate of the release.
   kDriving,    ///< The robot has reported the path.
   kWithdrawn,  ///< Told to stop before an obstacle.
 };
 
-/// How a robot's way to its goal went, to compare what was driven with what was planned.
+/// A robot's way to its goal as it was driven, to be compared with the plan.
 struct Journey {
-  double driven = 0;  ///< since it left [s]
-  double alone = 0;   ///< what the same way takes a robot without others [s]
-  /// That, and where the plan let it wait: by itself, or behind a robot that stood [s].
+  double driven = 0;  ///< time since the robot left [s]
+  double alone = 0;   ///< time that the same way takes a robot without others [s]
+  /// `alone`, and waiting by the plan: by itself, or behind a robot that stood [s].
   double planned = 0;
   int cells = 0;
 };
@@ -67,29 +67,29 @@ struct Course {
   // The path: points 0 to released - 1; the cell where the robot stands if there is no path.
   std::vector<Cell> cells;
   int reached = 1, left = 0;
-  bool is_short = false;    ///< of the middle of the last cell that it reached
+  bool is_short = false;    ///< stands short of the middle of the last cell that it reached
   Cell at = kNowhere;       ///< where it stands, or was last
   Cell turning = kNowhere;  ///< where it has been released around a corner
 
   // The plan beyond.
   std::deque<Step> plan;
-  int committed = 0;           ///< cells that it had before it when the plan was asked for
-  std::vector<Cell> granted;   ///< what it was released since then
-  bool plan_is_stale = false;  ///< it is not any more where the plan was asked for
-  bool travels = false;        ///< has somewhere to go
+  int committed = 0;           ///< cells ahead when the plan was requested
+  std::vector<Cell> granted;   ///< cells released since then
+  bool plan_is_stale = false;  ///< the robot has left the way that was planned for
+  bool travels = false;        ///< has a goal elsewhere
   bool waits_by_plan = false;
   int waits_for = -1;  ///< a robot
   Hindrance hindrance = Hindrance::kNone;
 
   // Off the grid.
-  bool is_astray = false;      ///< was pushed, and is not in the middle of its cell
-  std::vector<Cell> occupied;  ///< what it stands on beyond `cells`: an obstacle, or astray
+  bool is_astray = false;      ///< was pushed off the middle of its cell
+  std::vector<Cell> occupied;  ///< cells beyond `cells` that it stands on: an obstacle, or astray
   Recovery recovery;
 
   double still_since = 0, blocked_since = -1;
   double moved = 0;  ///< when it moved last, or had nothing before it [s]
   Journey journey;
-  int run = 0, run_heading = 0;  ///< cells that it has driven straight on, and where to
+  int run = 0, run_heading = 0;  ///< cells driven straight on, and their heading
 
   Phase phase() const { return phase_; }
   bool isMember() const { return phase_ != Phase::kObstacle; }
@@ -100,17 +100,17 @@ struct Course {
   bool isWithdrawn() const { return phase_ == Phase::kWithdrawn; }
   int points() const { return static_cast<int>(cells.size()); }
 
-  /// It is a member of the fleet from now on, in a cell.
+  /// Makes the robot a member of the fleet, in a cell.
   void admit(Cell cell, double now, int heading);
-  /// A path, or more of one, is sent.
+  /// Notes that a path, or more of one, was sent.
   void send();
-  /// The robot refuses what was sent, unless it has reported the path.
+  /// Notes a refusal, unless the robot has reported the path.
   void refuse();
-  /// The robot reports the path.
+  /// Notes that the robot reports the path.
   void accept();
-  /// The robot is told to stop; what was planned beyond holds no more.
+  /// Notes that the robot was told to stop; drops the plan beyond.
   void withdraw();
-  /// The path is over, in a cell.
+  /// Ends the path, in a cell.
   void finish(Cell cell);
 
  private:

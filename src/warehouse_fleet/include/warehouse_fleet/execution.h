@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Executes plans: robots drive as they can, early or late; a plan says in which order they pass
-// each cell, and each robot is released its next cells as soon as they are free and it is its turn.
-// Execution arbitrates turning; the planner may assume that every turn succeeds.
+// Executes plans. Robots drive as they can, early or late; the plan only says in which order they
+// pass each cell. The next cells of a robot are released as soon as they are free and it is that
+// robot's turn. Execution arbitrates turning, so the planner may assume that every turn succeeds.
 //
 //   cell_holders.h   which robot holds which cell, and which cells are closed
 //   course.h         one robot's path, a state machine
@@ -24,19 +24,19 @@
 
 namespace fleet {
 
-/// What one robot reports. The names are those of FleetState.
+/// The report of one robot. Names are those of FleetState.
 struct Report {
   double x = 0, y = 0, yaw = 0;  ///< [m, rad]
   double vx = 0, vy = 0;         ///< [m/s]
   RobotStatus status = RobotStatus::kIdle;
   RobotState state = RobotState::kIdle;
   std::uint32_t path_id = 0, reached = 0, left = 0;
-  bool is_controlled = false;  ///< or drives by itself, is broken, …: an obstacle
-  bool is_busy = false;        ///< with something else than driving: it is not sent on
+  bool is_controlled = false;  ///< false: commanded by others, broken, …; an obstacle
+  bool is_busy = false;        ///< does something other than driving, and is not sent on
   bool is_loaded = false;
 };
 
-/// Releases to send, in the order of FleetFollow: `points` cells for each robot, all in a row.
+/// Releases to send, with the fields of FleetFollow: `points` cells of each robot, robot by robot.
 struct Releases {
   std::vector<int> robot;
   std::vector<std::uint32_t> path_id, first, points, released;
@@ -48,50 +48,50 @@ class Execution {
  public:
   Execution(const Floor& floor, const Motion& motion);
 
-  /// Updates all robots by what they report at `time` [s]; frees the cells that they have left. If
-  /// their number changes, or at the first call, all begins from where they are.
+  /// Takes the reports of all robots at `time` [s], and frees the cells that robots have left. At
+  /// the first call, and if the number of robots changes, all begins from where the robots are.
   void update(double time, const std::vector<Report>& reports);
 
-  /// Sets which robots are busy and loaded, if that has changed since the reports. An element a
+  /// Sets which robots are busy and loaded, if that has changed since the reports, an element a
   /// robot.
   void setWork(const std::vector<std::uint8_t>& busy, const std::vector<std::uint8_t>& loaded);
 
-  /// Sets which robots are broken, so that they stand or can't be reached: others are sent around
-  /// them at once. An element a robot.
+  /// Sets which robots are broken, an element a robot: they stand or can't be reached, and others
+  /// are sent around them at once.
   void setBroken(std::vector<std::uint8_t> broken) { broken_ = std::move(broken); }
 
-  /// Returns what the planner is to see: where robots are, what they can no longer take back.
-  /// Robots that are not controlled are no part of it: their cells are closed. `goal` and `home` by
-  /// robot, as in Fleet.
+  /// Returns the fleet for the planner: where robots are, and what they can no longer take back.
+  /// Robots that are not controlled are left out, and their cells are closed. `goal` and `home`
+  /// have an element a robot, as in Fleet.
   Fleet fleet(const std::vector<Cell>& goal, const std::vector<Cell>& home, int horizon);
   int robots() const { return static_cast<int>(courses_.size()); }
 
-  /// Has robots drive by this plan for the last fleet() from now on. Where a robot was released
-  /// something else meanwhile it stays with that until the next plan.
+  /// Has robots drive by a plan for the last fleet() from now on. A robot that was released
+  /// other cells meanwhile keeps to them until the next plan.
   void adopt(const Plan& plan);
 
-  /// Has all robots drive these steps from where they stand, an element a robot: a whole plan,
-  /// which nothing replaces. Ticks ascend. Robots that follow each other in a ring at one tick
-  /// would wait for each other.
+  /// Has all robots drive whole plans from where they stand, an element a robot; no other plan
+  /// replaces them. Ticks ascend. Robots that follow each other in a ring at one tick would wait
+  /// for each other.
   void drive(std::vector<std::deque<Step>> plans);
 
-  /// Releases to each robot what it needs in order not to brake, as far as it may have it.
+  /// Returns releases: for each robot the free cells that it needs in order not to brake.
   Releases release();
 
   /// Sets the cells of the aisles in which units stand: loaded robots can't pass.
   void setUnits(std::vector<Cell> cells) { holders_.setUnits(std::move(cells)); }
-  /// Closes these cells, where people are or are about to be. A robot inside goes on with what was
-  /// released, and out.
+  /// Closes cells where people are or are about to be. A robot inside drives on along its released
+  /// cells, and out.
   void setZone(std::vector<Cell> cells) { holders_.setZone(std::move(cells)); }
   /// Closes a cell until `until` [s].
   void close(Cell cell, double until) { holders_.close(cell, until); }
-  /// Stops the robot that was released a cell before it, if it still can: something lies there that
-  /// robots don't see.
+  /// Stops the robot to which a cell was released before that cell, if it can still stop: something
+  /// lies there that robots don't see.
   void recall(Cell cell);
-  /// Returns whether a cell is closed by close(), or because a robot found an obstacle there: look
-  /// whether it stands there still.
+  /// Returns whether a cell is closed, by close() or because a robot found an obstacle there. Then
+  /// look whether the obstacle is still there.
   bool isClosing() const { return holders_.isClosing(now_); }
-  /// Returns the cells closed now, those of robots that are not controlled among them.
+  /// Returns the cells closed now, including those of robots that are not controlled.
   std::vector<Cell> closed() const;
 
   // Of one robot; std::out_of_range if there is none of that index.
@@ -102,34 +102,34 @@ class Execution {
   bool stands(int robot) const;
   /// Returns the robot that holds a cell; kNobody.
   int holder(Cell cell) const { return holders_.holder(cell); }
-  /// Returns the robot that one with a plan waits for; kNobody.
+  /// Returns the robot for which a robot with a plan waits; kNobody.
   int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
-  /// Returns what keeps it from the next cell of its plan.
+  /// Returns what keeps a robot from the next cell of its plan.
   Hindrance hindrance(int robot) const { return courses_.at(robot).hindrance; }
-  /// Returns the tick of the next step of its plan that it was not released yet; -1 at the end.
+  /// Returns the tick of the next step of its plan that is not released yet; -1 at the end.
   int nextTick(int robot) const;
-  /// Returns since when it has stood although it has somewhere to go [s]; time of the last report
-  /// if not.
+  /// Returns since when a robot with a goal elsewhere has stood [s]; for others the time of the
+  /// last report.
   double stillSince(int robot) const { return courses_.at(robot).still_since; }
-  /// Returns whether others command it: it is busy with neither its path nor what it is known to
-  /// do.
+  /// Returns whether others command a robot: it is busy, but with neither its path nor work that is
+  /// known here.
   bool isForeign(int robot) const;
-  /// Returns whether it is broken, or does not drive although it may. The planner sees its cells
-  /// closed.
+  /// Returns whether a robot is broken, or does not drive although it may. For the planner its
+  /// cells are closed.
   bool isStalled(int robot) const;
-  /// Returns whether it was pushed off the middle of its cell.
+  /// Returns whether a robot was pushed off the middle of its cell.
   bool isAstray(int robot) const { return courses_.at(robot).is_astray; }
-  /// Returns whether it does not find back from where it was pushed, and is not asked to any more.
+  /// Returns whether a robot that was pushed found no way back, and is no longer asked to.
   bool isLost(int robot) const;
-  /// Returns the cells that it holds ahead, and those planned beyond.
+  /// Returns the cells that a robot holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
 
-  /// Notes that a robot has refused the path that it was sent. The path is given up when nothing of
-  /// it can be on its way any more.
+  /// Notes that a robot refused its path. The path is given up once none of its messages can still
+  /// be on the way.
   void refused(int robot);
 
-  /// Returns its journey since the last call.
+  /// Returns a robot's journey since the last call.
   Journey takeJourney(int robot);
   /// Returns how often a robot was BLOCKED before a cell of its own.
   int blocked() const { return blocked_; }

@@ -19,14 +19,14 @@ enum class Action : std::uint8_t {
   kTurnNegative = 3,
 };
 
-/// By how many quarter turns it changes the heading.
+/// Returns by how many quarter turns an action changes the heading.
 constexpr int quarters(Action action) {
   return action == Action::kTurnPositive ? 1 : action == Action::kTurnNegative ? -1 : 0;
 }
 
-/// What may happen at once.
+/// Which movements may happen at once.
 struct Rules {
-  /// A cell may be entered while its robot leaves it. Else it must have been left a tick before.
+  /// A robot may enter a cell while another leaves it. Otherwise it enters a tick later.
   bool following = true;
   /// Robots that follow each other in a ring may all move at once.
   bool rings = false;
@@ -39,16 +39,16 @@ struct Rules {
 struct Fleet {
   std::vector<Cell> cell;
   std::vector<Heading> heading;
-  std::vector<Cell> goal;             ///< kNowhere: none, it stands where it blocks no other
+  std::vector<Cell> goal;             ///< kNowhere: none; the robot stands where it blocks no other
   std::vector<std::uint8_t> loaded;   ///< 1: drives on the aisles (default: none)
   std::vector<Cell> home;             ///< a storage place that it may enter loaded (default: none)
-  std::vector<std::uint8_t> stopped;  ///< 1: stays where it is, whatever it is told (default: none)
-  /// What each can no longer take back, `committed_ticks` actions a robot: its next actions, in
-  /// order. A robot's row ends with kFree from where it is free (default: all are).
+  std::vector<std::uint8_t> stopped;  ///< 1: stays where it is in any case (default: none)
+  /// The next actions that robots can no longer take back, in order, `committed_ticks` a robot.
+  /// From the tick at which a robot is free its row has kFree (default: all are free).
   std::vector<std::uint8_t> committed;
   int committed_ticks = 0;
   std::vector<Cell> closed;  ///< cells that no robot may enter now
-  std::vector<Cell> units;   ///< cells of the aisles where a unit stands: not for loaded robots
+  std::vector<Cell> units;   ///< aisle cells with a unit: loaded robots can't pass
   std::vector<Cell> tight;   ///< cells where a load has no room to turn, but may pass
 
   static constexpr std::uint8_t kFree = 0xff;
@@ -58,15 +58,15 @@ struct Fleet {
   bool isStopped(int robot) const { return !stopped.empty() && stopped[robot]; }
   Cell homeOf(int robot) const { return home.empty() ? kNowhere : home[robot]; }
   Deck deck(int robot) const { return isLoaded(robot) ? Deck::kAisles : Deck::kUnder; }
-  /// How many of its next actions are committed, and which.
+  /// Returns how many of a robot's next actions are committed.
   int commitments(int robot) const;
   Action commitment(int robot, int tick) const {
     return static_cast<Action>(committed[robot * committed_ticks + tick]);
   }
 };
 
-/// What all are to do: `horizon` actions a robot, robot after robot. No two of them are in each
-/// other's way if all keep to it.
+/// A plan: `horizon` actions a robot, robot after robot. Robots that keep to it are not in each
+/// other's way.
 struct Plan {
   int horizon = 0;  ///< ticks
   std::vector<Action> actions;
@@ -74,7 +74,7 @@ struct Plan {
   Action at(int robot, int tick) const { return actions[robot * horizon + tick]; }
 };
 
-/// Where `action` leads on an open floor, whether it may or not; kNowhere beyond its edge.
+/// A robot's place in a plan.
 struct State {
   Cell cell = kNowhere;
   Heading heading = 0;
@@ -82,10 +82,11 @@ struct State {
     return cell == other.cell && heading == other.heading;
   }
 };
+/// Returns where `action` leads on an open floor, allowed or not; kNowhere beyond its edge.
 State after(const Floor& floor, State state, Action action);
 
-/// Throws FloorError where a robot stands in a wall, two stand in one cell, a goal is off the floor
-/// or lengths don't agree. `names` (or "robot <index>") are for the message.
+/// Throws FloorError if a robot stands in a wall, two stand in one cell, a goal is off the floor,
+/// or lengths differ. The message has `names`, or "robot <index>".
 void check(const Floor& floor, const Fleet& fleet, const std::vector<std::string>& names = {});
 
 }  // namespace fleet

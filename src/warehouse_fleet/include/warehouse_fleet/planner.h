@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every planner is: told the floor once, then asked at each tick what all robots do next. A
-// user's own is one class,
+// The interface of planners. A planner is given the floor once, then asked at each tick what all
+// robots do next. A planner of your own is one class,
 //
 //   #include "warehouse_layout/register_plugin.h"
 //   class Mine : public fleet::Planner { … };
 //   WAREHOUSE_ADD_PLUGIN(Mine, fleet::Planner)
 //
-// whose library and name are given to loadPlanner. examples/ has one to start from.
+// Give its library and its name to loadPlanner. examples/ has one to start from.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace fleet {
 
 /// How long a step may look for a better plan, once there is one.
 struct Budget {
-  /// Computing time of the calling thread for the whole step [s]; 0: what the first plan needs.
+  /// Computing time of the calling thread for the whole step [s]; 0: only until the first plan.
   double seconds = 0;
   /// Attempts to improve the plan; -1: as many as `seconds` allow. With a number here and
-  /// `seconds` 0 the same steps give the same plans, whatever the machine.
+  /// `seconds` 0 the same steps give the same plans on any machine.
   int attempts = -1;
 };
 
@@ -31,25 +31,25 @@ class Planner {
  public:
   virtual ~Planner() = default;
 
-  /// Once, before the first step. `floor` outlives the planner.
+  /// Called once, before the first step. `floor` outlives the planner.
   virtual void start(const Floor& floor, const Rules& rules, std::uint64_t seed) = 0;
 
-  /// One tick: the robots of `fleet` as they stand, to actions for one tick or more ahead. What
-  /// is committed must be kept. Called again a tick later with what has become of it; robots may
-  /// have been added at the end, or all be others if their number shrinks.
+  /// Called at each tick: plans actions for one tick or more ahead, from where the robots of
+  /// `fleet` stand. Committed actions must be kept. From tick to tick robots may be added at the
+  /// end; if their number shrinks, all may be others.
   virtual void plan(const Fleet& fleet, const Budget& budget, Plan& plan) = 0;
 
-  /// Makes ahead of the first step what every plan on the floor needs, for so long by the clock at
-  /// most [s]. By default there is nothing to be made.
+  /// Prepares before the first step what every plan on the floor needs, within `seconds` of wall
+  /// time. By default there is nothing to prepare.
   virtual void prepare(double seconds);
-  /// Writes what was prepared, or reads what was prepared for the same floor. Throws
-  /// std::runtime_error that says what is wrong.
+  /// Writes what was prepared to a file, or reads it for the same floor. Throws std::runtime_error
+  /// that says what is wrong.
   virtual void save(const std::string& path) const;
   virtual void load(const std::string& path);
 };
 
-/// The planner `class_name` in the library at `path`. Throws std::runtime_error that says what is
-/// missing.
+/// Returns the planner `class_name` of the library at `path`. Throws std::runtime_error that says
+/// what is missing.
 std::shared_ptr<Planner> loadPlanner(const std::string& path, const std::string& class_name);
 
 }  // namespace fleet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a plan can be driven, looked at by itself: it knows the floor and the rules, and nothing
-// of how planners work.
+// Checks whether a plan can be driven. The validator knows the floor and the rules, and nothing of
+// how planners work.
 #pragma once
 
 #include <string>
@@ -28,12 +28,12 @@ struct Violation {
   Cell cell;                ///< where
 };
 
-/// All that is wrong in the first `ticks` of a plan (-1: in all of it) for a fleet that stands
-/// right. Throws FloorError where the plan isn't one action a robot and tick.
+/// Returns all violations in the first `ticks` of a plan (-1: in all of it), for a fleet that
+/// passes check(). Throws FloorError if the plan does not have one action a robot and tick.
 std::vector<Violation> validate(const Floor& floor, const Fleet& fleet, const Plan& plan,
                                 const Rules& rules, int ticks = -1);
 
-/// In a sentence, with the names of the robots ("robot <index>" if none are given).
+/// Returns a violation as a sentence, with the names of robots, or "robot <index>".
 std::string describe(const Violation& violation, const Floor& floor,
                      const std::vector<std::string>& names = {});
 

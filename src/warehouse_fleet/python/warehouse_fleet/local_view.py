@@ -32,11 +32,14 @@ class Scene:
         self.tight = np.isin(self.cell, fleet.tight)
         self._tight = fleet.tight
         self.waited, self.intent = waited, np.full(n, NOWHERE)
-        self.ways: list[np.ndarray | None] | None = None  # what LocalView has found at this tick
+        # What LocalView has found at this tick.
+        self.targets: np.ndarray | None = None
+        self.ways: list[np.ndarray | None] | None = None
 
     def move(self, cell: np.ndarray, heading: np.ndarray) -> None:
         """Goes on to where robots are a tick later."""
-        self.cell, self.heading, self.ways = cell, heading, None
+        self.cell, self.heading = cell, heading
+        self.targets = self.ways = None
         self.tight = np.isin(cell, self._tight)
 
 
@@ -59,53 +62,34 @@ class LocalView:
 
     def targets(self, scene: Scene) -> np.ndarray:
         """Returns the cells that each robot could enter, (robots, 5), NOWHERE: no way."""
-        under, aisles = self._edges[:, scene.cell]
-        at_home = (under == scene.home[:, None]) & (under != NOWHERE)
-        beside = np.where(scene.loaded[:, None] & ~at_home, aisles, under)
-        return np.column_stack([scene.cell, beside])
+        if scene.targets is None:
+            under, aisles = self._edges[:, scene.cell]
+            at_home = (under == scene.home[:, None]) & (under != NOWHERE)
+            beside = np.where(scene.loaded[:, None] & ~at_home, aisles, under)
+            scene.targets = np.column_stack([scene.cell, beside])
+        return scene.targets
 
     def rows(self, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         """Returns what is told of each candidate, (robots, 5, FEATURES), and whether it is one."""
         targets = self.targets(scene)
-        n = len(targets)
-        far = self._far_of(scene, targets)
-        quarters = self._quarters(scene, n)
-        gain = far[:, :1] - far
-        possible = (targets != NOWHERE) & (far < UNREACHED)
-        possible[:, STAYS] = True
-        lane = self._is_lane
-        short_cut = lane[targets] & ~lane[scene.cell, None] & ~lane[scene.goal, None]
-        possible &= ~short_cut & ~((scene.tight & scene.loaded)[:, None] & (quarters > 0))
-        best = targets[np.arange(n), np.where(possible, far, np.inf).argmin(1)]
-        rank = self.ranks(scene)
-
-        holder = np.full(self._size + 1, NOWHERE)
-        holder[scene.cell] = np.arange(n)
-        other = holder[targets]
-        other[:, STAYS] = NOWHERE
-        held = other != NOWHERE
-        direction = np.array([0, 0, 1, 2, 3])
-        rests = (scene.goal == NOWHERE) | (scene.goal == scene.cell)
-        wanting = np.zeros(self._size + 1)
-        np.add.at(wanting, best, 1.0)
-        first = np.full(self._size + 1, np.inf)
-        np.minimum.at(first, best, rank)
-        beyond = np.where(targets == NOWHERE, NOWHERE, self._beyond(targets))
-        beyond_held = (holder[beyond] != NOWHERE) & (beyond != NOWHERE)
-        stays = np.zeros((n, 5))
+        far, quarters = self._far_of(scene, targets), self._quarters(scene)
+        possible = self._possible(scene, targets, far, quarters)
+        best = targets[np.arange(len(targets)), np.where(possible, far, np.inf).argmin(1)]
+        gains = np.clip(far[:, :1] - far, -2, 2) / 2
+        stays = np.zeros(targets.shape)
         stays[:, STAYS] = 1
-        gains = np.clip(gain, -2, 2) / 2
-        rows = [
+        holder = np.full(self._size + 1, NOWHERE)  # by cell, who stands there
+        holder[scene.cell] = np.arange(len(targets))
+        other = np.where(stays, NOWHERE, holder[targets])
+        held = other != NOWHERE
+        features = [
             gains,
             quarters / 2,
             stays,
             held,
-            held & (scene.heading[other] == direction),
-            held & (best[other] == scene.cell[:, None]),
-            held & rests[other],
-            np.minimum(wanting[targets] - (best[:, None] == targets), 3) / 3,
-            first[targets] < rank[:, None],
-            beyond_held,
+            *self._holders(scene, other, best),
+            *self._rivals(scene, targets, best),
+            self._is_held_beyond(targets, holder),
             targets == scene.goal[:, None],
             held & scene.loaded[:, None],
             targets == scene.intent[:, None],
@@ -113,7 +97,40 @@ class LocalView:
             gains * held,
             self._is_aisle[targets],
         ]
-        return np.stack(rows, axis=-1).astype(np.float32), possible
+        return np.stack(features, axis=-1).astype(np.float32), possible
+
+    def _possible(
+        self, scene: Scene, targets: np.ndarray, far: np.ndarray, quarters: np.ndarray
+    ) -> np.ndarray:
+        """(robots, 5) bool: no lane is a short cut, and a load is not turned in a tight cell."""
+        possible = (targets != NOWHERE) & (far < UNREACHED)
+        possible[:, STAYS] = True
+        lane = self._is_lane
+        short_cut = lane[targets] & ~lane[scene.cell, None] & ~lane[scene.goal, None]
+        turns_tight = (scene.tight & scene.loaded)[:, None] & (quarters > 0)
+        return possible & ~short_cut & ~turns_tight
+
+    def _holders(self, scene: Scene, other: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
+        """Of the robot that stands in each candidate, (robots, 5) bool each: whether it heads the
+        same way, wants to come here, and is where it is to be."""
+        held, direction = other != NOWHERE, np.array([0, 0, 1, 2, 3])
+        rests = (scene.goal == NOWHERE) | (scene.goal == scene.cell)
+        return [
+            held & (scene.heading[other] == direction),
+            held & (best[other] == scene.cell[:, None]),
+            held & rests[other],
+        ]
+
+    def _rivals(self, scene: Scene, targets: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
+        """(robots, 5) each: how many others want to enter, up to 3, and whether one of them chooses
+        before."""
+        rank = self.ranks(scene)
+        wanting = np.zeros(self._size + 1)
+        np.add.at(wanting, best, 1.0)
+        first = np.full(self._size + 1, np.inf)
+        np.minimum.at(first, best, rank)
+        others = wanting[targets] - (best[:, None] == targets)
+        return [np.minimum(others, 3) / 3, first[targets] < rank[:, None]]
 
     def ranks(self, scene: Scene) -> np.ndarray:
         """Returns a rank for each robot, (robots,); the robot with the least rank chooses first.
@@ -127,17 +144,18 @@ class LocalView:
         ]
         return np.array(far, float) - scene.waited / PATIENCE
 
-    def _quarters(self, scene: Scene, n: int) -> np.ndarray:
+    def _quarters(self, scene: Scene) -> np.ndarray:
         """(robots, 5): quarter turns before each candidate."""
         turn = (np.arange(4) - scene.heading[:, None]) & 3
-        return np.column_stack([np.zeros(n, int), np.minimum(turn, 4 - turn)])
+        return np.column_stack([np.zeros(len(turn), int), np.minimum(turn, 4 - turn)])
 
-    def _beyond(self, targets: np.ndarray) -> np.ndarray:
-        """The cell behind each candidate, straight on."""
-        out = np.full(targets.shape, NOWHERE)
+    def _is_held_beyond(self, targets: np.ndarray, holder: np.ndarray) -> np.ndarray:
+        """(robots, 5) bool: whether a robot stands behind each candidate, straight on."""
+        beyond = np.full(targets.shape, NOWHERE)
         for direction in range(4):
-            out[:, direction + 1] = self._edges[0][targets[:, direction + 1], direction]
-        return out
+            beyond[:, direction + 1] = self._edges[0][targets[:, direction + 1], direction]
+        beyond = np.where(targets == NOWHERE, NOWHERE, beyond)
+        return (holder[beyond] != NOWHERE) & (beyond != NOWHERE)
 
     def _far_of(self, scene: Scene, targets: np.ndarray) -> np.ndarray:
         """(robots, 5): cells from each candidate to the robot's goal."""

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout.formats.common import plural
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 
 SUFFIXES = (".svg", ".png")
@@ -129,9 +130,10 @@ class _Page:
         yield f"{width} × {height} cells of {_metres(file.spacing)}"
         layout = self._subject.layout
         if layout:
-            yield f"{len(layout.robots)} robots"
-            yield f"{len(layout.units)} storage units on {len(layout.places)} places"
-        yield f"{len(file.stations)} stations"
+            yield plural(len(layout.robots), "robot")
+            units, places = len(layout.units), len(layout.places)
+            yield f"{plural(units, 'storage unit')} on {plural(places, 'place')}"
+        yield plural(len(file.stations), "station")
 
     # --- dimensions
 

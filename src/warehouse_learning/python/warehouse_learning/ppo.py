@@ -6,15 +6,15 @@ enough to train on a CPU in minutes.
 """
 
 import argparse
-import json
 import multiprocessing
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from warehouse_learning.marl.mlp import Adam
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import Options
 from warehouse_learning.warehouses import Warehouses
@@ -77,28 +77,6 @@ class Network:
         return [x.T @ d1, d1.sum(0), h1.T @ d2, d2.sum(0), h2.T @ d_out, d_out.sum(0)]
 
 
-class Adam:
-    """Adam (Kingma and Ba, 2015) with clipped slopes; changes the parameters in place."""
-
-    def __init__(self, parameters: list[np.ndarray]) -> None:
-        self.parameters, self.steps = parameters, 0
-        self.mean = [np.zeros_like(p) for p in parameters]
-        self.square = [np.zeros_like(p) for p in parameters]
-
-    def step(self, slopes: Sequence[np.ndarray], rate: float) -> None:
-        """Moves the parameters against the slopes."""
-        norm = np.sqrt(sum(float((g * g).sum()) for g in slopes))
-        scale = min(1.0, 0.5 / (norm + 1e-8))
-        self.steps += 1
-        c1, c2 = 1 - 0.9**self.steps, 1 - 0.999**self.steps
-        for i, slope in enumerate(slopes):
-            scaled = slope * scale
-            self.mean[i] += 0.1 * (scaled - self.mean[i])
-            self.square[i] += 0.001 * (scaled * scaled - self.square[i])
-            step = self.mean[i] / c1 / (np.sqrt(self.square[i] / c2) + 1e-8)
-            self.parameters[i] -= rate * step
-
-
 def probabilities(logits: np.ndarray, masks: np.ndarray) -> np.ndarray:
     """Returns (m, 5), 0 where the mask is."""
     logits = np.where(masks, logits, -1e9)
@@ -137,59 +115,85 @@ def train(
     """(Policy, curve): `decisions` of all robots together. The curve has rows (decisions so far,
     units delivered an episode). `report(row)` hears each."""
     random = np.random.default_rng(seed)
-    n, rollout = settings.worlds, settings.rollout
-    warehouses = Warehouses(n, options, settings.threads)
-    observer = Observer(warehouses)
-    robots = warehouses.robots
-    network = Network(observer.size, 5, settings.hidden, random)
-    adam = Adam(network.parameters)
-    seeds = iter(random.integers(2**62, size=10**6).tolist())
-    warehouses.reset(np.arange(n), [next(seeds) for _ in range(n)])
-    # Episodes end at different times, so that a rollout has all of an episode's parts in it.
-    warehouses.cycle[:] = random.integers(options.max_cycles, size=n)
-    observations, masks = observer.observations(), warehouses.masks()
-    updates = max(1, decisions // (n * robots * rollout))
-    curve, done, finished = [], 0, []
-    full = np.zeros(n, bool)  # episodes that began at their beginning
+    run = _Run(options, settings, random)
+    adam = Adam(run.network.parameters)
+    updates = max(1, decisions // (run.rows * settings.rollout))
+    curve = []
     for update in range(updates):
-        rows: dict[str, list[Any]] = {
-            name: [] for name in ("x", "mask", "action", "chance", "value", "reward", "end")
-        }
-        for _ in range(rollout):
-            flat, mask = observations.reshape(n * robots, -1), masks.reshape(n * robots, -1)
-            logits, value, _ = network.forward(flat)
-            chances = probabilities(logits, mask)
-            action = _drawn(chances, random)
-            reward, _ = warehouses.step(action.reshape(n, robots))
-            ends = warehouses.cycle >= options.max_cycles
-            observations, masks = observer.observations(), warehouses.masks()
-            reward = reward.ravel().astype(np.float32)
-            if ends.any():
-                # The task goes on; the episode was only cut off.
-                last = network.forward(observations.reshape(n * robots, -1))[1]
-                reward += settings.discount * last * np.repeat(ends, robots)
-                finished += warehouses.delivered[ends & full].sum(1).tolist()
-                full |= ends
-                which = np.flatnonzero(ends)
-                warehouses.reset(which, [next(seeds) for _ in which])
-                observations, masks = observer.observations(), warehouses.masks()
-            chosen = np.take_along_axis(chances, action[:, None], 1)[:, 0]
-            step = (flat, mask, action, chosen, value, reward, np.repeat(ends, robots))
-            for name, values in zip(rows, step):
-                rows[name].append(values)
-        batch = {name: np.array(values) for name, values in rows.items()}
-        value = network.forward(observations.reshape(n * robots, -1))[1]
-        batch["advantage"] = _advantages(batch, value, settings)
-        batch["target"] = batch["advantage"] + batch["value"]
+        batch = run.collect()
         rate = settings.rate * (1 - update / updates)
-        _improve(network, adam, batch, rate, settings, random)
-        done += n * robots * rollout
-        if finished:
-            curve.append((done, float(np.mean(finished))))
-            finished = []
+        _improve(run.network, adam, batch, rate, settings, random)
+        if run.finished:
+            curve.append(((update + 1) * run.rows * settings.rollout, float(np.mean(run.finished))))
+            run.finished = []
             if report:
                 report(curve[-1])
-    return Policy(network, seed), np.array(curve).reshape(-1, 2)
+    return Policy(run.network, seed), np.array(curve).reshape(-1, 2)
+
+
+class _Run:
+    """Warehouses in which a network acts. `rows`: robots of all; `finished`: units delivered in the
+    episodes that ended, to be taken."""
+
+    def __init__(self, options, settings, random):
+        self._settings, self._random, n = settings, random, settings.worlds
+        self._warehouses = Warehouses(n, options, settings.threads)
+        self._observer = Observer(self._warehouses)
+        self.rows = n * self._warehouses.robots
+        self.network = Network(self._observer.size, 5, settings.hidden, random)
+        self._seeds = iter(random.integers(2**62, size=10**6).tolist())
+        self._reset(np.arange(n))
+        # Episodes end at different times, so that a rollout has all of an episode's parts in it.
+        self._longest = options.max_cycles
+        self._warehouses.cycle[:] = random.integers(self._longest, size=n)
+        self._is_full = np.zeros(n, bool)  # episodes that began at their beginning
+        self.finished = []
+
+    def _reset(self, which):
+        self._warehouses.reset(which, [next(self._seeds) for _ in which])
+
+    def _seen(self):
+        return self._observer.observations().reshape(self.rows, -1)
+
+    def collect(self):
+        """The batch of a rollout: arrays (rollout, rows, …) by name."""
+        steps = [self._step() for _ in range(self._settings.rollout)]
+        batch = {name: np.array([step[name] for step in steps]) for name in steps[0]}
+        value = self.network.forward(self._seen())[1]
+        batch["advantage"] = _advantages(batch, value, self._settings)
+        batch["target"] = batch["advantage"] + batch["value"]
+        return batch
+
+    def _step(self):
+        seen, mask = self._seen(), self._warehouses.masks().reshape(self.rows, -1)
+        logits, value, _ = self.network.forward(seen)
+        chances = probabilities(logits, mask)
+        action = _drawn(chances, self._random)
+        reward, _ = self._warehouses.step(action.reshape(self._settings.worlds, -1))
+        reward = reward.ravel().astype(np.float32)
+        ends = self._warehouses.cycle >= self._longest
+        if ends.any():
+            reward += self._cut(ends)
+        return {
+            "x": seen,
+            "mask": mask,
+            "action": action,
+            "chance": np.take_along_axis(chances, action[:, None], 1)[:, 0],
+            "value": value,
+            "reward": reward,
+            "end": self._by_robot(ends),
+        }
+
+    def _cut(self, ends):
+        """Begins new episodes. Returns what would have come after those that time cuts off."""
+        last = self.network.forward(self._seen())[1]
+        self.finished += self._warehouses.delivered[ends & self._is_full].sum(1).tolist()
+        self._is_full |= ends
+        self._reset(np.flatnonzero(ends))
+        return self._settings.discount * last * self._by_robot(ends)
+
+    def _by_robot(self, ends):
+        return np.repeat(ends, self._warehouses.robots)
 
 
 def _advantages(batch, last, settings):
@@ -259,6 +263,8 @@ def main() -> None:
         with multiprocessing.get_context("spawn").Pool(wanted.jobs) as pool:
             curves = pool.map(_trained, jobs, chunksize=1)
     if wanted.out:
+        from warehouse_learning.curves import draw
+
         draw(wanted.out, options, curves)
 
 
@@ -273,33 +279,6 @@ def _trained(job):
     _, curve = train(options, decisions, seed, settings, report)
     print(f"seed {seed}: {time.process_time() - begin:.0f} s of CPU", flush=True)
     return curve
-
-
-def draw(path: Any, options: Options, curves: Sequence[np.ndarray]) -> None:
-    """Draws the curves of several seeds beside what the other baselines deliver."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    from warehouse_learning import baselines
-
-    figure = Figure((8, 4.5), dpi=110)
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    at = curves[0][:, 0]
-    values = np.array([np.interp(at, curve[:, 0], curve[:, 1]) for curve in curves])
-    axes.fill_between(at, values.min(0), values.max(0), alpha=0.25, lw=0)
-    axes.plot(at, values.mean(0), label=f"PPO, {len(curves)} seeds")
-    others = {"random": baselines.random_policy(), "greedy": baselines.greedy_policy(options)}
-    for style, (name, policy) in zip((":", "--"), others.items()):
-        delivered = baselines.measure(policy, options, 16)[0].mean()
-        axes.axhline(delivered, ls=style, color="0.3", label=f"{name}, {delivered:.1f}")
-    axes.set_xlabel("decisions of all robots")
-    axes.set_ylabel(f"units delivered in {options.max_cycles} decisions a robot")
-    axes.legend(frameon=False)
-    axes.set_title(f"{options.robots} robots, {options.shelves} storage units")
-    figure.savefig(path)
-    with open(path.rsplit(".", 1)[0] + ".json", "w", encoding="utf-8") as file:
-        json.dump([curve.tolist() for curve in curves], file)
 
 
 if __name__ == "__main__":

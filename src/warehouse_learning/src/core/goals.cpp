@@ -36,6 +36,7 @@ void Goals::renew() {
     for (int robot = 0; news_[w] && robot < robots; ++robot) {
       if (isGone(w, robot)) end(w, robot);
     }
+    if (news_[w]) findOpen(w);
     for (int robot = 0; robot < robots; ++robot) {
       if (way_[w][robot]) continue;
       cell_[w][robot] = state_.cell[w][robot];
@@ -69,32 +70,39 @@ void Goals::find(int w, int robot) {
   }
 }
 
-void Goals::findUnit(int w, int robot) {
-  std::vector<int> units, cells;
+void Goals::findOpen(int w) {
+  std::vector<char> unit_taken(state_.units()), place_taken(floor_.size());
+  for (int robot = 0; robot < state_.robots(); ++robot) {
+    const int aim = aim_[w][robot];
+    if (aim != kNone) (state_.load[w][robot] == kNone ? unit_taken : place_taken)[aim] = 1;
+  }
+  open_units_.clear();
+  open_unit_cells_.clear();
   for (int unit = 0; unit < state_.units(); ++unit) {
     const int cell = state_.unit_cell[w][unit];
-    if (!state_.requested[w][unit] || cell == kNone || isAnothersAim(w, unit, false)) continue;
-    units.push_back(unit);
-    cells.push_back(cell);
+    if (!state_.requested[w][unit] || cell == kNone || unit_taken[unit]) continue;
+    open_units_.push_back(unit);
+    open_unit_cells_.push_back(cell);
   }
-  const int chosen = choose(w, robot, cells, Deck::kUnder);
-  if (chosen != kNone) aim_[w][robot] = units[chosen];
+  open_places_.clear();
+  for (const int place : places_) {
+    if (state_.unit_at[w][place] == kNone && !place_taken[place]) open_places_.push_back(place);
+  }
+}
+
+void Goals::findUnit(int w, int robot) {
+  const int chosen = choose(w, robot, open_unit_cells_, Deck::kUnder);
+  if (chosen == kNone) return;
+  aim_[w][robot] = open_units_[chosen];
+  open_units_.erase(open_units_.begin() + chosen);
+  open_unit_cells_.erase(open_unit_cells_.begin() + chosen);
 }
 
 void Goals::findPlace(int w, int robot) {
-  std::vector<int> free;
-  for (const int place : places_) {
-    if (state_.unit_at[w][place] == kNone && !isAnothersAim(w, place, true)) free.push_back(place);
-  }
-  const int chosen = choose(w, robot, free, Deck::kAisles);
-  if (chosen != kNone) aim_[w][robot] = free[chosen];
-}
-
-bool Goals::isAnothersAim(int w, int aim, bool loaded) const {
-  for (int robot = 0; robot < state_.robots(); ++robot) {
-    if (aim_[w][robot] == aim && (state_.load[w][robot] != kNone) == loaded) return true;
-  }
-  return false;
+  const int chosen = choose(w, robot, open_places_, Deck::kAisles);
+  if (chosen == kNone) return;
+  aim_[w][robot] = open_places_[chosen];
+  open_places_.erase(open_places_.begin() + chosen);
 }
 
 int Goals::choose(int w, int robot, const std::vector<int>& cells, Deck deck) {

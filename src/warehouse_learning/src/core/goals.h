@@ -39,8 +39,10 @@ class Goals {
   void find(int w, int robot);
   void findUnit(int w, int robot);
   void findPlace(int w, int robot);
-  bool isAnothersAim(int w, int aim, bool loaded) const;
-  /// The nearest of the cells becomes its goal. Returns which, kNone if there are none.
+  /// Finds what is no robot's goal yet.
+  void findOpen(int w);
+  /// The nearest of the cells becomes its goal. Returns its place among them, kNone if there are
+  /// none.
   int choose(int w, int robot, const std::vector<int>& cells, Deck deck);
 
   const Floor& floor_;
@@ -50,7 +52,9 @@ class Goals {
   Table<std::int32_t> cell_;
   Table<const Way*> way_;
   Table<std::int32_t> aim_;  // unit, or cell of a storage place
-  std::vector<char> news_;   // by warehouse: there may be other goals than before
+  // Of the warehouse that is renewed: requested units and where they stand, free storage places.
+  std::vector<int> open_units_, open_unit_cells_, open_places_;
+  std::vector<char> news_;  // by warehouse: there may be other goals than before
 };
 
 }  // namespace learning

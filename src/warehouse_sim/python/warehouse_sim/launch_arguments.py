@@ -14,12 +14,13 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
+from warehouse_client import MOST_THREADS
 from warehouse_layout import world_file
 from warehouse_layout.request import FIT, LIMITS, PRESETS
 from warehouse_sim import layout_argument
 from warehouse_viewer.server import token
 
-MOST_PORT, MOST_THREADS, MOST_CHECKPOINTS = 65535, 256, 100_000
+MOST_PORT, MOST_CHECKPOINTS = 65535, 100_000
 MOST_WHOLE = 2**31 - 1  # of a parameter of ROS
 
 

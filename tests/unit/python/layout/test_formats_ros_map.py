@@ -181,3 +181,9 @@ def test_a_broken_picture_is_told(tmp_path, data, message):
     with pytest.raises(FormatError, match=message) as error:
         formats.read(path)
     assert str(tmp_path / "m.pgm") in str(error.value)
+
+
+def test_a_missing_file_is_told(tmp_path):
+    with pytest.raises(FormatError) as error:
+        formats.read(tmp_path / "none.yaml")
+    assert str(error.value) == f"{tmp_path}/none.yaml: No such file or directory"

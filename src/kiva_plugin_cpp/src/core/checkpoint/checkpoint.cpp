@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
+#include "core/checkpoint/seal.h"
 #include "core/disturbances/batteries.h"
 #include "core/disturbances/failures.h"
 #include "core/people/protective_fields.h"
@@ -17,9 +19,6 @@
 
 namespace kiva {
 namespace {
-
-constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 12;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -152,7 +151,7 @@ void describeQueues(A& a, WorldState& world) {
          world.log.status_changes);
 }
 
-void indexModels(WorldState& world) {
+void indexNames(WorldState& world) {
   for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
     if (world.models[slot])
       world.models.slot_of_name[world.models[slot]->name] = static_cast<int>(slot);
@@ -160,6 +159,10 @@ void indexModels(WorldState& world) {
   for (std::size_t i = 0; i < world.storage.units.size(); ++i) {
     world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
   }
+}
+
+/// Works out what follows from that which is described.
+void deriveRest(WorldState& world) {
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
   world.storage.indexItems();
   for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
@@ -174,43 +177,48 @@ void indexModels(WorldState& world) {
   }
 }
 
-struct Header {
-  std::uint64_t size = 0, hash = 0;
-};
-
-std::string sealed(const std::string& content) {
-  Writer header;
-  std::uint32_t version = kVersion;
-  std::uint64_t size = content.size(), hash = hashBytes(kVersion, content.data(), content.size());
-  header.bytes = kMagic;
-  header(version, size, hash);
-  return header.bytes + content;
+/// Returns what is in the checkpoint, if the world was restored from it, all that is static stands
+/// since, and there is no plugin that might refuse. No bytes that are damaged have that hash.
+std::optional<Reader> readOrigin(const WorldState& world, const std::string& bytes) {
+  const bool has_plugins = !world.plugins.world.empty() || !world.models.with_plugins.empty();
+  const bool stands = world.origin.fixtures == world.physics.fixtureChanges();
+  if (has_plugins || world.origin.hash == 0 || !stands) return std::nullopt;
+  try {
+    const Content content = opened(bytes);
+    if (content.hash == world.origin.hash) return content.reader;
+  } catch (const ArchiveError&) {  // told by readCheckpoint()
+  }
+  return std::nullopt;
 }
 
-/// Returns what is under the seal. Throws ArchiveError if it is broken.
-Reader opened(const std::string& bytes) {
-  Reader reader(bytes);
-  char magic[8];
-  std::uint32_t version;
-  std::uint64_t size, hash;
-  reader(magic);
-  if (std::memcmp(magic, kMagic, 8) != 0) throw ArchiveError("these bytes are no checkpoint");
-  reader(version);
-  if (version != kVersion) {
-    throw ArchiveError("it has format " + std::to_string(version) + ", and this is format " +
-                       std::to_string(kVersion));
-  }
-  reader(size, hash);
-  if (size != reader.left()) {
-    throw ArchiveError("it has " + std::to_string(reader.left()) + " bytes of content where " +
-                       std::to_string(size) + " were expected");
-  }
-  if (hashBytes(kVersion, reader.at, size) != hash) throw ArchiveError("its bytes are damaged");
-  return reader;
+/// Returns whether the checkpoint's setting, which is read then, is that of the world.
+bool readSameSetting(Reader& reader, WorldState& world) {
+  Writer now;
+  now.bytes.reserve(reader.left());
+  describeSetting(now, world);
+  const std::size_t size = now.bytes.size();
+  if (reader.left() < size || std::memcmp(reader.at, now.bytes.data(), size) != 0) return false;
+  reader.at += size;
+  return true;
+}
+
+/// Forgets what only some realism describes, and what is not yet told.
+void forget(WorldState& world) {
+  FleetState& f = world.fleet;
+  f.battery.clear();
+  f.sway.clear();
+  f.heard.clear();
+  f.command_speed.clear();
+  f.localisation.clear();
+  world.fallen = FallenItems();
+  world.report_link = ReportLink();
+  world.inbox.pending.clear();
+  world.schedule.stepped_singly.clear();
+  world.log.warnings.clear();
 }
 
 Restored read(const std::string& bytes) {
-  Reader reader = opened(bytes);
+  auto [reader, hash] = opened(bytes);
   Restored out{std::make_unique<WorldState>(WorldDescription(), WorldOptions()), {}};
   PhysicsState physics;
   describeSetting(reader, *out.world);
@@ -219,7 +227,9 @@ Restored read(const std::string& bytes) {
   reader(out.plugins);
   if (reader.left() > 0) throw ArchiveError("it has bytes left over");
   checkConsistent(*out.world, physics);
-  indexModels(*out.world);
+  indexNames(*out.world);
+  deriveRest(*out.world);
+  out.world->origin.hash = hash;
   rebuild(*out.world, physics);
   return out;
 }
@@ -245,6 +255,21 @@ Restored readCheckpoint(const std::string& bytes) {
   } catch (const std::exception& error) {
     throw CheckpointError(std::string("not a checkpoint that can be restored: ") + error.what());
   }
+}
+
+bool returnTo(WorldState& world, const std::string& bytes) {
+  std::optional<Reader> reader = readOrigin(world, bytes);
+  if (!reader || !readSameSetting(*reader, world)) return false;
+  const std::vector<Standing> before = clearPhysics(world);
+  forget(world);
+  PhysicsState physics;
+  describeMotion(*reader, world, physics);
+  describeQueues(*reader, world);
+  deriveRest(world);
+  rebuildMovable(world, physics, before);
+  ++world.models.revision;
+  ++world.storage.revision;
+  return true;
 }
 
 std::uint64_t stateHash(const WorldState& world) {

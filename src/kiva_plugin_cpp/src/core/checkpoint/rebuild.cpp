@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/checkpoint/archive.h"
 #include "core/motion/joints.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
@@ -127,6 +128,13 @@ void addFootprints(WorldState& world, Model& model) {
   model.in_physics = is_in;
 }
 
+/// Worked out where the robot was when its load changed, they would be a rounding apart.
+void setMovers(Obstacles& obstacles, const PhysicsState& state) {
+  for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
+    obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
+  }
+}
+
 void rebuildObstacles(WorldState& world, const PhysicsState& state) {
   for (int slot : world.models.inOrder()) {
     Model& model = *world.models[slot];
@@ -134,10 +142,39 @@ void rebuildObstacles(WorldState& world, const PhysicsState& state) {
     if (model.geometries.empty() && is_touched) addCollisionGeometry(world.view.floor, model);
     addFootprints(world, model);
   }
-  // Worked out where the robot was when its load changed, they would be a rounding apart.
-  for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
-    world.obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
+  setMovers(world.obstacles, state);
+}
+
+/// Returns whether each of its shapes has a footprint of its own.
+bool isPlaced(const Model& model) {
+  return std::all_of(model.geometries.begin(), model.geometries.end(),
+                     [](const CollisionGeometry& geometry) { return geometry.handle >= 0; });
+}
+
+/// Those of a robot and its load are a mover's, and an item on a unit has none.
+void renewFootprints(WorldState& world, Model& model, const Standing& before) {
+  const bool is_activatable = model.owner->isActivatedWhenNear();
+  if (!model.in_physics && !is_activatable) {
+    hideFootprints(world.obstacles, model);
+    model.geometries.clear();
+  } else if (model.owner->robot(world.view, model) >= 0) {
+    hideFootprints(world.obstacles, model);
+  } else {
+    const bool stood = !before.in_physics && !model.in_physics && isPlaced(model) &&
+                       before.pose == numbersOf(model.pose);
+    if (stood) return;
+    if (model.geometries.empty()) addCollisionGeometry(world.view.floor, model);
+    addFootprints(world, model);
   }
+}
+
+/// Returns whether Bullet got all that is static first. What rebuildMovable() builds comes after
+/// it.
+bool fixturesCameFirst(const WorldState& world, const PhysicsState& state) {
+  const auto is_static = [&](const ModelInPhysics& model) {
+    return world.models[model.slot]->isStatic();
+  };
+  return std::is_partitioned(state.models.begin(), state.models.end(), is_static);
 }
 
 }  // namespace
@@ -157,6 +194,33 @@ void rebuild(WorldState& world, const PhysicsState& state) {
   for (const ModelInPhysics& model : state.models) buildModel(world, model);
   writeContacts(world, state.contacts);
   rebuildObstacles(world, state);
+  if (!fixturesCameFirst(world, state)) world.origin = Origin();
+  world.origin.fixtures = world.physics.fixtureChanges();
+}
+
+std::vector<Standing> clearPhysics(WorldState& world) {
+  std::vector<Standing> stood(world.models.size());
+  for (auto& model : world.models) {
+    if (!model || model->isStatic()) continue;
+    stood[model->slot] = {numbersOf(model->pose), model->in_physics};
+    model->jointed.reset();
+    if (!model->in_physics) continue;
+    world.physics.remove(model->bodies);
+    model->bodies = ModelBodies();
+  }
+  return stood;
+}
+
+void rebuildMovable(WorldState& world, const PhysicsState& state,
+                    const std::vector<Standing>& before) {
+  for (const ModelInPhysics& model : state.models) {
+    if (!world.models[model.slot]->isStatic()) buildModel(world, model);
+  }
+  writeContacts(world, state.contacts);
+  for (auto& model : world.models) {
+    if (model && !model->isStatic()) renewFootprints(world, *model, before[model->slot]);
+  }
+  setMovers(world.obstacles, state);
 }
 
 }  // namespace kiva

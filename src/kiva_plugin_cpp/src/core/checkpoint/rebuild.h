@@ -4,6 +4,8 @@
 // their next answers follow from; see ordered_bullet.h.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/physics/physics_state.h"
@@ -40,6 +42,19 @@ struct PhysicsState {
 };
 
 PhysicsState readPhysics(const WorldState& world);
+
+/// Where a model stood, and whether it was in Bullet.
+struct Standing {
+  std::array<std::uint64_t, 7> pose{};  ///< As numbersOf() has it.
+  bool in_physics = false;
+};
+
+/// Takes all that can move out of Bullet. Returns where each model stood, by slot.
+std::vector<Standing> clearPhysics(WorldState& world);
+/// Builds in Bullet what can move, and renews the obstacles that are no longer what they were
+/// before clearPhysics(); all that is static is still there.
+void rebuildMovable(WorldState& world, const PhysicsState& state,
+                    const std::vector<Standing>& before);
 
 /// Builds Bullet's world and the obstacles. Throws std::exception if `state` is of another world.
 void rebuild(WorldState& world, const PhysicsState& state);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plans the way of one command over the grid.
+// Plans the way of one robot for one command, over the grid.
 #pragma once
 
 #include <cstdio>
@@ -18,9 +18,9 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The refusal of a robot that is off the grid and finds no way back.
+/// A refusal because the robot is off the grid and finds no way back.
 struct Wedged : Refusal {
-  Wedged() : Refusal("it is off the grid and no free grid point is near that it gets to") {}
+  Wedged() : Refusal("it is off the grid, and it reaches no free grid point nearby") {}
 };
 
 /// The tolerance for goals that clients computed [m].
@@ -33,23 +33,24 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-/// Returns the grid's coordinate along `axis`, x or y [m]. Throws Refusal off the grid.
+/// Returns the coordinate of the grid point at `coordinate` along `axis` (x or y) [m]. Throws
+/// Refusal if there is none within kGoalTolerance.
 double checkedGoal(const Settings& settings, double coordinate, char axis);
 /// Throws Refusal if the goal is off the floor.
 void checkGoal(const Scene& world, const Point& goal);
 /// Throws Refusal if the robot can't drive.
 void checkMotion(const FleetState& fleet, int robot);
 
-/// Plans the way of one robot, segment by segment, and keeps track of the pose after each.
+/// A way of one robot, built segment by segment. The route keeps track of the pose after each.
 class Route {
  public:
-  /// Starts from the robot's pose. A robot off the grid first returns to it: to `back`, if that is
-  /// a free grid point near it, else to the nearest one. Throws Refusal if there is no way back.
+  /// Starts at the robot's pose. A robot off the grid first returns to the grid: to `back` if that
+  /// grid point is near and free, otherwise to the nearest free one. Throws Refusal without one.
   Route(const Scene& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }
   void rotate(int direction);
-  /// Drives along one axis to that coordinate, facing it.
+  /// Turns towards a coordinate along one axis, and drives there.
   void driveTo(int axis, double coordinate);
   void lift(MotionSegment::Kind kind, int unit);
   std::deque<MotionSegment> takeSegments() { return std::move(segments_); }
@@ -62,7 +63,7 @@ class Route {
 
   const Scene& world_;
   int robot_;
-  PlanarPose here_;  ///< Where the robot believes to be.
+  PlanarPose here_;  ///< The pose that the robot believes to have.
   Point at_;
   double yaw_;
   std::deque<MotionSegment> segments_;

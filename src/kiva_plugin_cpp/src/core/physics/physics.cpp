@@ -24,6 +24,13 @@ bool isUnevenFloor(const LinkBody& link) {
   return (link.body->getWorldTransform().getBasis() * normal).z() < kLevel;
 }
 
+/// Returns whether anything of it stands for good.
+bool isFixture(const ModelBodies& bodies) {
+  return !bodies.surfaces.empty() ||
+         std::any_of(bodies.links.begin(), bodies.links.end(),
+                     [](const LinkBody& link) { return link.body->isStaticObject(); });
+}
+
 /// Contacts for which there is room from the start; more find theirs in the heap. To lay out
 /// Bullet's own 4,096 takes longer than all else that makes a small world, or restores one.
 btDefaultCollisionConstructionInfo smallPools() {
@@ -76,6 +83,7 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
 }
 
 void Physics::insert(ModelBodies& bodies) {
+  fixture_changes_ += isFixture(bodies);
   for (auto* list : {&bodies.links, &bodies.surfaces}) {
     for (LinkBody& link : *list) {
       world_.addRigidBody(link.body.get(), link.group, link.mask);
@@ -86,6 +94,7 @@ void Physics::insert(ModelBodies& bodies) {
 }
 
 void Physics::remove(ModelBodies& bodies) {
+  fixture_changes_ += isFixture(bodies);
   for (auto& joint : bodies.joints) world_.removeConstraint(joint.get());
   for (auto* list : {&bodies.links, &bodies.surfaces}) {
     for (LinkBody& link : *list) {
@@ -96,6 +105,7 @@ void Physics::remove(ModelBodies& bodies) {
 }
 
 void Physics::shift(ModelBodies& bodies, const ModelDescription& description, const Pose& pose) {
+  ++fixture_changes_;
   for (auto* list : {&bodies.links, &bodies.surfaces}) {
     for (LinkBody& link : *list) {
       link.place(toBullet(pose * description.links[link.link].pose_in_model));

@@ -5,6 +5,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "core/physics/bodies.h"
@@ -57,6 +58,9 @@ class Physics {
   /// Bodies of what does not move by itself follow their model, which is there now.
   void shift(ModelBodies& bodies, const ModelDescription& description, const Pose& pose);
 
+  /// Counts up whenever something static comes, goes or is moved.
+  std::uint64_t fixtureChanges() const { return fixture_changes_; }
+
   /// One step; costs nothing where no body is awake.
   void step(double dt);
   /// For what is in the world and what will be.
@@ -106,7 +110,8 @@ class Physics {
 
   std::vector<Motion> motions_;  ///< By a body's second user index.
   double dt_ = 0;                ///< Of the last step [s].
-  int uneven_floors_ = 0;        ///< Bodies of the floor's group that are no level planes.
+  std::uint64_t fixture_changes_ = 0;
+  int uneven_floors_ = 0;  ///< Bodies of the floor's group that are no level planes.
 };
 
 }  // namespace kiva

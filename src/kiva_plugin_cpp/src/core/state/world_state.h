@@ -23,6 +23,7 @@
 #include "core/state/command_link.h"
 #include "core/state/inbox.h"
 #include "core/state/model_view.h"
+#include "core/state/origin.h"
 #include "core/state/shadows.h"
 #include "kiva_plugin_cpp/world.h"
 
@@ -58,6 +59,7 @@ struct WorldState {
   People people;
   Shadows shadows;
   StepSchedule schedule;
+  Origin origin;
 
   /// What the rooms work on; each takes the part of the view that it writes.
   ModelView view;

@@ -78,8 +78,9 @@ def _picture(path: Path) -> Picture:
 
 
 def _mapping(path: Path) -> dict[str, Any]:
+    text = text_of(path)
     try:
-        told = yaml.safe_load(text_of(path))
+        told = yaml.safe_load(text)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f":{mark.line + 1}" if mark else ""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from warehouse_operations.sizing.point import Point, Record
 from warehouse_operations.sizing.verdict import figures_of
+from warehouse_operations.sizing.wish import count
 
 if TYPE_CHECKING:
     from warehouse_operations.sizing.study import Study
@@ -23,7 +24,8 @@ class Shown:
         kind = " with physics" if point.physics else ""
         in_time = 1 - figures_of(record, point.minutes // 4)["missed"]
         text = (
-            f"{point.stations} stations, {point.robots} robots, seed {point.seed}{kind}:"
+            f"{count(point.stations, 'station')}, {count(point.robots, 'robot')},"
+            f" seed {point.seed}{kind}:"
             f" {100 * in_time:.1f} % in time; {study.shifts} shifts, {study.simulated_h:,.0f} h"
             f" simulated in {time.monotonic() - self._began:,.0f} s"
         )
