@@ -82,8 +82,8 @@ def check(example: Example) -> None:
     Writes a block with the note `file` to that file.
     """
     for need in example.notes.get("needs", "").split():
-        there = any(ROOT.glob(need)) if "/" in need else shutil.which(need)
-        if not there:
+        files = [*ROOT.glob(need), *Path().glob(need)] if "/" in need else []
+        if not files and not shutil.which(need):
             raise SkippedError(f"{need} is not installed")
     if name := example.notes.get("file"):
         Path(name).write_text(example.text)

@@ -17,12 +17,19 @@ _WITHOUT_ROBOTS = [
     ("rostopic echo -n 1 /warehouse/state", "what stands in it"),
     ("rosservice call /gazebo/get_world_properties", "the same as the engine sees it"),
 ]
+_WITH_A_FLEET = [  # a coordinator has the robots busy, and they would refuse commands
+    ("rostopic echo -n 1 /warehouse/coordinator", "what each robot does"),
+    ("rostopic echo -n 1 /warehouse/state", "what stands in the warehouse"),
+    ("rosrun warehouse_sim events", "what happens, until Ctrl-C"),
+]
 
 
-def commands(survey: Survey) -> list[tuple[str, str]]:
+def commands(survey: Survey, has_coordinator: bool = False) -> list[tuple[str, str]]:
     """Returns three pairs (shell command, what it does) for a Survey."""
     if not survey.kiva:
         return _WITHOUT_ROBOTS
+    if has_coordinator:
+        return _WITH_A_FLEET
     if abs(survey.spacing - 1) > 1e-6:
         return _WITHOUT_ROBOTS[1:]  # ways are looked for on whole metres
     return _fetch(survey) or _stroll(survey)

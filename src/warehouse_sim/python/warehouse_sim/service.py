@@ -24,6 +24,7 @@ from warehouse_sim import hints
 from warehouse_sim.layout_building import LayoutBuilding
 
 GREETED = "~greeted"
+COORDINATOR = "/coordinator/demand"  # a parameter that a launch with a coordinator sets
 
 
 class WarehouseService:
@@ -140,7 +141,8 @@ class WarehouseService:
         with Engine(self._ros) as engine:
             found = survey.of_engine(engine)
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
-        self._tell(hints.greeting(title, hints.commands(found)))
+        to_try = hints.commands(found, self._ros.has_param(COORDINATOR))
+        self._tell(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
 
 

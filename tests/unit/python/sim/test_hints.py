@@ -69,6 +69,11 @@ def test_on_an_empty_floor_one_may_build():
     assert "create_warehouse_models" in hints.commands(Survey())[0][0]
 
 
+def test_robots_of_a_coordinator_are_looked_at():
+    survey = Survey(kiva={1: (0, 0, 0)}, storage_unit={1: (1, 0, 0)})
+    assert not any("rostopic pub" in command for command, _ in hints.commands(survey, True))
+
+
 def test_greeting_reads_well():
     text = hints.greeting("small: 4 robots", [("a b", "first"), ("abc d", "second")])
     assert "    a b     # first\n    abc d   # second\n" in text

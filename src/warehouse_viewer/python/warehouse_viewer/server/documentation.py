@@ -21,7 +21,7 @@ FOLDERS = (
     SHARE.parents[1] / "build" / "docs",
 )
 MISSING = """<!doctype html><html lang="en"><meta charset="utf-8">
-<title>Kiva warehouse: documentation</title>
+<title>Documentation – Kiva warehouse</title>
 <link rel="stylesheet" href="/web/design.css"><main><h1>Documentation</h1>
 <p>It is not built yet. Run <code>make docs</code> in the source tree, then reload this page.</p>
 <p><a href="/api/docs">The HTTP API</a> has a page of its own.</p></main></html>"""

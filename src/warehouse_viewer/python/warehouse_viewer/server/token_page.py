@@ -32,7 +32,7 @@ if (given) {
 } else form.to.value += location.hash;
 """
 PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Kiva warehouse: token</title>
+<html lang="en"><head><meta charset="utf-8"><title>Token – Kiva warehouse</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>{style}</style></head>
 <body><main><h1>Kiva warehouse</h1><p>This page is for those who have its token. The terminal in
 which the warehouse was started tells it, or in which file it lies.</p>{wrong}
