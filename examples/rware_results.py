@@ -103,9 +103,10 @@ def draw(path, trained):
         at = np.linspace(0, min(curve[-1][0] for curve in curves), POINTS + 1)[1:]
         returns = statistics.aligned(curves, at)
         mean, low, high = statistics.interval([returns])
-        axes.plot(at / 1e6, mean, label=f"{task}, {algorithm.upper()}, {len(files)} seeds")
+        seeds = f"{len(files)} seeds" if len(files) > 1 else "one seed"
+        (drawn,) = axes.plot(at / 1e6, mean, label=f"{task}, {algorithm.upper()}, {seeds}")
         if len(files) > 1:
-            axes.fill_between(at / 1e6, low, high, alpha=0.25, lw=0)
+            axes.fill_between(at / 1e6, low, high, color=drawn.get_color(), alpha=0.25, lw=0)
     axes.set_xlabel("steps of the environments [million]")
     axes.set_ylabel("return of an episode of 500 steps, interquartile mean")
     axes.legend(frameon=False)

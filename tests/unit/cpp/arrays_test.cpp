@@ -130,6 +130,23 @@ TEST(Arrays, CruiseWhileTheySpeedUpBrakeAndTurn) {
   }
 }
 
+/// Steps that add to coordinates of hundreds of metres leave errors of that size, which to steer
+/// back from would take seconds.
+TEST(Arrays, CruiseBesideTheLineByARoundingError) {
+  Warehouse w;
+  w.spawn("kiva", "kiva1", 0, 0);
+  insideOf(w.world).fleet.y[0] = 5e-10;
+  const auto& cruising = insideOf(w.world).fleet.cruising;
+  int steps = 0, cruised = 0;
+  w.movx(1, 5);
+  w.runUntilIdle(1, 120, [&] {
+    ++steps;
+    cruised += cruising[0] != 0;
+  });
+  EXPECT_GT(cruised, 0.95 * steps);
+  EXPECT_NEAR(w.y(1), 0, 1e-9);
+}
+
 /// A loose box of 5 kg.
 std::string parcel(double edge) {
   const std::string e = std::to_string(edge), size = e + " " + e + " " + e;

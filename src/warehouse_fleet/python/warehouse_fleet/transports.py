@@ -73,6 +73,8 @@ class Transports:
         )
         self.park: Callable[[int], int | None] = lambda _robot: None
         self.stations = {station.name: station for station in plan.stations}
+        # How many units of a station may be lifted at a time: its lane has room for them.
+        self.capacity = {one.name: min(LIFTED, one.service + 1) for one in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
         self._queue_of = np.full(
             plan.passable.size, NOWHERE, np.int32
@@ -216,10 +218,6 @@ class Transports:
     def open_for(self, station: str) -> int:
         """Returns how many transports to a station have no robot yet."""
         return self.book.open_for(station)
-
-    def capacity(self, station: str) -> int:
-        """Returns how many units of a station may be lifted at a time: its lane has room for."""
-        return min(LIFTED, self.stations[station].service + 1)
 
     def in_lane(self) -> np.ndarray:
         """Returns (n,) bool: robots in the queue of the station to which their transport goes."""

@@ -14,7 +14,7 @@ namespace layout {
 /// cell * kHeadings + heading.
 struct RouteGraph {
   const Cell* next;         ///< by node: the cell beside it, or kNowhere; cells * kHeadings
-  const std::uint8_t* end;  ///< by cell: ways end there, and don't go on
+  const std::uint8_t* end;  ///< by cell: ways end there, in the heading in which they come
   Cell cells;
   double step;  ///< from cell to cell [s]
   double turn;  ///< by a quarter [s]

@@ -50,14 +50,14 @@ class Search {
  private:
   void goOn(Found found) {
     const Cell cell = found.node / kHeadings;
+    if (graph_.end[cell] && cell != start_) return;
     const int heading = found.node % kHeadings;
     for (const int quarters : {1, kHeadings - 1}) {
       const int turned = (heading + quarters) % kHeadings;
       reach(found, cell * kHeadings + turned, graph_.turn, 0, turns_);
     }
     const Cell next = graph_.next[found.node];
-    if (next == kNowhere || (graph_.end[cell] && cell != start_)) return;
-    reach(found, next * kHeadings + heading, graph_.step, 1, steps_);
+    if (next != kNowhere) reach(found, next * kHeadings + heading, graph_.step, 1, steps_);
   }
 
   void reach(Found from, std::int32_t node, double cost, int steps, Queue& queue) {

@@ -3,7 +3,7 @@
 
 import bisect
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -77,9 +77,10 @@ class Backlog:
 
     def __init__(self) -> None:
         self.orders: dict[int, Order] = {}  # by id
+        self.pieces: dict[Order, int] = {}  # not picked yet: asked of many at each choice
         self.lines = 0  # of all of them
         self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
-        self._by_sku: dict[str, dict[int, Order]] = defaultdict(dict)
+        self._by_sku: dict[str, dict[Line, int]] = defaultdict(dict)  # open pieces by line
         self._urgencies: list[tuple[int, float, int]] = []  # of all of them, ascending
 
     def __len__(self) -> int:
@@ -91,30 +92,43 @@ class Backlog:
     def add(self, order: Order) -> None:
         """Adds an order, with the demand of its open lines."""
         self.orders[order.order_id] = order
+        self.pieces[order] = order.pieces
         bisect.insort(self._urgencies, order.urgency)
         self.lines += len(order.lines)
         for line in order.lines:
             if line.open:
                 self.demand[line.sku] += line.open
-                self._by_sku[line.sku][order.order_id] = order
+                self._by_sku[line.sku][line] = line.open
 
     def remove(self, order: Order) -> None:
         """Removes an order and its demand. Raises KeyError."""
-        del self.orders[order.order_id]
+        del self.orders[order.order_id], self.pieces[order]
         del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
         self.lines -= len(order.lines)
         for line in order.lines:
             if line.open:
                 self.demand[line.sku] -= line.open
-                self._by_sku[line.sku].pop(order.order_id, None)
+                del self._by_sku[line.sku][line]
 
     def by_urgency(self) -> Iterator[Order]:
         """Returns the orders, the most urgent first; it may not change meanwhile."""
         return (self.orders[order_id] for _, _, order_id in self._urgencies)
 
-    def with_sku(self, sku: str) -> Iterable[Order]:
-        """Returns the orders that ask for a SKU, by age."""
-        return self._by_sku[sku].values() if sku in self._by_sku else ()
+    def lines_of(self, sku: str) -> Mapping[Line, int]:
+        """Returns the lines that ask for a SKU, by age of their orders, with their open pieces."""
+        return self._by_sku.get(sku, {})
+
+    def served_by(self, stock: Mapping[str, int]) -> dict[Order, int]:
+        """Returns how many pieces each order finds in a stock, of the orders that find any.
+
+        stock: pieces by SKU. Two lines of an order with the same SKU each find all of it.
+        """
+        served: dict[Order, int] = {}
+        for sku, pieces in stock.items():
+            for line, wanted in self.lines_of(sku).items():
+                found = served.get(line.order, 0)
+                served[line.order] = found + (wanted if wanted < pieces else pieces)
+        return served
 
 
 @dataclass

@@ -144,19 +144,25 @@ void release(ContactView& world) {
 }
 
 /// Most blocks of a large fleet have none, and cost little.
-void findSteppedSingly(ContactView& world) {
-  const FleetState& f = world.fleet;
-  world.schedule.stepped_singly.clear();
+__attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
+    const std::uint8_t* awake, const std::int64_t* cruising, int count, std::vector<int>* found) {
   constexpr int kBlock = 16;
-  for (int begin = 0; begin < f.size(); begin += kBlock) {
-    const int end = std::min(begin + kBlock, f.size());
+  for (int begin = 0; begin < count; begin += kBlock) {
+    const int end = std::min(begin + kBlock, count);
     std::int64_t any = 0;
-    for (int i = begin; i < end; ++i) any |= f.awake[i] & ~f.cruising[i];
+    for (int i = begin; i < end; ++i) any |= awake[i] & ~cruising[i];
     if (any == 0) continue;
     for (int i = begin; i < end; ++i) {
-      if (f.awake[i] && f.cruising[i] == 0) world.schedule.stepped_singly.push_back(i);
+      if (awake[i] && cruising[i] == 0) found->push_back(i);
     }
   }
+}
+
+void findSteppedSingly(ContactView& world) {
+  const FleetState& f = world.fleet;
+  std::vector<int>* found = &world.schedule.stepped_singly;
+  found->clear();
+  findSteppedSingly(f.awake.data(), f.cruising.data(), f.size(), found);
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ struct ReferenceMotion {
   double acceleration = 0;       ///< [m/s² or rad/s²]; 0 = at once.
 };
 
-/// Returns whether an error [m, rad, m/s, rad/s] may be rounding's.
-inline bool isExact(double error) { return std::abs(error) < 2e-11; }
+/// Returns whether an error [m, rad, m/s, rad/s] may be rounding's: steps that add to coordinates
+/// of hundreds of metres leave up to 1e-9 m.
+inline bool isExact(double error) { return std::abs(error) < 1e-8; }
 
 /// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
 /// free. It does until something else moves it, see moved().

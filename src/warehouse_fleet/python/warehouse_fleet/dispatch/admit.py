@@ -20,7 +20,7 @@ def run(work: "Transports") -> None:
         if transport.step != READY:
             continue
         station = transport.station
-        is_full = station and book.inbound[station] >= work.capacity(station)
+        is_full = station and book.inbound[station] >= work.capacity[station]
         if is_full or not _is_beneath(work, transport):
             book.ready.append(transport)
             continue

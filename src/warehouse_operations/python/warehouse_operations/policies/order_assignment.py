@@ -72,19 +72,15 @@ class PileOn:
     def _best(stock: Mapping[str, int], view: "View", complete: bool = False) -> Order | None:
         best: Order | None = None
         best_score: tuple = ()
-        seen: set[int] = set()
-        for sku in stock:
-            for order in view.backlog.with_sku(sku):
-                if order.order_id in seen:
-                    continue
-                seen.add(order.order_id)
-                served = sum(min(line.open, stock.get(line.sku, 0)) for line in order.lines)
-                missing = order.pieces - served
-                if missing and (complete or not view.in_stock(order)):
-                    continue
-                score = (-order.priority, missing > 0, -served, order.urgency)
-                if best is None or score < best_score:
-                    best, best_score = order, score
+        for order, served in view.backlog.served_by(stock).items():
+            missing = view.backlog.pieces[order] > served
+            if missing and complete:
+                continue
+            score = (-order.priority, missing, -served, order.urgency)
+            if best is not None and score > best_score:
+                continue
+            if not missing or view.in_stock(order):  # asked last: it costs most
+                best, best_score = order, score
         return best
 
 
