@@ -78,7 +78,8 @@ class LocalView:
         gains = np.clip(far[:, :1] - far, -2, 2) / 2
         stays = np.zeros(targets.shape)
         stays[:, STAYS] = 1
-        holder = np.full(self._size + 1, NOWHERE)  # by cell, who stands there
+        # The robot that stands in each cell, or NOWHERE.
+        holder = np.full(self._size + 1, NOWHERE)
         holder[scene.cell] = np.arange(len(targets))
         other = np.where(stays, NOWHERE, holder[targets])
         held = other != NOWHERE

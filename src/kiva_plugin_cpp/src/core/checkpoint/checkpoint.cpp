@@ -161,7 +161,7 @@ void indexNames(WorldState& world) {
   }
 }
 
-/// Works out what follows from that which is described.
+/// Derives the state that a checkpoint leaves out: names and indices of items, rays of robots, …
 void deriveRest(WorldState& world) {
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
   world.storage.indexItems();

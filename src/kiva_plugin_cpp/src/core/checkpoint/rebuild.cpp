@@ -128,7 +128,8 @@ void addFootprints(WorldState& world, Model& model) {
   model.in_physics = is_in;
 }
 
-/// Worked out where the robot was when its load changed, they would be a rounding apart.
+/// Sets the footprints of robots and loads as the checkpoint has them. Footprints that are computed
+/// from today's poses would differ by rounding errors.
 void setMovers(Obstacles& obstacles, const PhysicsState& state) {
   for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
     obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
@@ -151,7 +152,8 @@ bool isPlaced(const Model& model) {
                      [](const CollisionGeometry& geometry) { return geometry.handle >= 0; });
 }
 
-/// Those of a robot and its load are a mover's, and an item on a unit has none.
+/// Renews the footprints of a model that moved or changed. Robots and their loads get theirs from
+/// setMovers(); an item on a unit has none.
 void renewFootprints(WorldState& world, Model& model, const Standing& before) {
   const bool is_activatable = model.owner->isActivatedWhenNear();
   if (!model.in_physics && !is_activatable) {
