@@ -195,7 +195,9 @@ void Epibt::updateFleet(const Fleet& fleet) {
     if (fleet.cell[robot] == fleet.goal[robot]) guidance_->rests(fleet.cell[robot]);
   }
   constexpr int kRefresh = 10;
-  if (now_ % kRefresh == 0) guidance_->refresh();
+  if (now_ % kRefresh != 0) return;
+  guidance_->refresh();
+  tables_->reprice();
 }
 
 void Epibt::wish(const Fleet& fleet) {
