@@ -14,6 +14,10 @@ namespace kiva {
 /// if that makes steps quicker by enough. Only the time that a step takes depends on it.
 class StepTrial {
  public:
+  static constexpr int kFirst = 500;      // steps until the first trial, when caches are warm
+  static constexpr int kSteps = 128;      // of a trial
+  static constexpr int kBetween = 20000;  // steps from trial to trial
+
   bool shares() const { return shares_; }
 
   void beginStep() {
@@ -26,10 +30,7 @@ class StepTrial {
   using Clock = std::chrono::steady_clock;
   void decide();
 
-  static constexpr int kSteps = 128;     // of a trial
-  static constexpr int kTurn = 8;        // of them in turns, with other threads and without
-  static constexpr int kBetween = 20000; // steps from trial to trial
-  static constexpr int kFirst = 500;     // steps until the first one, when caches are warm
+  static constexpr int kTurn = 8;  // steps of a trial with other threads, then as many without
 
   bool shares_ = true;
   bool tries_ = false;
