@@ -7,9 +7,9 @@
 //     FIELDS(segment.kind, segment.x, within(segment.yaw, -1e9, 1e9));
 //   }
 //
-// which writes, reads, compares or hashes it, depending on the archive, so that these can't diverge.
-// What is read is checked: an enum has one of its values, as `lastOf` tells, a number is finite, or
-// within its limits. An error names the field.
+// which writes, reads, compares or hashes it, depending on the archive, so that these can't
+// diverge. What is read is checked: an enum has one of its values, as `lastOf` tells, a number is
+// finite, or within its limits. An error names the field.
 #pragma once
 
 #include <algorithm>
