@@ -31,7 +31,8 @@ def main():
         record = json.loads(file.read_text())
         if "curve" in record:
             on = record.get("physics", "grid")
-            kind = record["settings"]["algorithm"] + ("" if on == "grid" else f" on {on}")
+            learnt = record["settings"]["algorithm"].upper()
+            kind = learnt if on == "grid" else f"{learnt} with {on}"
             trained[record["task"], kind].append(file)
     if not trained:
         raise SystemExit(f"{folder}: there is no training; examples/rware_train.py TASK makes one")
@@ -104,7 +105,7 @@ def draw(path, trained):
         returns = statistics.aligned(curves, at)
         mean, low, high = statistics.interval([returns])
         seeds = f"{len(files)} seeds" if len(files) > 1 else "one seed"
-        (drawn,) = axes.plot(at / 1e6, mean, label=f"{task}, {algorithm.upper()}, {seeds}")
+        (drawn,) = axes.plot(at / 1e6, mean, label=f"{task}, {algorithm}, {seeds}")
         if len(files) > 1:
             axes.fill_between(at / 1e6, low, high, color=drawn.get_color(), alpha=0.25, lw=0)
     axes.set_xlabel("steps of the environments [million]")

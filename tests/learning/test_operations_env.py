@@ -112,3 +112,14 @@ def test_a_wrong_description_is_told():
         env.reset(seed=1)
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step(0)
+
+
+def test_a_shift_without_decisions_ends_at_its_first_step():
+    env = KivaOperationsEnv(**OPTIONS | {"orders": "none"})
+    env.reset(seed=1)
+    _, reward, _, over, info = env.step(0)
+    assert (reward, over, info["kpis"]["items_picked"]) == (0.0, True, 0)
+    with pytest.raises(gymnasium.error.ResetNeeded, match="begins an episode"):
+        env.step(0)
+    assert run_shift(env, usual, seed=1)["return"] == 0
+    env.close()

@@ -8,9 +8,14 @@ RIGHT = """
 from kiva_plugin_cpp import World
 from warehouse_fleet import _core as planner
 from warehouse_layout import _core as layout
+from warehouse_learning.marl import policy
+from warehouse_learning.rware import RwareVectorEnv, Warehouse
 
 world: World = World.preset("small")
 time: float = world.time
+robots: policy.GridPolicy = policy.load("tiny-4ag")
+env: Warehouse = Warehouse(n_agents=2, physics="bodies")
+envs: RwareVectorEnv = RwareVectorEnv(64, n_agents=2)
 """
 WRONG = RIGHT + "world.step('a minute')\n"
 

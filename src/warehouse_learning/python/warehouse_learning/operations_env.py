@@ -73,6 +73,7 @@ class KivaOperationsEnv(gymnasium.Env):
         self._shift: _Shift | None = None
         self._operations: Operations | None = None
         self._decision: Decision | None = None
+        self._is_over = False
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -86,7 +87,7 @@ class KivaOperationsEnv(gymnasium.Env):
         drawn = int(self.np_random.integers(2**31)) if seed is None else seed
         self._shift = _Shift(self._described(drawn), self.decides, self._policies)
         self._operations, self._picked = self._shift.operations, 0
-        self._decision = self._shift.next()
+        self._decision, self._is_over = self._shift.next(), False
         return self._observation(), self._info()
 
     def _described(self, seed: int) -> simulation.Description:
@@ -97,18 +98,21 @@ class KivaOperationsEnv(gymnasium.Env):
 
         Raises ActionError for what is not a candidate.
         """
-        if self._shift is None or self._decision is None:
-            raise gymnasium.error.ResetNeeded("reset() begins the first episode")
-        given, count = np.asarray(action), len(self._decision.keys)
+        if self._shift is None or self._is_over:
+            raise gymnasium.error.ResetNeeded("reset() begins an episode")
+        given = np.asarray(action)
         if given.shape != () or given.dtype.kind not in "iu" or not 0 <= given < SHORTLIST:
             raise ActionError(
                 f"dispatcher: action {action!r}; a whole number below {SHORTLIST} was expected"
             )
-        # What is beyond the candidates is the last one: an agent without a mask can't go wrong.
-        self._decision = self._shift.next(min(int(given), count - 1))
+        if self._decision:
+            # What is beyond the candidates is the last one: an agent without a mask can't go wrong.
+            last = len(self._decision.keys) - 1
+            self._decision = self._shift.next(min(int(given), last))
+        self._is_over = self._decision is None
         picked = self._shift.operations.shift.tally.items_picked
         reward, self._picked = float(picked - self._picked), picked
-        return self._observation(), reward, False, self._decision is None, self._info()
+        return self._observation(), reward, False, self._is_over, self._info()
 
     def action_masks(self) -> np.ndarray:
         """Returns (16,) bool, as sb3_contrib's MaskablePPO asks for."""
@@ -213,11 +217,11 @@ def run_shift(
     env: KivaOperationsEnv, choose: Callable[[Decision], int], seed: int
 ) -> dict[str, Any]:
     """Plays an episode; returns its kpis, with the `return`, the sum of rewards."""
-    env.reset(seed=seed)
-    total = 0.0
-    info: dict[str, Any] = {}
-    while env.decision:
-        _, reward, _, _, info = env.step(choose(env.decision))
+    _, info = env.reset(seed=seed)
+    total, is_over = 0.0, False
+    while not is_over:
+        action = choose(env.decision) if env.decision else 0
+        _, reward, _, is_over, info = env.step(action)
         total += reward
     return info["kpis"] | {"return": total}
 

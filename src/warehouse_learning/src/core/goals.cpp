@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "goals.h"
 
+#include <algorithm>
+
 namespace learning {
 
 Goals::Goals(const Floor& floor, const State& state)
@@ -14,6 +16,7 @@ Goals::Goals(const Floor& floor, const State& state)
   for (int cell = 0; cell < floor.size(); ++cell) {
     if (floor.isStorage(cell)) places_.push_back(cell);
   }
+  for (const int cell : floor.stations()) stations_.push_back(choice(kNone, cell, Deck::kAisles));
 }
 
 void Goals::begin(int w) {
@@ -62,11 +65,12 @@ bool Goals::isGone(int w, int robot) const {
 void Goals::find(int w, int robot) {
   const int load = state_.load[w][robot];
   if (load == kNone) {
-    findUnit(w, robot);
-  } else if (state_.requested[w][load]) {
-    choose(w, robot, floor_.stations(), Deck::kAisles);
-  } else {
-    findPlace(w, robot);
+    take(w, robot, &open_units_);
+  } else if (!state_.requested[w][load]) {
+    take(w, robot, &open_places_);
+  } else if (const Choice* station = nearest(w, robot, stations_)) {
+    cell_[w][robot] = station->cell;
+    way_[w][robot] = station->way;
   }
 }
 
@@ -77,48 +81,32 @@ void Goals::findOpen(int w) {
     if (aim != kNone) (state_.load[w][robot] == kNone ? unit_taken : place_taken)[aim] = 1;
   }
   open_units_.clear();
-  open_unit_cells_.clear();
   for (int unit = 0; unit < state_.units(); ++unit) {
     const int cell = state_.unit_cell[w][unit];
     if (!state_.requested[w][unit] || cell == kNone || unit_taken[unit]) continue;
-    open_units_.push_back(unit);
-    open_unit_cells_.push_back(cell);
+    open_units_.push_back(choice(unit, cell, Deck::kUnder));
   }
   open_places_.clear();
   for (const int place : places_) {
-    if (state_.unit_at[w][place] == kNone && !place_taken[place]) open_places_.push_back(place);
+    if (state_.unit_at[w][place] != kNone || place_taken[place]) continue;
+    open_places_.push_back(choice(place, place, Deck::kAisles));
   }
 }
 
-void Goals::findUnit(int w, int robot) {
-  const int chosen = choose(w, robot, open_unit_cells_, Deck::kUnder);
-  if (chosen == kNone) return;
-  aim_[w][robot] = open_units_[chosen];
-  open_units_.erase(open_units_.begin() + chosen);
-  open_unit_cells_.erase(open_unit_cells_.begin() + chosen);
+const Goals::Choice* Goals::nearest(int w, int robot, const std::vector<Choice>& choices) const {
+  const int at = state_.cell[w][robot];
+  const auto less = [at](const Choice& a, const Choice& b) { return (*a.way)[at] < (*b.way)[at]; };
+  const auto found = std::min_element(choices.begin(), choices.end(), less);
+  return found == choices.end() ? nullptr : &*found;
 }
 
-void Goals::findPlace(int w, int robot) {
-  const int chosen = choose(w, robot, open_places_, Deck::kAisles);
-  if (chosen == kNone) return;
-  aim_[w][robot] = open_places_[chosen];
-  open_places_.erase(open_places_.begin() + chosen);
-}
-
-int Goals::choose(int w, int robot, const std::vector<int>& cells, Deck deck) {
-  int chosen = kNone;
-  const Way* shortest = nullptr;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const Way& way = ways_.to(cells[k], deck);
-    const int at = state_.cell[w][robot];
-    if (shortest && way[at] >= (*shortest)[at]) continue;
-    shortest = &way;
-    chosen = static_cast<int>(k);
-  }
-  if (!shortest) return kNone;
-  cell_[w][robot] = cells[chosen];
-  way_[w][robot] = shortest;
-  return chosen;
+void Goals::take(int w, int robot, std::vector<Choice>* open) {
+  const Choice* chosen = nearest(w, robot, *open);
+  if (!chosen) return;
+  aim_[w][robot] = chosen->aim;
+  cell_[w][robot] = chosen->cell;
+  way_[w][robot] = chosen->way;
+  open->erase(open->begin() + (chosen - open->data()));
 }
 
 }  // namespace learning

@@ -35,15 +35,21 @@ class Goals {
   int distance(int w, int robot) const;
 
  private:
+  struct Choice {
+    int aim;  // as in aim_
+    int cell;
+    const Way* way;
+  };
+
   bool isGone(int w, int robot) const;
+  Choice choice(int aim, int cell, Deck deck) { return {aim, cell, &ways_.to(cell, deck)}; }
   void find(int w, int robot);
-  void findUnit(int w, int robot);
-  void findPlace(int w, int robot);
   /// Finds what is no robot's goal yet.
   void findOpen(int w);
-  /// The nearest of the cells becomes its goal. Returns its place among them, kNone if there are
-  /// none.
-  int choose(int w, int robot, const std::vector<int>& cells, Deck deck);
+  /// Returns the one that is nearest to the robot, the first of several; nullptr of none.
+  const Choice* nearest(int w, int robot, const std::vector<Choice>& choices) const;
+  /// The nearest becomes its goal, and no other robot's.
+  void take(int w, int robot, std::vector<Choice>* open);
 
   const Floor& floor_;
   const State& state_;
@@ -52,8 +58,9 @@ class Goals {
   Table<std::int32_t> cell_;
   Table<const Way*> way_;
   Table<std::int32_t> aim_;  // unit, or cell of a storage place
-  // Of the warehouse that is renewed: requested units and where they stand, free storage places.
-  std::vector<int> open_units_, open_unit_cells_, open_places_;
+  std::vector<Choice> stations_;
+  // Of the warehouse that is renewed: requested units, free storage places.
+  std::vector<Choice> open_units_, open_places_;
   std::vector<char> news_;  // by warehouse: there may be other goals than before
 };
 

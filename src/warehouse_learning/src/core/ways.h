@@ -27,6 +27,7 @@ class Ways {
   Way measure(int goal, Deck deck) const;
 
   const Floor& floor_;
+  std::vector<int> beside_;  // by cell and heading; kNowhere if one can't go there
   std::deque<Way> ways_;
   std::array<std::vector<const Way*>, 2> to_;  // by deck, by goal
 };

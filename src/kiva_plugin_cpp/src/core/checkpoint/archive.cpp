@@ -17,6 +17,13 @@ std::size_t endOf(const std::string& list, std::size_t from) {
 
 }  // namespace
 
+void failTooShort() { throw ArchiveError("it ends too early"); }
+
+void failOutside(double value, double least, double most) {
+  throw ArchiveError("expected a number from " + std::to_string(least) + " to " +
+                     std::to_string(most) + ", not " + std::to_string(value));
+}
+
 std::string nameIn(const char* names, int index) {
   const std::string list = names, limited = "within(";
   std::size_t from = 0;

@@ -7,9 +7,9 @@
 //     FIELDS(segment.kind, segment.x, within(segment.yaw, -1e9, 1e9));
 //   }
 //
-// which writes, reads or hashes it, depending on the archive, so that the three can't diverge. What
-// is read is checked: an enum has one of its values, as `lastOf` tells, a number is finite, or
-// within its limits. An error names the field.
+// which writes, reads, compares or hashes it, depending on the archive, so that these can't
+// diverge. What is read is checked: an enum has one of its values, as `lastOf` tells, a number is
+// finite, or within its limits. An error names the field.
 #pragma once
 
 #include <algorithm>
@@ -62,6 +62,10 @@ Within<T> within(T& value, double least, double most) {
 constexpr double kFarthest = 1e17;  // no number of a world is larger but those with limits above it
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
+[[noreturn]] void failTooShort();  ///< Throws that the bytes end too early.
+/// Throws that the number is not from `least` to `most`.
+[[noreturn]] void failOutside(double value, double least, double most);
+
 /// Text number `index` of a list such as `r.name, within(r.id, 1, 9)`: its last name, `id`.
 std::string nameIn(const char* list, int index);
 
@@ -83,7 +87,7 @@ inline std::uint64_t hashBytes(std::uint64_t hash, const void* data, std::size_t
   return mix(hash, rest ^ (static_cast<std::uint64_t>(size) << 56));
 }
 
-/// Where the bytes go to or come from: what the three archives differ in.
+/// Where the bytes go to or come from: what the archives differ in.
 struct WriteBytes {
   static constexpr bool kReads = false;
   std::string bytes;
@@ -98,9 +102,23 @@ struct ReadBytes {
       : at(bytes.data()), end(bytes.data() + bytes.size()) {}
   std::size_t left() const { return static_cast<std::size_t>(end - at); }
   void raw(void* data, std::size_t size) {
-    if (size > left()) throw ArchiveError("it ends too early");
+    if (size > left()) failTooShort();
     if (size > 0) std::memcpy(data, at, size);
     at += size;
+  }
+};
+
+/// Compares what would be written with what was, which begins at `at`.
+struct CompareBytes {
+  static constexpr bool kReads = false;
+  const char* at;
+  const char* end;
+  bool is_same = true;
+  CompareBytes(const char* from, const char* to) : at(from), end(to) {}
+  void raw(void* data, std::size_t size) {
+    is_same = is_same && size <= static_cast<std::size_t>(end - at) &&
+              (size == 0 || std::memcmp(at, data, size) == 0);
+    if (is_same) at += size;
   }
 };
 
@@ -179,14 +197,10 @@ class Archive : public Bytes {
       if (number >= 0 && number <= static_cast<std::int64_t>(lastOf(value))) return;
       throw ArchiveError(std::to_string(number) + " is not one of its values");
     } else if constexpr (std::is_floating_point_v<T>) {
-      if (!(value >= least && value <= most)) throw ArchiveError(outside(value, least, most));
+      if (!(value >= least && value <= most)) failOutside(value, least, most);
     }
   }
 
-  static std::string outside(double value, double least, double most) {
-    return "expected a number from " + std::to_string(least) + " to " + std::to_string(most) +
-           ", not " + std::to_string(value);
-  }
   static std::string indexed(std::size_t i) { return "[" + std::to_string(i) + "]"; }
 
   void one(bool& value) {
@@ -207,19 +221,14 @@ class Archive : public Bytes {
   void one(T& value, double least, double most) {
     static_assert(std::is_arithmetic_v<T>);
     this->raw(&value, sizeof value);
-    if constexpr (kReads) {
-      const auto number = static_cast<double>(value);
-      if (!(number >= least && number <= most)) throw ArchiveError(outside(number, least, most));
-    }
+    if constexpr (kReads) check(static_cast<double>(value), least, most);
   }
 
   template <typename T, typename Allocator>
   void one(std::vector<T, Allocator>& list, double least, double most) {
     plain(list);
     for (std::size_t i = 0; kReads && i < list.size(); ++i) {
-      const auto number = static_cast<double>(list[i]);
-      if (number >= least && number <= most) continue;
-      throw ArchiveError(outside(number, least, most), indexed(i));
+      checkIn(static_cast<double>(list[i]), i, least, most);
     }
   }
 
@@ -268,10 +277,10 @@ class Archive : public Bytes {
     }
   }
 
-  template <typename T>
-  static void checkIn(T value, std::size_t i) {
+  template <typename T, typename... Limits>
+  static void checkIn(T value, std::size_t i, Limits... limits) {
     try {
-      check(value);
+      check(value, limits...);
     } catch (const ArchiveError& error) {
       throw error.in(indexed(i));
     }
@@ -309,7 +318,7 @@ class Archive : public Bytes {
     auto number = static_cast<std::uint32_t>(size);
     this->raw(&number, sizeof number);
     if constexpr (kReads) {
-      if (number > this->left()) throw ArchiveError("it ends too early");
+      if (number > this->left()) failTooShort();
     }
     return number;
   }
@@ -317,6 +326,7 @@ class Archive : public Bytes {
 
 using Writer = Archive<WriteBytes>;
 using Reader = Archive<ReadBytes>;
+using Comparer = Archive<CompareBytes>;
 using Hasher = Archive<HashBytes>;
 
 template <class A>

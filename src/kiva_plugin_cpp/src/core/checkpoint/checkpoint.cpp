@@ -22,7 +22,7 @@ namespace {
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
-  std::vector<ModelDescription> descriptions;
+  std::vector<std::shared_ptr<const ModelDescription>> descriptions;
   std::vector<std::int32_t> of_slot;  // -1 = no model
 };
 
@@ -34,29 +34,24 @@ DescriptionTable tableOf(const WorldState& world) {
       table.of_slot.push_back(-1);
       continue;
     }
-    const ModelDescription* description = model->description.get();
     const auto next = static_cast<std::int32_t>(table.descriptions.size());
-    const auto [at, is_new] = index.try_emplace(description, next);
-    if (is_new) table.descriptions.push_back(*description);
+    const auto [at, is_new] = index.try_emplace(model->description.get(), next);
+    if (is_new) table.descriptions.push_back(model->description);
     table.of_slot.push_back(at->second);
   }
   return table;
 }
 
-void makeModels(WorldState& world, DescriptionTable table) {
-  std::vector<std::shared_ptr<const ModelDescription>> shared;
-  for (ModelDescription& d : table.descriptions) {
-    shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
-  }
+void makeModels(WorldState& world, const DescriptionTable& table) {
   world.models.slots.reserve(table.of_slot.size());
   for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
     const std::int32_t description = table.of_slot[slot];
-    if (description >= static_cast<std::int32_t>(shared.size())) {
+    if (description >= static_cast<std::int32_t>(table.descriptions.size())) {
       throw ArchiveError("there is no such description", "of_slot[" + std::to_string(slot) + "]");
     }
     world.models.slots.push_back(description < 0 ? nullptr : std::make_unique<Model>());
     if (description < 0) continue;
-    world.models.slots.back()->description = shared[description];
+    world.models.slots.back()->description = table.descriptions[description];
     world.models.slots.back()->slot = static_cast<int>(world.models.size()) - 1;
   }
 }
@@ -67,7 +62,7 @@ void describeSetting(A& a, WorldState& world) {
   DescriptionTable table;
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
-  if constexpr (A::kReads) makeModels(world, std::move(table));
+  if constexpr (A::kReads) makeModels(world, table);
   FIELDS(world.settings.name, world.settings.gravity, world.settings.options,
          world.settings.realism, world.settings.realism_of_models,
          within(world.clock.dt, kLeastStep, kMostStep),
@@ -193,13 +188,10 @@ std::optional<Reader> readOrigin(const WorldState& world, const std::string& byt
 
 /// Returns whether the checkpoint's setting, which is read then, is that of the world.
 bool readSameSetting(Reader& reader, WorldState& world) {
-  Writer now;
-  now.bytes.reserve(reader.left());
+  Comparer now(reader.at, reader.end);
   describeSetting(now, world);
-  const std::size_t size = now.bytes.size();
-  if (reader.left() < size || std::memcmp(reader.at, now.bytes.data(), size) != 0) return false;
-  reader.at += size;
-  return true;
+  reader.at = now.at;
+  return now.is_same;
 }
 
 /// Forgets what only some realism describes, and what is not yet told.

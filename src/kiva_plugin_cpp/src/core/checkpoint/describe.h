@@ -131,6 +131,17 @@ void describe(A& a, ModelDescription& m) {
   FIELDS(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
 }
 
+template <class A>
+void describe(A& a, std::shared_ptr<const ModelDescription>& shared) {
+  if constexpr (A::kReads) {
+    auto description = std::make_shared<ModelDescription>();
+    a(*description);
+    shared = std::move(description);
+  } else {
+    a(const_cast<ModelDescription&>(*shared));  // describing changes nothing unless it reads
+  }
+}
+
 // --- the fleet
 
 template <class A>
