@@ -20,8 +20,8 @@ struct RouteGraph {
   double turn;  ///< by a quarter [s]
 };
 
-/// By node: how long the way to it takes [s], infinity if no quickest way to a cell comes by it; how
-/// many steps the way has; and the node before, -1 for the first.
+/// By node: how long the way to it takes [s], infinity if no quickest way to a cell comes by it;
+/// how many steps the way has; and the node before, -1 for the first.
 struct Routes {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;
