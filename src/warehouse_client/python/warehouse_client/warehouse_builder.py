@@ -56,10 +56,11 @@ class WarehouseBuilder:
             self._engine.delete(models.FLOOR)
 
     def _spawn(self, parts: Sequence[Any]) -> None:
-        for i in range(0, len(parts), BATCH):
-            batch = parts[i : i + BATCH]
-            self._progress("built", i, parts)
+        done = 0
+        for batch in models.batches(parts, BATCH):
+            self._progress("built", done, parts)
             self._engine.spawn(models.document(batch), batch[0].name)
+            done += len(batch)
 
     def _delete(self, names: Sequence[str]) -> None:
         for i, name in enumerate(names):

@@ -2,6 +2,7 @@
 """The models of a Layout, to be spawned: names, SDF texts and poses."""
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -20,7 +21,7 @@ WALLS = "layout_walls"
 PLACED = (*KINDS, WALLS, MARKINGS)  # all kinds of a warehouse, in the order in which they go
 _NUMBERED = re.compile(rf"({'|'.join(PLACED)})(\d+)")
 
-MOST_CHARACTERS = 10_000_000  # of a document: the world reads 20 MB
+MOST_CHARACTERS = 8_000_000  # of a document: its service reads 10 MB
 WALL_HEIGHT = 1.0  # [m]
 BELT_LENGTH = 1.8  # [m], of its model
 
@@ -138,15 +139,21 @@ def include(kind: str, number: int, x: float, y: float, z: float = 0.0, yaw: flo
 
 def documents(parts: Iterable[Part]) -> Iterator[str]:
     """Yields SDF texts with all the Parts, none longer than the world reads."""
+    return map(document, batches(parts))
+
+
+def batches(parts: Iterable[Part], most: int = sys.maxsize) -> Iterator[list[Part]]:
+    """Yields all the Parts in lists of so many at most, for documents that the world reads."""
     batch: list[Part] = []
     size = 0
     for part in parts:
-        if batch and size + len(part.xml) > MOST_CHARACTERS:
-            yield document(batch)
+        if batch and (len(batch) == most or size + len(part.xml) > MOST_CHARACTERS):
+            yield batch
             batch, size = [], 0
         batch.append(part)
         size += len(part.xml)
-    yield document(batch)
+    if batch:
+        yield batch
 
 
 def document(parts: Iterable[Part]) -> str:

@@ -10,7 +10,7 @@ from geometry_msgs.msg import Pose
 from warehouse_client import warehouse_builder
 from warehouse_client.build_transaction import BUILDING
 from warehouse_client.engine import Engine, EngineError
-from warehouse_layout import poses
+from warehouse_layout import models, poses
 from warehouse_layout.layout import plan
 from warehouse_layout.models import FLOOR, kind_and_number
 from warehouse_layout.request import PRESETS, resolve
@@ -74,6 +74,14 @@ def test_the_seed_decides_which_items_a_unit_holds():
         WarehouseService(world, [].append, seed=seed).create("small")
     first, second, third = ({n: str(p) for n, p in w.standing.items()} for w in worlds)
     assert first != second == third
+
+
+def test_no_document_is_longer_than_the_world_reads(monkeypatch):
+    monkeypatch.setattr(models, "MOST_CHARACTERS", 100)
+    lengths = (60, 60, 40, 300, 10, 10, 10)
+    parts = [models.Part(str(i), "x" * length) for i, length in enumerate(lengths)]
+    names = [[part.name for part in batch] for batch in models.batches(parts, 2)]
+    assert names == [["0"], ["1", "2"], ["3"], ["4", "5"], ["6"]]
 
 
 def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
