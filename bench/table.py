@@ -57,9 +57,10 @@ def _compared(figure, before, line):
         return {"before": ""}
     ratios = figure.ratio is not None and before.ratio is not None
     a, b = (figure.ratio, before.ratio) if ratios else (figure.value, before.value)
-    worse = b / a if figure.more_is_faster else a / b
-    slower = ratios and worse > MUCH
-    word = f", {worse:.1f} x slower now" if slower else ""
+    word = ""
+    if ratios:  # others may be 0
+        worse = b / a if figure.more_is_faster else a / b
+        word = f", {worse:.1f} x slower now" if worse > MUCH else ""
     return {"before": f"{number(b)} at {line['commit']}{word}"}
 
 

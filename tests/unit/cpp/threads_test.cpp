@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/parallel/step_trial.h"
 #include "core/parallel/workers.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
@@ -149,6 +150,45 @@ TEST(Threads, HandOnWhatIsThrownWhenAllIsDone) {
     EXPECT_EQ(done, 20) << threads;
     EXPECT_NO_THROW(workers.share(5, 1, loop)) << threads;
   }
+}
+
+void spin(std::chrono::microseconds time) {
+  const auto end = std::chrono::steady_clock::now() + time;
+  while (std::chrono::steady_clock::now() < end) continue;
+}
+
+/// Whether loops are shared after a trial in which steps took so long without and with it [µs].
+bool sharesAfterTrial(int alone, int shared) {
+  StepTrial trial;
+  for (int step = 0; step < StepTrial::kFirst + StepTrial::kSteps; ++step) {
+    trial.beginStep();
+    if (step >= StepTrial::kFirst) spin(std::chrono::microseconds(trial.shares() ? shared : alone));
+    trial.endStep();
+  }
+  return trial.shares();
+}
+
+TEST(Threads, TakePartInStepsThatAreQuickerByIt) {
+  EXPECT_TRUE(sharesAfterTrial(200, 110));
+  EXPECT_FALSE(sharesAfterTrial(200, 180));
+  EXPECT_FALSE(sharesAfterTrial(100, 200));
+}
+
+TEST(Threads, AreTriedAgain) {
+  StepTrial trial;
+  const auto go = [&](int steps, int alone, int shared) {
+    for (int step = 0; step < steps; ++step) {
+      trial.beginStep();
+      spin(std::chrono::microseconds(trial.shares() ? shared : alone));
+      trial.endStep();
+    }
+  };
+  go(StepTrial::kFirst, 0, 0);
+  go(StepTrial::kSteps, 50, 100);
+  EXPECT_FALSE(trial.shares());
+  go(StepTrial::kBetween, 0, 0);
+  go(StepTrial::kSteps, 100, 50);
+  EXPECT_TRUE(trial.shares());
 }
 
 /// Where the parent's threads are gone.

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
-import { DISPLAY, HURRIED, MOST, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/pace.js';
+import { CROWD, DISPLAY, HURRIED, MOST, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/pace.js';
 
 let now, told, pace;
 
@@ -63,4 +63,14 @@ test('pictures come more often while the simulation keeps its speed, and seldom 
   pace.yieldTo(30, 0); // as fast as it can
   await draw(40);
   assert.ok(Math.abs(await draw(40) - 40 / SHARE) < 1);
+});
+
+test('a crowd is drawn for a smaller part of the time', async () => {
+  pace.expect(CROWD);
+  pace.yieldTo(1, 1);
+  for (const end = now + 15000; now < end;) await draw(40);
+  assert.ok(Math.abs(await draw(40) - 40 / SHARE) < 1);
+  pace.expect(CROWD - 1);
+  for (const end = now + 15000; now < end;) await draw(40);
+  assert.ok(Math.abs(await draw(40) - 40 / MOST) < 1);
 });

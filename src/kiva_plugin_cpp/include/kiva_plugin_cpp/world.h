@@ -156,7 +156,8 @@ struct WorldOptions {
   /// Every robot is a Bullet body at all times. It is slow: the reference to test the arrays by.
   bool always_in_bullet = false;
   /// Threads that step robots, look ahead and scan, 1 to kMostThreads. The result is the same for
-  /// every number. A checkpoint does not keep it.
+  /// every number. Steps take more than one only where a trial, now and then, shows them to be
+  /// quicker by it. A checkpoint does not keep it.
   int threads = 1;
   /// Realism of all robots, in place of `<realism>` in their files. Without both, all is ideal.
   std::optional<Realism> realism;

@@ -167,6 +167,7 @@ const WorldState& insideOf(const World& world) { return *world.state_; }
 
 void World::step() {
   WorldState& world = *state_;
+  const Workers::Step step(*world.schedule.workers);
   decide(world);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.clock.dt); });
   applyExternalWrenches(world.view);

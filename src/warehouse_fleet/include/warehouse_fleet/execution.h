@@ -50,7 +50,7 @@ class Execution {
 
   /// Takes the reports of all robots at `time` [s], and frees the cells that robots have left. At
   /// the first call, and if the number of robots changes, all begins from where the robots are.
-  void update(double time, const std::vector<Report>& reports);
+  void update(double time, std::vector<Report> reports);
 
   /// Sets which robots are busy and loaded, if that has changed since the reports, an element a
   /// robot.
@@ -135,6 +135,7 @@ class Execution {
   int blocked() const { return blocked_; }
 
  private:
+  bool rests(int robot, const Report& before) const;
   void admit(int robot);
   void dismiss(int robot);
   void follow(int robot);

@@ -128,18 +128,16 @@ class Traffic:
             robots.busy,
             robots.loaded,
         )
-        robots.cell = execution.cell()
-        robots.stands = execution.stands()
-        robots.stalled = execution.stalled()
+        states = execution.states()
+        robots.cell, robots.stands, robots.stalled, robots.astray = states[:4]
+        lost, robots.still_since, foreign = states[4:]
         robots.stalled_since = np.where(
             robots.stalled, np.minimum(robots.stalled_since, time), np.inf
         )
-        robots.astray = execution.astray()
-        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | execution.lost()
+        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | lost
         robots.lost &= ~robots.gone
         robots.mode[robots.lost] = OUT_OF_SERVICE
-        robots.still_since = execution.still_since()
-        self._find_foreign(reports)
+        self._find_foreign(reports, foreign)
         self.watchdog.update()
         self._close_trapped()
 
@@ -147,10 +145,10 @@ class Traffic:
         """Returns (n,) bool: robots that have been on paths since before this began."""
         return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
 
-    def _find_foreign(self, reports: Reports) -> None:
+    def _find_foreign(self, reports: Reports, foreign: np.ndarray) -> None:
         """Sets robots MANUAL that were idle and are busy with a person's command."""
         robots = self.robots
-        foreign = self._execution.foreign() & self._settled & robots.automatic
+        foreign = foreign & self._settled & robots.automatic
         if not self.takes_over:
             self._settled |= reports["status"] == IDLE
         self._foreign = (self._foreign + 1) * foreign

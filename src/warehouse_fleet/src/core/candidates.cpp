@@ -46,8 +46,10 @@ void Candidates::find(const std::vector<Wish>& wishes, const Threads& threads) {
   constexpr int kWorth = 100;        // robots that are worth a thread
   if (threads.count() == 1) return;  // each robot's when they are asked for
   scratch_.resize(std::max<std::size_t>(threads.count(), scratch_.size()));
-  threads.share(static_cast<int>(wishes.size()), kWorth,
-                [&](int robot, int thread) { find(robot, wishes[robot], scratch_[thread]); });
+  threads.share(static_cast<int>(wishes.size()), kWorth, [&](int robot, int thread) {
+    if (wishes[robot].goal == kNowhere) return;
+    find(robot, wishes[robot], scratch_[thread]);
+  });
 }
 
 void Candidates::find(int robot, const Wish& wish, Scratch& scratch) {

@@ -41,7 +41,7 @@ class Candidates {
 
   /// Works them out, once a step.
   const std::vector<Path>& of(int robot, const Wish& wish);
-  /// Works out those of all robots, on all threads.
+  /// Works out those of all robots with a goal, on all threads: others mostly stand.
   void find(const std::vector<Wish>& wishes, const Threads& threads);
 
   /// Returns the candidate that keeps to what is committed, and stands from then on. It is allowed

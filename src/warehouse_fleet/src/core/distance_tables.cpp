@@ -45,10 +45,9 @@ DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, const Tab
 
 void DistanceTables::begin(int now, int version, std::int64_t work) {
   now_ = now;
-  version_ = version;
   work_ = work;
   has_worked_ = false;
-  prices_.update(edges_);
+  if (std::exchange(version_, version) != version) reprice();
   asked_.clear();
   to_make_.clear();
 }

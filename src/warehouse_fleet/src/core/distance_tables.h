@@ -88,6 +88,9 @@ class DistanceTables {
   /// (cells and headings) in it, at least one table.
   void begin(int now, int version, std::int64_t work);
 
+  /// Takes in what edges cost by now; steps with edges of another version do so by themselves.
+  void reprice() { prices_.update(edges_); }
+
   /// A robot needs this table in this step: it will be made if there is none.
   void need(Deck deck, Cell goal);
   /// Makes what was needed, on all threads.

@@ -69,6 +69,7 @@ class Epibt : public Planner {
   void replan(bool is_crowded);
   std::function<bool()> limit(const Budget& budget) const;
   void search(bool is_crowded, const std::function<bool()>& goes_on);
+  bool isContent(int robot) const;
   void improve(const std::function<bool()>& goes_on);
   void answer(const Fleet& fleet, Plan& plan);
 
@@ -194,7 +195,9 @@ void Epibt::updateFleet(const Fleet& fleet) {
     if (fleet.cell[robot] == fleet.goal[robot]) guidance_->rests(fleet.cell[robot]);
   }
   constexpr int kRefresh = 10;
-  if (now_ % kRefresh == 0) guidance_->refresh();
+  if (now_ % kRefresh != 0) return;
+  guidance_->refresh();
+  tables_->reprice();
 }
 
 void Epibt::wish(const Fleet& fleet) {
@@ -248,6 +251,14 @@ void Epibt::search(bool is_crowded, const std::function<bool()>& goes_on) {
   windows_->write(*reserved_, options_.horizon);
 }
 
+/// Returns whether the robot has nothing to do and stands: no operation is better.
+bool Epibt::isContent(int robot) const {
+  if (wishes_[robot].goal != kNowhere || wishes_[robot].yields) return false;
+  const auto& actions = reserved_->path(robot).actions;
+  return std::all_of(actions.begin(), actions.begin() + options_.horizon,
+                     [](Action action) { return action == Action::kWait; });
+}
+
 /// Looks for a better operation for each robot, by rank. On a crowded floor robots that yield keep
 /// what they have, and those that get no nearer by pushing do so by a chain.
 void Epibt::replan(bool is_crowded) {
@@ -255,6 +266,10 @@ void Epibt::replan(bool is_crowded) {
   search_->beginPass();
   for (const int robot : priorities_.order()) {
     if (search_->isSettled(robot) || wishes_[robot].yields) continue;
+    if (isContent(robot)) {
+      search_->settle(robot);
+      continue;
+    }
     search_->replan(robot, {true, options_.pushes, priorities_.rank(robot)});
     if (is_crowded && chains_->isStuck(robot)) chains_->advance(robot);
   }

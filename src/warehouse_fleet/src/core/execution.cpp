@@ -26,21 +26,26 @@ Execution::Execution(const Floor& floor, const Motion& motion)
       holders_(floor),
       order_(floor.size()) {}
 
-void Execution::update(double time, const std::vector<Report>& reports) {
+void Execution::update(double time, std::vector<Report> reports) {
   const double elapsed = std::max(0.0, time - now_);
   now_ = time;
+  const int robots = static_cast<int>(reports.size());
   if (reports.size() != courses_.size()) {
     holders_.clear();
     courses_.assign(reports.size(), {});
     order_.clear();
     members_.clear();
+    reports_.resize(reports.size());
   }
-  reports_ = reports;
-  const int robots = static_cast<int>(reports.size());
+  const std::vector<Report> before = std::exchange(reports_, std::move(reports));
   // Members of the fleet come first: obstacles get only the cells that members do not hold.
   for (int robot = 0; robot < robots; ++robot) {
     Course& course = courses_[robot];
-    if (course.isMember() && !reports[robot].is_controlled && isOver(robot)) dismiss(robot);
+    if (rests(robot, before[robot])) {
+      course.still_since = course.moved = now_;
+      continue;
+    }
+    if (course.isMember() && !reports_[robot].is_controlled && isOver(robot)) dismiss(robot);
     if (!course.isMember()) continue;
     follow(robot);
     if (course.isMember()) keepAround(robot);
@@ -50,7 +55,7 @@ void Execution::update(double time, const std::vector<Report>& reports) {
     if (courses_[robot].isMember()) continue;
     courses_[robot].still_since = now_;
     vacate(robot);
-    if (reports[robot].is_controlled) {
+    if (reports_[robot].is_controlled) {
       admit(robot);
     } else {
       courses_[robot].recovery = {};
@@ -58,6 +63,17 @@ void Execution::update(double time, const std::vector<Report>& reports) {
     courses_[robot].isMember() ? keepAround(robot) : occupy(robot);
   }
   findTight();
+}
+
+/// Returns whether a robot of the fleet stands where it stood with nothing ahead: only time passes.
+bool Execution::rests(int robot, const Report& before) const {
+  const Course& course = courses_[robot];
+  const Report& now = reports_[robot];
+  const bool waits = course.isMember() && !course.isActive() && !course.travels &&
+                     !course.is_astray && course.turning == kNowhere && course.occupied.empty();
+  return waits && now.is_controlled && now.status == RobotStatus::kIdle &&
+         before.status == RobotStatus::kIdle && now.x == before.x && now.y == before.y &&
+         now.yaw == before.yaw && speedOf(robot) < kStandstill;
 }
 
 void Execution::setWork(const std::vector<std::uint8_t>& busy,

@@ -151,8 +151,9 @@ bool Execution::isLost(int robot) const {
 void Execution::findTight() {
   tight_.clear();
   for (int robot = 0; robot < robots(); ++robot) {
+    if (!isAskew(robot)) continue;
     const Cell at = frame_.cellAt(reports_[robot].x, reports_[robot].y);
-    if (at == kNowhere || !isAskew(robot)) continue;
+    if (at == kNowhere) continue;
     for (int heading = 0; heading < kHeadings; ++heading) {
       const Cell beside = floor_.beside(at, heading);
       if (beside == kNowhere) continue;

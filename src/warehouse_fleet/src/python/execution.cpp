@@ -57,7 +57,7 @@ void update(Run& run, double time, const Numbers& x, const Numbers& y, const Num
   fill(controlled, "controlled", &Report::is_controlled);
   fill(busy, "busy", &Report::is_busy);
   fill(loaded, "loaded", &Report::is_loaded);
-  run.execution.update(time, reports);
+  run.execution.update(time, std::move(reports));
 }
 
 py::tuple release(Run& run) {
@@ -86,11 +86,31 @@ template <typename T, typename Question>
 auto ofAll(Question question) {
   return [question](const Run& run) {
     py::array_t<T> answers(run.execution.robots());
+    T* answer = answers.mutable_data();
     for (int robot = 0; robot < run.execution.robots(); ++robot) {
-      answers.mutable_at(robot) = static_cast<T>((run.execution.*question)(robot));
+      *answer++ = static_cast<T>((run.execution.*question)(robot));
     }
     return answers;
   };
+}
+
+/// What is known of each robot, in one go: courses of a large fleet don't fit into a cache.
+py::tuple states(const Run& run) {
+  const Execution& execution = run.execution;
+  const int robots = execution.robots();
+  py::array_t<Cell> cell(robots);
+  py::array_t<double> still_since(robots);
+  py::array_t<bool> stands(robots), stalled(robots), astray(robots), lost(robots), foreign(robots);
+  for (int robot = 0; robot < robots; ++robot) {
+    cell.mutable_data()[robot] = execution.cellOf(robot);
+    stands.mutable_data()[robot] = execution.stands(robot);
+    stalled.mutable_data()[robot] = execution.isStalled(robot);
+    astray.mutable_data()[robot] = execution.isAstray(robot);
+    lost.mutable_data()[robot] = execution.isLost(robot);
+    still_since.mutable_data()[robot] = execution.stillSince(robot);
+    foreign.mutable_data()[robot] = execution.isForeign(robot);
+  }
+  return py::make_tuple(cell, stands, stalled, astray, lost, still_since, foreign);
 }
 
 std::unique_ptr<Run> make(const std::shared_ptr<Floor>& floor,
@@ -206,8 +226,14 @@ robot.)")
       .def(
           "closed", [](const Run& run) { return array(run.execution.closed()); },
           "Returns the cells closed now, (m,) int32, with those of robots that are not controlled.")
-      .def("cell", ofAll<Cell>(&Execution::cellOf),
-           "Returns the cell of each robot, (n,) int32; -1 beyond the floor.")
+      .def("states", &states, R"(Returns what is known of each robot by now, (n,) each.
+
+(cell, stands, stalled, astray, lost, still_since, foreign): cell int32, where the robot stands, or
+stood last, -1 beyond the floor. Of bool: stands, in the middle of a cell with nothing released
+beyond it; stalled, broken, or does not drive although it may; astray, pushed off the middle of its
+cell; lost, gave up finding back to one; foreign, busy with a command that is not the fleet's.
+still_since float64 [s]: since when it has stood although it has somewhere to go; the time of the
+last report for all others.)")
       .def("stands", ofAll<bool>(&Execution::stands),
            "Returns which robots stand in the middle of a cell with nothing released beyond it, "
            "(n,) bool.")
@@ -219,14 +245,6 @@ robot.)")
       .def("next_tick", ofAll<int>(&Execution::nextTick),
            "Returns the tick of each robot's next step that was not released yet, (n,) int32; -1 "
            "at the end of its plan.")
-      .def("foreign", ofAll<bool>(&Execution::isForeign),
-           "Returns which robots are busy with a command that is not the fleet's, (n,) bool.")
-      .def("stalled", ofAll<bool>(&Execution::isStalled),
-           "Returns which robots are broken, or do not drive although they may, (n,) bool.")
-      .def("astray", ofAll<bool>(&Execution::isAstray),
-           "Returns which robots were pushed off the middle of their cells, (n,) bool.")
-      .def("lost", ofAll<bool>(&Execution::isLost),
-           "Returns which robots gave up finding back to a cell, (n,) bool.")
       .def("still_since", ofAll<double>(&Execution::stillSince),
            "Returns since when each robot has stood although it has somewhere to go, (n,) float64 "
            "[s]; the time of the last report for all others.")

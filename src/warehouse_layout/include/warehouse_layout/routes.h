@@ -20,16 +20,16 @@ struct RouteGraph {
   double turn;  ///< by a quarter [s]
 };
 
-/// By node: how long the way to it takes [s], infinity if there is none; how many steps it has; and
-/// the node before it, -1 for the first.
+/// By node: how long the way to it takes [s], infinity if no quickest way to a cell comes by it;
+/// how many steps the way has; and the node before, -1 for the first.
 struct Routes {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;
   std::vector<std::int32_t> before;
 };
 
-/// Returns the quickest ways from a cell, in any heading. With edges turned round they are those to
-/// the cell.
+/// Returns the quickest ways from a cell, which begin in any heading. With edges turned round they
+/// are those to the cell.
 Routes routesFrom(const RouteGraph& graph, Cell start);
 
 /// By cell of those asked for, in the heading that is reached first: how long the way takes [s],

@@ -38,35 +38,47 @@ class Search {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const std::int32_t node = start_ * kHeadings + heading;
       out_.seconds[node] = 0;
-      steps_.found.push_back({0, node});
+      turns_.found.push_back({0, node});
     }
     while (!steps_.empty() || !turns_.empty()) {
-      Queue& queue = turns_.next() < steps_.next() ? turns_ : steps_;
+      const bool has_turned = turns_.next() < steps_.next();
+      Queue& queue = has_turned ? turns_ : steps_;
       const Found found = queue.found[queue.first++];
-      if (found.seconds <= out_.seconds[found.node]) goOn(found);
+      if (found.seconds <= out_.seconds[found.node]) goOn(found, has_turned);
     }
   }
 
  private:
-  void goOn(Found found) {
+  /// Nothing turns twice in a cell: it would go back to where it came from.
+  void goOn(Found found, bool has_turned) {
+    stepOn(found);
+    if (has_turned) return;
     const Cell cell = found.node / kHeadings;
-    if (graph_.end[cell] && cell != start_) return;
-    const int heading = found.node % kHeadings;
     for (const int quarters : {1, kHeadings - 1}) {
-      const int turned = (heading + quarters) % kHeadings;
-      reach(found, cell * kHeadings + turned, graph_.turn, 0, turns_);
+      const int node = cell * kHeadings + (found.node + quarters) % kHeadings;
+      const Cell next = graph_.next[node];
+      if (next == kNowhere || !reach(found, node, graph_.turn, 0)) continue;
+      const Found turned{out_.seconds[node], node};
+      // Most turn into an end: no need to wait for its turn.
+      graph_.end[next] ? stepOn(turned) : turns_.found.push_back(turned);
     }
-    const Cell next = graph_.next[found.node];
-    if (next != kNowhere) reach(found, next * kHeadings + heading, graph_.step, 1, steps_);
   }
 
-  void reach(Found from, std::int32_t node, double cost, int steps, Queue& queue) {
+  void stepOn(Found found) {
+    const Cell next = graph_.next[found.node];
+    if (next == kNowhere) return;
+    const std::int32_t node = next * kHeadings + found.node % kHeadings;
+    if (!reach(found, node, graph_.step, 1) || graph_.end[next]) return;
+    steps_.found.push_back({out_.seconds[node], node});
+  }
+
+  bool reach(Found from, std::int32_t node, double cost, int steps) {
     const double seconds = from.seconds + cost;
-    if (seconds >= out_.seconds[node]) return;
+    if (seconds >= out_.seconds[node]) return false;
     out_.seconds[node] = seconds;
     out_.steps[node] = out_.steps[from.node] + steps;
     if (keeps_before_) out_.before[node] = from.node;
-    queue.found.push_back({seconds, node});
+    return true;
   }
 
   const RouteGraph& graph_;

@@ -102,11 +102,11 @@ py::tuple makeRoutes(const Array<Cell>& next, const Array<std::uint8_t>& end, Ce
 void bindRoutes(py::module_& module) {
   module.def("routes", &makeRoutes, py::arg("next"), py::arg("end"), py::arg("start"),
              py::arg("step"), py::arg("turn"),
-             R"(Returns the quickest ways from a cell to all others, in any heading.
+             R"(Returns the quickest ways from a cell to all others, which begin in any heading.
 
 next: (cells, 4) int32, the cell beside each in each heading, or -1. end: (cells,), where ways end.
 step, turn: from a cell to the next, and by a quarter [s]. Returns (seconds, steps, before), each
-(4 * cells,) by cell * 4 + heading: infinite where no way leads, how many cells, the one before.)");
+(4 * cells,) by cell * 4 + heading: infinite where none comes by, how many cells, the one before.)");
   module.def(
       "ways", &makeWays, py::arg("next"), py::arg("end"), py::arg("start"), py::arg("step"),
       py::arg("turn"), py::arg("to"),

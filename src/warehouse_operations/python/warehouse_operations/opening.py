@@ -100,4 +100,7 @@ def open_shift(
         if journal:
             journal.begin(shift)
         shift.begin(stock)
+    if journal:  # what the shift begins with is kept before it does
+        journal.commit(shift)
+        journal.flush()
     return shift

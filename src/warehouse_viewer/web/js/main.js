@@ -134,6 +134,7 @@ class Page {
   buildPicture(scene) {
     const { floor, grid } = scene;
     if (!this.stage) return;
+    this.stage.pace.expect(scene.robots.length);
     this.actors.build();
     this.stage.setPaint(scene);
     this.signs.build(document.documentElement.dataset.theme);

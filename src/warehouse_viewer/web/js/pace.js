@@ -4,6 +4,7 @@
 
 export const SHARE = 1 / 6; // of the time, in which pictures are drawn, at least
 export const MOST = 2 / 3; // the same where the simulation keeps its speed all the same
+export const CROWD = 2000; // robots: with so many SHARE is all, or the page would take a core
 export const HURRIED = 1 / 2; // the same while the camera is moved, at least
 const KEPT = 0.97; // of the speed that is wanted: it is kept
 const MORE = 1.25, LESS = 0.5; // how the share changes from one look at the speed to the next
@@ -20,6 +21,7 @@ export class Pace {
     Object.assign(this, { onPicture, clock, later });
     this.share = SHARE;
     this.keepsSpeed = false; // the simulation
+    this.most = MOST; // of the time, in which pictures are drawn
     this.adapted = clock(); // [ms]
     this.cost = 0; // of a picture [ms]
     this.gap = 0; // from one picture to the next, at least [ms]
@@ -38,11 +40,16 @@ export class Pace {
     this.keepsSpeed = wanted > 0 && factor >= KEPT * wanted;
   }
 
+  /** So many robots are there to be drawn. */
+  expect(robots) {
+    this.most = robots < CROWD ? MOST : SHARE;
+  }
+
   /** Speeds are told when they change; the share goes on changing until it is at its end. */
   adapt() {
     if (this.clock() < this.adapted + ADAPT) return;
     this.adapted = this.clock();
-    this.share = Math.max(SHARE, Math.min(MOST, this.share * (this.keepsSpeed ? MORE : LESS)));
+    this.share = Math.max(SHARE, Math.min(this.most, this.share * (this.keepsSpeed ? MORE : LESS)));
   }
 
   /** A picture was begun then [ms]; `isDone()` tells whether the processor has drawn it. */

@@ -159,12 +159,18 @@ void Workers::start(int others) {
   for (int place = 1; place <= others; ++place) std::thread(serve, board_, place).detach();
 }
 
+/// Returns whether a loop that is worth other threads is shared out.
+bool Workers::mayShare() {
+  has_loops_ = in_step_;
+  return !in_step_ || shares_all_ || trial_.shares();
+}
+
 void Workers::share(int count, int worth, const Loop& loop) {
   if (count <= 0) return;
   if (shares_all_) worth = 1;
   if (count <= worth) return loop(0, count);  // as in each step of a small fleet
   const int others = std::min(count / worth, static_cast<int>(threads_)) - 1;
-  if (others > 0) return shareOut(count, (worth - 1) / kPieces + 1, others, loop);
+  if (others > 0 && mayShare()) return shareOut(count, (worth - 1) / kPieces + 1, others, loop);
   Part all;
   all.end = count;
   Job job{loop, worth, &all, 1, {}, {}};

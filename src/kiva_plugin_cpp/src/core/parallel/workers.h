@@ -7,6 +7,8 @@
 
 #include <memory>
 
+#include "core/parallel/step_trial.h"
+
 namespace kiva {
 
 /// The caller and `threads` − 1 others, which are started when there is work for them. Between the
@@ -44,6 +46,19 @@ class Workers {
   /// nevertheless, and what the first of them threw is thrown then.
   void share(int count, int worth, const Loop& loop);
 
+  /// While it lives, the loops of a world's step are shared out only if a trial has shown that this
+  /// is worth it.
+  class Step {
+   public:
+    explicit Step(Workers& workers) : workers_(workers) { workers.beginStep(); }
+    ~Step() { workers_.endStep(); }
+    Step(const Step&) = delete;
+    Step& operator=(const Step&) = delete;
+
+   private:
+    Workers& workers_;
+  };
+
   /// For tests: one turn is worth it, so that a small fleet is shared too.
   void shareAll() { shares_all_ = true; }
 
@@ -51,6 +66,15 @@ class Workers {
   struct Part;
   struct Job;
   struct Board;
+  void beginStep() {
+    in_step_ = true;
+    trial_.beginStep();
+  }
+  void endStep() {
+    if (has_loops_) trial_.endStep();
+    in_step_ = has_loops_ = false;
+  }
+  bool mayShare();
   static void serve(const std::shared_ptr<Board>& board, int place);
   static void work(Job& job, int place);
   void shareOut(int count, int piece, int others, const Loop& loop);
@@ -59,6 +83,8 @@ class Workers {
 
   const unsigned threads_;
   bool shares_all_ = false;
+  bool in_step_ = false, has_loops_ = false;  // that step had some to share
+  StepTrial trial_;
   int process_ = 0;  // that board_ and its threads belong to
   std::shared_ptr<Board> board_;
 };
