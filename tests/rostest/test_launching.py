@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import unittest
+import xmlrpc.client
 from pathlib import Path
 
 import rosgraph
@@ -126,9 +127,10 @@ class Events(unittest.TestCase):
 
 
 def hearers():
-    """The nodes that subscribe to the events."""
-    subscriptions = rosgraph.Master("/test").getSystemState()[1]
-    return dict(subscriptions).get("/warehouse/events", [])
+    """The nodes that the world sends events to: one that is only registered misses some."""
+    uri = rosgraph.Master("/test").lookupNode("/gazebo")
+    links = xmlrpc.client.ServerProxy(uri).getBusInfo("/test")[2]
+    return [link[1] for link in links if link[2] == "o" and link[4] == "/warehouse/events"]
 
 
 if __name__ == "__main__":
