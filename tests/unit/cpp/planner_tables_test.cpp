@@ -14,7 +14,11 @@ constexpr int kGoals = 10, kAge = 3, kWidth = 20, kStates = kWidth * kHeadings;
 
 class Tables : public testing::Test {
  protected:
-  Tables() { edges_.next[0] = edges_.next[1] = floor_.edges(Deck::kUnder); }
+  /// Has each edge cost so many ticks.
+  void price(int ticks) {
+    costs_.assign(costs_.size(), static_cast<std::uint8_t>(ticks * kTickCost));
+    tables_.reprice();
+  }
 
   /// A step in which all are asked for: how far each is from the far end, in ticks.
   std::vector<int> step(int urgent = -1) {
@@ -32,7 +36,8 @@ class Tables : public testing::Test {
 
   const Floor floor_{drawn({std::string(kWidth, '.')})};
   std::vector<std::uint8_t> costs_ = std::vector<std::uint8_t>(kWidth * kHeadings, kTickCost);
-  Edges edges_{{}, &costs_, {}};
+  const std::vector<Cell>& next_ = floor_.edges(Deck::kUnder);
+  Edges edges_{{next_, next_}, &costs_, {}};
   const Threads threads_{1};
   DistanceTables tables_{floor_, edges_, {1, std::size_t{1} << 20, kWidth}, threads_};
   int now_ = 0;
@@ -40,7 +45,7 @@ class Tables : public testing::Test {
 
 TEST_F(Tables, AllAreMadeAnewInTurn) {
   step();
-  costs_.assign(costs_.size(), 2 * kTickCost);
+  price(2);
   for (int tick = 0; tick < kAge + kGoals; ++tick) step();
   const std::vector<int> ticks = step();
   for (int goal = 0; goal < kGoals; ++goal) EXPECT_EQ(ticks[goal], 2 * (kWidth - 1 - goal));
@@ -48,7 +53,7 @@ TEST_F(Tables, AllAreMadeAnewInTurn) {
 
 TEST_F(Tables, WhoDoesNotGetOnComesFirst) {
   for (int tick = 0; tick < kAge; ++tick) step();
-  costs_.assign(costs_.size(), 2 * kTickCost);
+  price(2);
   step(7);
   const std::vector<int> ticks = step();
   for (int goal = 0; goal < kGoals; ++goal) {
