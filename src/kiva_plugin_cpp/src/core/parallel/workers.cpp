@@ -160,16 +160,14 @@ void Workers::start(int others) {
 }
 
 /// Returns whether a loop that is worth other threads is shared out.
-bool Workers::mayShare() {
-  has_loops_ = in_step_;
-  return !in_step_ || shares_all_ || trial_.shares();
-}
+bool Workers::mayShare() const { return !in_step_ || shares_all_ || trial_.shares(); }
 
 void Workers::share(int count, int worth, const Loop& loop) {
   if (count <= 0) return;
   if (shares_all_) worth = 1;
   if (count <= worth) return loop(0, count);  // as in each step of a small fleet
   const int others = std::min(count / worth, static_cast<int>(threads_)) - 1;
+  has_loops_ = has_loops_ || (in_step_ && others > 0);
   if (others > 0 && mayShare()) return shareOut(count, (worth - 1) / kPieces + 1, others, loop);
   Part all;
   all.end = count;

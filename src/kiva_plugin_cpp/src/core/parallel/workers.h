@@ -74,7 +74,7 @@ class Workers {
     if (has_loops_) trial_.endStep();
     in_step_ = has_loops_ = false;
   }
-  bool mayShare();
+  bool mayShare() const;
   static void serve(const std::shared_ptr<Board>& board, int place);
   static void work(Job& job, int place);
   void shareOut(int count, int piece, int others, const Loop& loop);
