@@ -19,13 +19,19 @@ namespace {
 
 constexpr double kStalled = 0.5;      // [s] at its largest force, then the lift gives up
 constexpr double kSpareForce = 1.25;  // times the weight of the largest load, unless it is told
-constexpr double kOnTop = 0.001;      // [m]: what reaches less far down is above, and not beside
+constexpr double kBeside = 0.001;     // [m] by which outlines may overlap of what is beside
 
 /// What a load that rises will meet next.
 struct Above {
   double clearance = 1e9;  // [m]
   int model = -1;
 };
+
+/// Returns whether `other` hangs above `own`, or into its upper half.
+bool isAbove(const Footprint& own, const Footprint& other) {
+  return other.z_min > (own.z_min + own.z_max) / 2 && mayBeWithin(0, own, other) &&
+         gap(own, other) < -kBeside;
+}
 
 Above findAbove(const Scene& world, int i) {
   Above above;
@@ -38,11 +44,8 @@ Above findAbove(const Scene& world, int i) {
   world.obstacles.near(f.x[i], f.y[i], reach, [&](const Footprint& other) {
     if (other.group == i) return;
     for (const Footprint& own : all) {
-      const double clearance = other.z_min - own.z_max;
-      if (clearance < -kOnTop || clearance >= above.clearance) continue;
-      if (mayBeWithin(0, own, other) && gap(own, other) < 0) {
-        above = {std::max(0.0, clearance), other.model};
-      }
+      const double clearance = std::max(0.0, other.z_min - own.z_max);
+      if (clearance < above.clearance && isAbove(own, other)) above = {clearance, other.model};
     }
   });
   return above;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/physics/parting.h"
 #include "core/physics/planar_solver.h"
 
 namespace kiva {
@@ -108,6 +109,16 @@ btScalar OrderedSolver::solveGroup(btCollisionObject** bodies, int body_count,
   }
   return btSequentialImpulseConstraintSolver::solveGroup(
       bodies, body_count, manifolds, touching, joints, joint_count, info, draw, dispatcher);
+}
+
+void OrderedSolver::convertContacts(btPersistentManifold** manifolds, int count,
+                                    const btContactSolverInfo& info) {
+  btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& contact = m_tmpSolverContactConstraintPool[i];
+    const btScalar most = kMaxPartingSpeed * contact.m_jacDiagABInv;
+    contact.m_rhsPenetration = std::min(contact.m_rhsPenetration, most);
+  }
 }
 
 void ContactIslandWorld::calculateSimulationIslands() {

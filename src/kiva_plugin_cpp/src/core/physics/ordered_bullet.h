@@ -31,13 +31,19 @@ class OrderedDispatcher : public btCollisionDispatcher {
   bool minds_sleepers_ = false;  ///< Those asleep are looked at, too.
 };
 
-/// Goes through an island's contacts and joints in the order of their bodies.
+/// Goes through an island's contacts and joints in the order of their bodies. It expects to be
+/// asked to move overlapping bodies apart without a change of their velocities.
 class OrderedSolver : public btSequentialImpulseConstraintSolver {
  public:
   btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
                       int manifold_count, btTypedConstraint** joints, int joint_count,
                       const btContactSolverInfo& info, btIDebugDraw* draw,
                       btDispatcher* dispatcher) override;
+
+ protected:
+  /// Bounds the speed with which overlapping bodies are moved apart.
+  void convertContacts(btPersistentManifold** manifolds, int count,
+                       const btContactSolverInfo& info) override;
 };
 
 /// Islands of bodies with contacts or joints between them.

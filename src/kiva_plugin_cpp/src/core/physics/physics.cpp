@@ -70,6 +70,8 @@ Physics::Physics(const Vector3& gravity)
   // All corners of what lands on a plane at once: one a step would tip it over.
   configuration_.setPlaneConvexMultipointIterations(4, 4);
   btContactSolverInfo& solver = world_.getSolverInfo();
+  solver.m_splitImpulse = true;
+  solver.m_splitImpulsePenetrationThreshold = 0;  // no overlap, however small, becomes a velocity
   solver.m_numIterations = 20;
   solver.m_leastSquaresResidualThreshold = kSolved;
   solver.m_minimumSolverBatchSize = 1;  // each island until that, not all until the last one

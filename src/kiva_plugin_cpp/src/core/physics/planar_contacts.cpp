@@ -21,6 +21,9 @@ constexpr btScalar kNear = 0.04;  // [m]
 // Contacts are foreseen that far, and as far as both go in two steps.
 constexpr btScalar kClose = 0.002, kForeseen = 0.02;  // [m]
 
+// What reaches less far into the other's height stands on it, or is pressed against its underside.
+constexpr btScalar kOnTop = 0.001;  // [m]
+
 // A point that is no farther from one of the last step is the same [m].
 constexpr btScalar kSamePoint = 0.01;
 
@@ -74,8 +77,9 @@ std::vector<Column> columnsOf(const btCollisionObjectWrapper* body) {
   return columns;
 }
 
+/// Returns whether one is beside the other, and does not merely touch its top.
 bool shareHeight(const Column& a, const Column& b) {
-  return a.z_min < b.z_max && b.z_min < a.z_max;
+  return a.z_min + kOnTop < b.z_max && b.z_min + kOnTop < a.z_max;
 }
 
 /// Returns whether all of what `inner` covers on the floor is covered by `outer`.

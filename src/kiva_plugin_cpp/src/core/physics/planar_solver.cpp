@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/physics/parting.h"
 #include "core/physics/planar_contacts.h"
 #include "core/physics/sliding_friction.h"
 
@@ -59,14 +60,37 @@ class Solver {
 
   void solve() {
     for (const Touch& touch : touches_) apply(touch.pressing, touch.pressing.impulse);
-    btScalar change = kUnlimited;
-    for (int i = 0; i < info_->m_numIterations && change > info_->m_leastSquaresResidualThreshold;
-         ++i) {
-      change = 0;
+    iterate([this] {
+      btScalar change = 0;
       for (Row& row : feet_) change = std::max(change, settle(row));
       for (Touch& touch : touches_) change = std::max(change, settle(touch.pressing));
       for (Touch& touch : touches_) change = std::max(change, rub(touch));
+      return change;
+    });
+  }
+
+  /// Moves bodies that overlap apart, and none into another one.
+  void part() {
+    std::vector<Row> rows;
+    bool any = false;
+    for (const Touch& touch : touches_) {
+      Row row = touch.pressing;
+      const btScalar distance = touch.point->getDistance();
+      row.impulse = 0;
+      row.speed = distance > 0 ? -distance / dt_ : partingSpeed(distance, erpOf(*touch.point), dt_);
+      any = any || row.speed > 0;
+      rows.push_back(row);
     }
+    if (!any) return;
+    const std::vector<Body> moving = bodies_;
+    for (Body& body : bodies_) body.vx = body.vy = body.turn = 0;
+    iterate([&] {
+      btScalar change = 0;
+      for (Row& row : rows) change = std::max(change, settle(row));
+      return change;
+    });
+    for (int i = 0; i < island_.body_count; ++i) shift(bodyOf(i));
+    bodies_ = moving;
   }
 
   void write() const {
@@ -83,6 +107,25 @@ class Solver {
   }
 
  private:
+  /// Calls sweep(), which returns the square of the largest change of speed, until that is small.
+  template <typename Sweep>
+  void iterate(Sweep sweep) const {
+    btScalar change = kUnlimited;
+    for (int i = 0; i < info_->m_numIterations && change > info_->m_leastSquaresResidualThreshold;
+         ++i) {
+      change = sweep();
+    }
+  }
+
+  /// Moves the body for one step as its place among the bodies says.
+  void shift(btRigidBody& body) const {
+    const Body& b = bodies_[body.getCompanionId()];
+    btTransform pose;
+    btTransformUtil::integrateTransform(body.getWorldTransform(), {b.vx, b.vy, 0}, {0, 0, b.turn},
+                                        dt_, pose);
+    body.setWorldTransform(pose);
+  }
+
   btRigidBody& bodyOf(int i) const { return *btRigidBody::upcast(island_.bodies[i]); }
   SlidingFriction& frictionOf(int i) const {
     return static_cast<SlidingFriction&>(*island_.joints[i]);
@@ -194,15 +237,17 @@ class Solver {
     }
   }
 
-  /// At which points of contact may part at least, of those that had `before` [m/s]. What overlaps
-  /// is brought apart bit by bit.
+  /// Returns the least speed at which points of contact part that had `before` [m/s].
   btScalar speedAfter(const btManifoldPoint& point, btScalar before) const {
     const bool bounces = -before > info_->m_restitutionVelocityThreshold;
     const btScalar back = bounces ? -before * point.m_combinedRestitution : 0;
+    return back - std::max(btScalar(0), point.getDistance()) / dt_;
+  }
+
+  /// Returns the share of an overlap that a step undoes.
+  btScalar erpOf(const btManifoldPoint& point) const {
     const bool has_own = (point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0;
-    const btScalar share = has_own ? point.m_contactERP : info_->m_erp2;
-    const btScalar distance = point.getDistance();
-    return back - (distance > 0 ? distance : distance * share) / dt_;
+    return has_own ? point.m_contactERP : info_->m_erp2;
   }
 
   /// Returns the first of those that are not its own.
@@ -258,6 +303,7 @@ void solvePlanar(const ContactIsland& island, const btContactSolverInfo& info) {
   static thread_local Solver solver;  // for its memory
   solver.read(island, info);
   solver.solve();
+  solver.part();
   solver.write();
 }
 
