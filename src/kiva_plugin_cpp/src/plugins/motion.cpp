@@ -2,12 +2,15 @@
 #include "plugins/motion.h"
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/self_location.h"
 #include "core/motion/stretches.h"
+#include "core/sensing/room.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -17,6 +20,10 @@ constexpr double kAlongGain = 10;      // [1/s] speed for distance lagged
 constexpr double kHeadingGain = 8;     // [1/s] yaw rate for heading error
 constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the line and speed
 constexpr double kStuck = 0.15;        // [m] behind the profile
+constexpr double kSlid = 0.02;         // [m] off the profile, from which on wheels must have slipped
+constexpr double kHeldSlid = 0.001;    // [m] the same of a robot that is stopped
+constexpr double kLeastPlanned = 0.03;  // [m/s²] that it plans with where nothing grips
+constexpr double kMargin = 0.002;      // [m] of room beside a robot that backs to its goal
 constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kSquare = 0.005;      // [rad] off its line as which a drive may end
 // None that a profile ends with: acceleration · dt is a round number.
@@ -87,7 +94,35 @@ void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed
             -kHeadingGain * headingToMend(f, i, at.heading) - kLineGain * at.speed * at.across);
 }
 
-/// Stops where it can, and stays there.
+/// Lets the reference of a robot that slips on a floor with slippery places go on from where the
+/// robot is, and asks half as much of its wheels from there on.
+void feelSlip(MotionView& world, int i, const OnLine& at) {
+  FleetState& f = world.fleet;
+  if (std::abs(f.reference[i] - at.along) < kSlid || f.acceleration[i] <= kLeastPlanned) return;
+  if (!isPatchy(world)) return;
+  f.acceleration[i] = f.deceleration[i] = std::max(kLeastPlanned, f.acceleration[i] / 2);
+  f.setProfile(i, {at.along, at.speed});
+}
+
+/// Returns whether the robot is past its goal and slides on.
+bool overshoots(const Scene& world, int i, const MotionSegment& segment, const OnLine& at) {
+  const double sign = segment.reverse ? -1 : 1;
+  return sign * (at.along - world.fleet.goal[i]) > kSlid && sign * at.speed > kStill &&
+         isPatchy(world);
+}
+
+/// Ends a drive whose robot has slid past its goal and has no room to come back. Returns false while
+/// it has.
+bool isCutOff(MotionView& world, int i, double past) {
+  const FleetState& f = world.fleet;
+  if (isWayFree(world, i, f.believed(i), -past, kMargin)) return false;
+  char text[80];
+  std::snprintf(text, sizeof text, "slid %.2f m past its goal, and has no room to return", past);
+  haltRobot(world, i, "", text);
+  return true;
+}
+
+/// Stops where it can, and stays there, or where it slides to.
 void holdDrive(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
@@ -98,6 +133,9 @@ void holdDrive(MotionView& world, int i, const OnLine& at) {
     command.brake(at_once ? 0 : plannedBraking(world, i), world.clock.dt);
   }
   f.follow(i, command);
+  if (f.reference_speed[i] == 0 && std::abs(f.reference[i] - at.along) > kHeldSlid) {
+    f.setProfile(i, {at.along, 0});
+  }
   followLine(f, i, at, lag, f.reference_speed[i]);
   const bool is_there = std::abs(f.reference[i] - at.along) < kThereDistance && stands(f, i);
   if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
@@ -121,14 +159,22 @@ void driveSegment(MotionView& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
+  if (overshoots(world, i, segment, at)) {  // its motors hold it, and no place behind it
+    f.setProfile(i, {at.along, 0});
+    return setWheels(f, i, 0, 0);
+  }
+  feelSlip(world, i, at);
   if (giveUp(world, i, at)) return;
   const double lag = f.reference[i] - at.along;
-  const bool is_sure = segment.on_grid && !(f.localises && f.localisation[i].lost);
+  const double past = segment.reverse ? 0 : f.reference[i] - f.goal[i];
+  if (past > kSlid && stands(f, i) && isCutOff(world, i, past)) return;
+  const bool backs = past > 0;
+  const bool is_sure = segment.on_grid && !backs && !(f.localises && f.localisation[i].lost);
   const double usual = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
   const double top = std::min(usual, allowedSpeed(world, i));
   const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
                                  : isExact(lag) && isExact(at.heading) && isExact(at.across);
-  if (exact && !segment.reverse &&
+  if (exact && !segment.reverse && !backs &&
       tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }

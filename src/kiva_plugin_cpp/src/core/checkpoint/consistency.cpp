@@ -7,6 +7,7 @@
 
 #include "core/checkpoint/archive.h"
 #include "core/checkpoint/describe.h"
+#include "core/motion/jointed_body.h"
 
 namespace kiva {
 namespace {
@@ -288,6 +289,8 @@ void checkRobot(const WorldState& world, int i) {
   require(model->name == robot.name, "fleet.robots", i, "name", "its model has another");
   require(isIn(robot.id, f.index_of_id.size()) && f.index_of_id[robot.id] == i, "fleet.robots", i,
           "id", "it leads to another robot");
+  require(robot.drive.drive != Drive::kJointed || hasDriveWheels(*model->description),
+          "fleet.robots", i, "drive", "its model lacks a wheel of the jointed drive");
   const double farthest = std::max(std::abs(f.x[i]), std::abs(f.y[i]));
   require(farthest <= kMostCoordinate, "fleet.x", i, "", "too far away");
   const double fastest = std::max({std::abs(f.vx[i]), std::abs(f.vy[i]), std::abs(f.yaw_rate[i])});

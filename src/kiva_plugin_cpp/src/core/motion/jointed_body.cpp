@@ -281,6 +281,10 @@ SpatialInertia sumUnit(const Scene& world, int unit) {
   return sum;
 }
 
+bool hasDriveWheels(const ModelDescription& model) {
+  return model.findLink(kWheelNames[0]) && model.findLink(kWheelNames[1]);
+}
+
 double tyreFriction(const Link& wheel) {
   const Collision* tyre = tyreOf(wheel);
   return tyre ? tyre->friction : std::numeric_limits<double>::max();

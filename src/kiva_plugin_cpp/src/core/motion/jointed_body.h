@@ -57,6 +57,9 @@ SpatialInertia sumUnit(const Scene& world, int unit);
 /// Returns the Coulomb coefficient of the tyre of a wheel's link: its first round shape.
 double tyreFriction(const Link& wheel);
 
+/// Returns whether a model has the links `left_wheel` and `right_wheel`, which the drive needs.
+bool hasDriveWheels(const ModelDescription& model);
+
 /// Returns the robot's mechanism with its present load and tower. Throws DescriptionError if it
 /// lacks a link `left_wheel` or `right_wheel`.
 const JointedBody& jointedBody(MotionView& world, int robot);
