@@ -9,6 +9,11 @@ namespace {
 
 using Kind = Event::Kind;
 
+/// A Kiva that takes up units a metre away, on a plate that reaches as far.
+std::string graspingKiva() {
+  return replaced(kivaText({{"proximity", "1.5"}}), "<radius>0.25<", "<radius>1.5<");
+}
+
 /// A robot at the origin, beneath a storage unit.
 class Lift : public ::testing::Test {
  protected:
@@ -256,6 +261,43 @@ TEST_F(Lift, RefusesWhatIsTooHeavyItemsIncluded) {
   EXPECT_EQ(w.refusal(), "");
 }
 
+TEST_F(Lift, RefusesAUnitThatWouldTipOff) {
+  for (double off : {0.24, 0.26, 0.3, 0.4}) {
+    SCOPED_TRACE("centre of mass off by " + number(off) + " m");
+    w.world.remove("storage_unit1");
+    w.spawnText(replaced(modelText("storage_unit"), "<pose>0 0 1.0 0 0 0</pose>",
+                         "<pose>0 " + number(off) + " 1.0 0 0 0</pose>"),
+                "storage_unit1", 0, 0);
+    w.carry(1, 1);
+    const std::string refusal = w.refusal();
+    if (off < 0.25) {
+      EXPECT_EQ(refusal, "");
+      w.runUntilIdle(1);
+      EXPECT_EQ(w.loadOf(1), 1);
+      drop();
+    } else {
+      EXPECT_PRED2(contains, refusal, "storage_unit1 would tip off: its centre of mass lies " +
+                                          number(off - 0.25));
+    }
+  }
+}
+
+TEST_F(Lift, ALoadWhoseCentreIsPutBeyondThePlateTipsOff) {
+  carry();
+  w.movx(1, 5);
+  w.run(1);
+  Link link = w.world.description("storage_unit1")->links.front();
+  link.inertial_pose_in_link.Pos().Y() = 0.3;
+  ASSERT_TRUE(w.world.setLinkInertia("storage_unit1", link));
+  w.runUntilIdle(1, 10);
+  EXPECT_EQ(w.last(Kind::kTipped).model, "storage_unit1");
+  EXPECT_EQ(w.last(Kind::kBlocked).text, "has lost its load");
+  EXPECT_EQ(w.loadOf(1), 0);
+  double lean = 0;  // [rad]
+  w.run(3, [&] { lean = std::max(lean, std::acos(w.unitPose(1).Rot().ZAxis().Z())); });
+  EXPECT_GT(lean, 0.02);  // until its legs meet the floor
+}
+
 TEST_F(Lift, RefusesAUnitThatTheTowerDoesNotReach) {
   w.spawnText(replaced(kivaText(), "<height>0.10</height>", "<height>0.02</height>"), "kiva2", 5,
               0);
@@ -274,9 +316,8 @@ TEST_F(Lift, RefusesWithoutALiftPlugin) {
 // --- two robots, one unit
 
 TEST_F(Lift, OfTwoRobotsThatAskInTheSameStepOneGetsTheUnit) {
-  const std::string grasping = kivaText({{"proximity", "0.6"}});
-  w.spawnText(grasping, "kiva2", 20, 0);
-  w.spawnText(grasping, "kiva3", 21, 0);
+  w.spawnText(graspingKiva(), "kiva2", 20, 0);
+  w.spawnText(graspingKiva(), "kiva3", 21, 0);
   w.spawn("storage_unit", "storage_unit2", 20.5, 0);
   w.carry(2, 2);
   w.carry(3, 2);
@@ -290,7 +331,7 @@ TEST_F(Lift, OfTwoRobotsThatAskInTheSameStepOneGetsTheUnit) {
 }
 
 TEST_F(Lift, AUnitWhoseTakerIsGoneCanBeTakenByAnother) {
-  w.spawnText(kivaText({{"proximity", "2"}}), "kiva2", 1, 0);
+  w.spawnText(graspingKiva(), "kiva2", 1, 0);
   w.carry(1, 1);
   w.step();
   ASSERT_EQ(w.loadOf(1), 0);

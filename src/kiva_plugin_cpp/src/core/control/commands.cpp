@@ -7,6 +7,7 @@
 #include "core/control/interruptions.h"
 #include "core/control/paths.h"
 #include "core/control/route.h"
+#include "core/models/load.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
 
@@ -85,6 +86,11 @@ void checkCarry(const Scene& world, int robot, int unit) {
   if (u.mass > lift.max_load) {
     throw Refusal(format("%s weighs %g kg, more than the %g kg it can carry", u.name.c_str(),
                          u.mass, lift.max_load));
+  }
+  const double beyond = overhang(world, robot, unit);
+  if (beyond >= 0) {
+    throw Refusal(format("%s would tip off: its centre of mass lies %.3f m beyond the plate",
+                         u.name.c_str(), beyond));
   }
   if (towerGap(world, robot, unit) >= lift.height) {
     throw Refusal(

@@ -58,6 +58,18 @@ void tipOff(ModelView& world, int robot) {
   haltRobot(world, robot, unit.name, "has lost its load");
 }
 
+/// Lets a load fall whose centre of mass is no longer above the plate, since items were added or
+/// taken away.
+void dropOverhung(ModelView& world, int robot) {
+  FleetState& f = world.fleet;
+  const double* centre = f.robots[robot].load_centre;
+  const double off = std::hypot(centre[0], centre[1]);
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  f.sway[robot].to_x = (c * centre[0] - s * centre[1]) / off;
+  f.sway[robot].to_y = (s * centre[0] + c * centre[1]) / off;
+  tipOff(world, robot);
+}
+
 void stepOne(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   Sway& sway = f.sway[robot];
@@ -75,11 +87,16 @@ void stepOne(ModelView& world, int robot) {
 }  // namespace
 
 void stepLoadTipping(ModelView& world) {
-  if (!world.settings.realism.loads.enabled) return;
+  const bool leans = world.settings.realism.loads.enabled;
   const std::vector<int> stepped =
       world.schedule.stepped_singly;  // a robot that loses its load may be deleted by that
   for (const int robot : stepped) {
-    if (robot < world.fleet.size() && world.fleet.unit[robot] >= 0) stepOne(world, robot);
+    if (robot >= world.fleet.size() || world.fleet.unit[robot] < 0) continue;
+    if (world.fleet.robots[robot].load_foothold <= 0) {
+      dropOverhung(world, robot);
+    } else if (leans) {
+      stepOne(world, robot);
+    }
   }
 }
 

@@ -119,6 +119,14 @@ void unload(ContactView& world, int robot) {
   setStatus(world, robot, f.status[robot], f.state[robot]);
 }
 
+double overhang(const Scene& world, int robot, int unit) {
+  const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
+  SpatialInertia load;
+  load.add(sumUnit(world, unit), in_robot);
+  const Vector3 centre = load.centre();
+  return std::hypot(centre.X(), centre.Y()) - plateReach(world, robot);
+}
+
 void addMass(ContactView& world, int unit, double mass) {
   world.storage.units[unit].mass += mass;
   const int carrier = world.storage.units[unit].carrier;

@@ -14,6 +14,10 @@ void putDown(ContactView& world, int robot);
 /// Takes the load off the robot; the unit itself stays as it is.
 void unload(ContactView& world, int robot);
 
+/// Returns how far the centre of mass of the unit with its items lies beyond the plate on which it
+/// would stand if the robot took it up now [m]; negative: it lies within.
+double overhang(const Scene& world, int robot, int unit);
+
 /// Adds the mass of an item [kg] to the unit; negative: removes it.
 void addMass(ContactView& world, int unit, double mass);
 /// Returns the mass of all its links [kg].
