@@ -213,5 +213,36 @@ TEST(Occupancy, TellsBeltsAndStorageUnitsFromTheBuilding) {
   EXPECT_EQ(at(-2, 1), Occupancy::kFree) << "it is on the robot now";
 }
 
+// --- what wheels cross as if it were level floor
+
+/// Returns what a world of those models warns of when it begins.
+std::string warningsOf(const std::string& models) {
+  Hall hall(models);
+  hall.step();
+  std::string all;
+  for (const std::string& warning : hall.world.takeWarnings()) all += warning + "\n";
+  return all;
+}
+
+TEST(FloorWarnings, NameABumpThatRobotsCrossWithoutOne) {
+  for (const std::string height : {"0.01", "0.02", "0.03"}) {
+    const double z = std::stod(height) / 2;
+    const std::string lying = box("bump", "0.5 0.5 " + height, "3 0 " + number(z));
+    EXPECT_PRED2(contains, warningsOf(kPlane + lying), "bump rises " + height + " m above");
+  }
+  EXPECT_EQ(warningsOf(kPlane), "");
+  EXPECT_EQ(warningsOf(kPlane + box("wall", "0.5 0.5 1", "3 0 0.5")), "");
+}
+
+TEST(FloorWarnings, NameAGapThatRobotsCross) {
+  const auto slabs = [](double gap) {
+    return box("west", "20 20 0.1", number(-10 + 2.3) + " 0 -0.05") +
+           box("east", "20 20 0.1", number(10 + 2.3 + gap) + " 0 -0.05");
+  };
+  EXPECT_PRED2(contains, warningsOf(slabs(0.5)), "the floor has a gap beside (2, -9)");
+  EXPECT_EQ(warningsOf(slabs(0)), "");
+  EXPECT_EQ(warningsOf(slabs(0.02)), "");  // a joint
+}
+
 }  // namespace
 }  // namespace kiva::test

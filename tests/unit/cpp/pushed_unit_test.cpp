@@ -230,5 +230,38 @@ TEST(PushedUnits, GoOnBitByBitFromACheckpoint) {
   EXPECT_NEAR(saved.w.unitPose(2).Z(), 0, kMillimetre);
 }
 
+// --- a robot that drives into something
+
+/// A box of that mass and friction that stands in the way, its centre of mass at the height of the
+/// robot's push.
+std::string boxInTheWay(double mass, double friction) {
+  const std::string m = number(mass), moment = number(mass * 0.4 * 0.4 / 6), mu = number(friction);
+  return "<sdf version='1.9'><model name='box'><link name='l'><pose>0 0 0.2 0 0 0</pose><inertial>"
+         "<mass>" + m + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment + "</iyy><izz>" +
+         moment + "</izz></inertia></inertial><collision name='c'><geometry><box><size>0.4 0.4 0.4"
+         "</size></box></geometry><surface><friction><ode><mu>" + mu + "</mu><mu2>" + mu +
+         "</mu2></ode></friction></surface></collision></link></model></sdf>";
+}
+
+/// Momentum is shared, less what the floor takes in the steps of the impact.
+TEST(RobotThatHitsABox, SharesItsMomentum) {
+  for (double mass : {50.0, 145.0, 500.0}) {
+    for (double friction : {0.0, 0.5}) {
+      SCOPED_TRACE(number(mass) + " kg, friction " + number(friction));
+      Warehouse w(Floorplan{60});
+      w.spawnText(withoutPlugin(kivaText(), "laser"), "kiva1", 0, 0);
+      w.spawnText(boxInTheWay(mass, friction), "box", 4, 0);
+      w.movx(1, 20);
+      const auto speed = [&] { return w.world.state("box")->twist.linear.X(); };
+      double fastest = 0;
+      w.run(4, [&] { fastest = std::max(fastest, speed()); });
+      const double own = w.robot(1).mass, expected = own * 1.5 / (own + mass);
+      EXPECT_LT(fastest, 1.03 * expected);
+      const double steps = 0.008;  // [s] from the first touch until both are as fast
+      EXPECT_GT(fastest, 0.99 * expected - friction * 9.81 * steps);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kiva::test

@@ -174,7 +174,7 @@ void holdTower(ContactView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
-  profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt);
+  profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt, &f.tasks[i].stop_at);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
   setTower(world, i, profile.position);

@@ -130,7 +130,8 @@ void holdDrive(MotionView& world, int i, const OnLine& at) {
   Profile command = f.command(i);
   if (command.speed != 0) {
     const bool at_once = f.robots[i].drive.acceleration == 0;
-    command.brake(at_once ? 0 : plannedBraking(world, i), world.clock.dt);
+    const double braking = at_once ? 0 : plannedBraking(world, i);
+    command.brake(braking, world.clock.dt, &f.tasks[i].stop_at);
   }
   f.follow(i, command);
   if (f.reference_speed[i] == 0 && std::abs(f.reference[i] - at.along) > kHeldSlid) {
@@ -221,11 +222,11 @@ bool stands(const Fleet& f, int i) {
 bool halting(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
-  const Task& task = f.tasks[i];
+  Task& task = f.tasks[i];
   const bool drives = task.isAt(MotionSegment::Kind::kDrive) && !task.segment()->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
     Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
-    command.brake(plannedBraking(world, i), world.clock.dt);
+    command.brake(plannedBraking(world, i), world.clock.dt, &task.stop_at);
     f.follow(i, command);
     setWheels(f, i, f.reference_speed[i], 0);
     return true;

@@ -45,7 +45,7 @@ void holdTurn(MotionView& world, int i) {
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - f.believed(i).yaw;
   Profile command = f.command(i);
-  if (command.speed != 0) command.brake(f.deceleration[i], world.clock.dt);
+  if (command.speed != 0) command.brake(f.deceleration[i], world.clock.dt, &f.tasks[i].stop_at);
   f.follow(i, command);
   if (f.reference_speed[i] == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
     return setWheels(f, i, 0, 0);

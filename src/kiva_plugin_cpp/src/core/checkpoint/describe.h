@@ -191,9 +191,10 @@ void describe(A& a, ReleasedPath& p) {
 
 template <class A>
 void describe(A& a, Task& t) {
-  DESCRIBED(Task, 12);
-  FIELDS(t.phase, t.command, t.goal, t.segments, t.path, t.cancelled, t.overdue, t.sighting,
-         t.last_sighting, t.blocked_by, t.blocked_reason, t.reported_shelf);
+  DESCRIBED(Task, 13);
+  FIELDS(t.phase, t.command, t.goal, t.segments, t.path, t.cancelled, t.overdue,
+         within(t.stop_at, -kEndless, kEndless), t.sighting, t.last_sighting, t.blocked_by,
+         t.blocked_reason, t.reported_shelf);
 }
 
 template <class A>

@@ -79,6 +79,7 @@ void replan(MotionView& world, int robot) {
   if (resumes) task.phase = Phase::kStarting;  // planned again, from its present pose
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
+  task.stop_at = Profile::kNowhere;
 }
 
 }  // namespace kiva

@@ -52,10 +52,15 @@ bool isOnCharger(const Chargers& chargers, const Fleet& f, int i) {
   });
 }
 
+/// Returns that of chassis, load, and both wheels with their motors [J].
 double kineticEnergy(const Fleet& f, int i) {
   const Robot& r = f.robots[i];
   const double v2 = f.vx[i] * f.vx[i] + f.vy[i] * f.vy[i], w = f.yaw_rate[i];
-  return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w) / 2;
+  const double left = f.wheel_speed[0][i], right = f.wheel_speed[1][i];
+  const double spin2 = left * left + right * right;
+  return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w +
+          r.drive.wheel_inertia * spin2) /
+         2;
 }
 
 /// Notes the wheel angles from which the next rolling resistance is counted.

@@ -17,6 +17,8 @@
 namespace kiva {
 namespace {
 
+constexpr double kJoint = 0.1;       // [m]: narrower gaps are joints of slabs
+constexpr double kMostCells = 1e5;   // among which gaps are looked for
 constexpr double kLeastGrip = 1e-3;  // Coulomb coefficient with which a cell takes half a minute
 
 void widen(Floor* floor, const LevelSurface& surface) {
@@ -80,6 +82,68 @@ void warnOfSlipperyFloor(EventLog& log, double friction) {
   log.warn("floor friction", text.str());
 }
 
+/// What is low enough counts as floor: wheels cross it without a bump.
+void warnOfBumps(ModelView& world) {
+  for (const auto& model : world.models) {
+    if (!model) continue;
+    for (const LevelSurface& surface : model->level_surfaces) {
+      const double height = surface.z - world.floor.extent.z;
+      if (height <= kSameHeight || height > kStep + 1e-9) continue;
+      std::ostringstream text;
+      text << model->name << " rises " << height << " m above the floor: what rises " << kStep
+           << " m or less counts as floor, and robots cross it without a bump";
+      return world.log.warn("floor bumps", text.str());
+    }
+  }
+}
+
+/// Returns the first grid point from which a grid line leads over a gap in the floor to a next
+/// point that lies on the floor.
+std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
+  const Floor& extent = world.floor.extent;
+  const double cell = world.settings.grid_spacing;
+  const auto is_gap = [&](double x, double y, double dx, double dy) {
+    return !cover.covers(x, y, 0) && !cover.covers(x + kJoint * dx, y + kJoint * dy, 0);
+  };
+  const auto leads_over_gap = [&](double x, double y, double dx, double dy) {
+    if (!cover.covers(x + dx * cell, y + dy * cell, 0)) return false;
+    for (double share : {0.25, 0.5, 0.75}) {
+      const double way = share * cell;
+      if (is_gap(x + way * dx, y + way * dy, dx, dy) || is_gap(x + way * dx, y + way * dy, -dx, -dy))
+        return true;
+    }
+    return false;
+  };
+  for (double x = std::ceil(extent.min_x / cell) * cell; x <= extent.max_x; x += cell) {
+    for (double y = std::ceil(extent.min_y / cell) * cell; y <= extent.max_y; y += cell) {
+      if (!cover.covers(x, y, 0)) continue;
+      if (leads_over_gap(x, y, 1, 0) || leads_over_gap(x, y, 0, 1)) return PathPoint{x, y};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Looks for gaps in floors of several parts, unless these are so large that it takes long.
+void warnOfGaps(ModelView& world) {
+  int parts = 0;
+  bool has_plane = false;
+  forSurfaces(world, [&](const LevelSurface& surface) {
+    if (!isAtFloor(world.floor, surface)) return;
+    ++parts;
+    has_plane = has_plane || surface.is_plane;
+  });
+  const Floor& extent = world.floor.extent;
+  const double cell = world.settings.grid_spacing;
+  const double cells = (extent.max_x - extent.min_x) * (extent.max_y - extent.min_y) / (cell * cell);
+  if (has_plane || parts == 0 || cells > kMostCells) return;
+  const std::optional<PathPoint> gap = findGap(world, FloorCover(world));
+  if (!gap) return;
+  std::ostringstream text;
+  text << "the floor has a gap beside (" << gap->x << ", " << gap->y
+       << "): robots that are sent over a gap cross it as if there were floor";
+  world.log.warn("floor gaps", text.str());
+}
+
 /// Static models have other low parts, robots and storage units stand higher or lower.
 void fitToFloor(ModelView& world) {
   for (const auto& model : world.models) {
@@ -131,6 +195,8 @@ void findFloorParts(ModelView& world) {
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
   const double usual = std::min(holds, world.floor.friction);
   if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(world.log, usual);
+  warnOfBumps(world);
+  warnOfGaps(world);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;

@@ -61,6 +61,7 @@ struct Task {
   ReleasedPath path;                   ///< What its segments are made of, one by one, if it is one.
   bool cancelled = false;              ///< It ends with the present segments.
   double overdue = 0;                  ///< Since its reference ended without it being there [s].
+  double stop_at = Profile::kNowhere;  ///< Held: where its reference comes to rest.
   Sighting sighting, last_sighting;    ///< The newest, and the one before.
   std::string blocked_by;              ///< A model's name, or empty.
   std::string blocked_reason;          ///< Why, for a person.

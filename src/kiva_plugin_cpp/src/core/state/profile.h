@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kiva {
 
@@ -34,12 +35,19 @@ struct Profile {
     position = distance - next * dt <= kThere ? target : moved;
   }
 
-  /// One step of `dt` towards a stop, wherever that is; deceleration 0: at rest at once.
-  void brake(double deceleration, double dt) {
-    const double loss = deceleration > 0 ? deceleration * dt : std::abs(speed);
-    speed = std::copysign(std::max(0.0, std::abs(speed) - loss), speed);
-    position += speed * dt;
+  /// One step of `dt` towards a stop after v²/(2 deceleration), however long steps are;
+  /// deceleration 0: at rest at once. `stop_at` is where that is: the first step sets it, where it
+  /// is kNowhere.
+  void brake(double deceleration, double dt, double* stop_at) {
+    if (deceleration == 0) {
+      speed = 0;
+      return;
+    }
+    if (*stop_at == kNowhere) *stop_at = position + speed * std::abs(speed) / (2 * deceleration);
+    advance(*stop_at, std::abs(speed), deceleration, deceleration, dt);
   }
+
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
   bool reached(double target) const { return position == target; }
 

@@ -70,6 +70,7 @@ void startSegment(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
+  task.stop_at = Profile::kNowhere;
   enterPhase(world, robot, Phase::kStarting, Status::kBusy, task.segments.front().state);
 }
 
