@@ -276,8 +276,8 @@ TEST_F(Lift, RefusesAUnitThatWouldTipOff) {
       EXPECT_EQ(w.loadOf(1), 1);
       drop();
     } else {
-      EXPECT_PRED2(contains, refusal, "storage_unit1 would tip off: its centre of mass lies " +
-                                          number(off - 0.25));
+      EXPECT_PRED2(contains, refusal,
+                   "storage_unit1 would tip off: its centre of mass lies " + number(off - 0.25));
     }
   }
 }

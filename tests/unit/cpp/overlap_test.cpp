@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies that overlap, as they are spawned or lifted into each other: they part slowly, or stay, and
-// never gain energy from it. OVERLAPS sets how many random scenes are tried.
+// Bodies that overlap, as they are spawned or lifted into each other: they part slowly, or stay,
+// and never gain energy from it. OVERLAPS sets how many random scenes are tried.
 #include <algorithm>
 #include <cstdlib>
 #include <random>
@@ -12,8 +12,8 @@
 namespace kiva::test {
 namespace {
 
-constexpr double kGravity = 9.81;   // [m/s²]
-constexpr double kTolerance = 2;       // [J]
+constexpr double kGravity = 9.81;       // [m/s²]
+constexpr double kTolerance = 2;        // [J]
 constexpr double kMaxRobotSpeed = 1.5;  // [m/s]: what falls on a robot may push it aside
 
 std::string boxText(const Vector3& size, bool is_static, double mass) {
@@ -21,8 +21,8 @@ std::string boxText(const Vector3& size, bool is_static, double mass) {
   const auto moment = [&](double a, double b) { return number(mass / 12 * (a * a + b * b)); };
   return "<sdf version='1.9'><model name='m'><static>" + std::string(is_static ? "1" : "0") +
          "</static><link name='l'><inertial><mass>" + number(mass) + "</mass><inertia><ixx>" +
-         moment(size.Y(), size.Z()) + "</ixx><iyy>" + moment(size.X(), size.Z()) +
-         "</iyy><izz>" + moment(size.X(), size.Y()) +
+         moment(size.Y(), size.Z()) + "</ixx><iyy>" + moment(size.X(), size.Z()) + "</iyy><izz>" +
+         moment(size.X(), size.Y()) +
          "</izz></inertia></inertial><collision name='c'><geometry><box><size>" + s +
          "</size></box></geometry></collision></link></model></sdf>";
 }
@@ -87,9 +87,9 @@ class Overlaps : public Warehouse {
       case 1:
         return spawn("conveyor_belt", "conveyor_belt" + std::to_string(1 + belts_++), x, y, yaw);
       case 2:
-        return spawnText(boxText({uniform(0.1, 1), uniform(0.1, 1), uniform(0.1, 1)}, false,
-                                 uniform(1, 300)),
-                         name, x, y, yaw, uniform(0, 1.5));
+        return spawnText(
+            boxText({uniform(0.1, 1), uniform(0.1, 1), uniform(0.1, 1)}, false, uniform(1, 300)),
+            name, x, y, yaw, uniform(0, 1.5));
       case 3:
         return spawnText(beamText(uniform(0, 2)), name, x, y, yaw);
       case 4:
@@ -113,8 +113,8 @@ class Overlaps : public Warehouse {
     const Vector3 velocity =
         state.twist.linear + state.twist.angular.Cross(mass_frame.Pos() - state.pose.Pos());
     const Vector3 turn = mass_frame.Rot().RotateVectorReverse(state.twist.angular);
-    e->kinetic += link.mass * velocity.SquaredLength() / 2 +
-                  (turn * turn * link.principal_moments).Sum() / 2;
+    e->kinetic +=
+        link.mass * velocity.SquaredLength() / 2 + (turn * turn * link.principal_moments).Sum() / 2;
     e->from_falling += link.mass * kGravity * std::max(0.0, -velocity.Z());
   }
 

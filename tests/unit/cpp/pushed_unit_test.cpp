@@ -237,9 +237,11 @@ TEST(PushedUnits, GoOnBitByBitFromACheckpoint) {
 std::string boxInTheWay(double mass, double friction) {
   const std::string m = number(mass), moment = number(mass * 0.4 * 0.4 / 6), mu = number(friction);
   return "<sdf version='1.9'><model name='box'><link name='l'><pose>0 0 0.2 0 0 0</pose><inertial>"
-         "<mass>" + m + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment + "</iyy><izz>" +
-         moment + "</izz></inertia></inertial><collision name='c'><geometry><box><size>0.4 0.4 0.4"
-         "</size></box></geometry><surface><friction><ode><mu>" + mu + "</mu><mu2>" + mu +
+         "<mass>" +
+         m + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment + "</iyy><izz>" + moment +
+         "</izz></inertia></inertial><collision name='c'><geometry><box><size>0.4 0.4 0.4"
+         "</size></box></geometry><surface><friction><ode><mu>" +
+         mu + "</mu><mu2>" + mu +
          "</mu2></ode></friction></surface></collision></link></model></sdf>";
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 using Kind = Event::Kind;
 
-constexpr double kGravity = 9.81;      // [m/s²]
-constexpr double kWheelLoad = 0.8;     // share of the weight that is on the driven wheels
+constexpr double kGravity = 9.81;       // [m/s²]
+constexpr double kWheelLoad = 0.8;      // share of the weight that is on the driven wheels
 constexpr double kStaysWithin = 0.002;  // [m]
 
 /// A robot at the origin, and ice from one x to another.

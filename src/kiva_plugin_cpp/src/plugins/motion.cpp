@@ -16,16 +16,16 @@
 namespace kiva {
 namespace {
 
-constexpr double kAlongGain = 10;      // [1/s] speed for distance lagged
-constexpr double kHeadingGain = 8;     // [1/s] yaw rate for heading error
-constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the line and speed
-constexpr double kStuck = 0.15;        // [m] behind the profile
-constexpr double kSlid = 0.02;         // [m] off the profile, from which on wheels must have slipped
-constexpr double kHeldSlid = 0.001;    // [m] the same of a robot that is stopped
+constexpr double kAlongGain = 10;    // [1/s] speed for distance lagged
+constexpr double kHeadingGain = 8;   // [1/s] yaw rate for heading error
+constexpr double kLineGain = 8;      // [1/m²] yaw rate for distance off the line and speed
+constexpr double kStuck = 0.15;      // [m] behind the profile
+constexpr double kSlid = 0.02;       // [m] off the profile, from which on wheels must have slipped
+constexpr double kHeldSlid = 0.001;  // [m] the same of a robot that is stopped
 constexpr double kLeastPlanned = 0.03;  // [m/s²] that it plans with where nothing grips
-constexpr double kMargin = 0.002;      // [m] of room beside a robot that backs to its goal
-constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
-constexpr double kSquare = 0.005;      // [rad] off its line as which a drive may end
+constexpr double kMargin = 0.002;       // [m] of room beside a robot that backs to its goal
+constexpr double kRecoverSpeed = 0.3;   // [m/s] back to the grid
+constexpr double kSquare = 0.005;       // [rad] off its line as which a drive may end
 // None that a profile ends with: acceleration · dt is a round number.
 constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
@@ -111,8 +111,8 @@ bool overshoots(const Scene& world, int i, const MotionSegment& segment, const O
          isPatchy(world);
 }
 
-/// Ends a drive whose robot has slid past its goal and has no room to come back. Returns false while
-/// it has.
+/// Ends a drive whose robot has slid past its goal and has no room to come back. Returns false
+/// while it has.
 bool isCutOff(MotionView& world, int i, double past) {
   const FleetState& f = world.fleet;
   if (isWayFree(world, i, f.believed(i), -past, kMargin)) return false;

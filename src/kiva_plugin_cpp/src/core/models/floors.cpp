@@ -109,7 +109,8 @@ std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
     if (!cover.covers(x + dx * cell, y + dy * cell, 0)) return false;
     for (double share : {0.25, 0.5, 0.75}) {
       const double way = share * cell;
-      if (is_gap(x + way * dx, y + way * dy, dx, dy) || is_gap(x + way * dx, y + way * dy, -dx, -dy))
+      if (is_gap(x + way * dx, y + way * dy, dx, dy) ||
+          is_gap(x + way * dx, y + way * dy, -dx, -dy))
         return true;
     }
     return false;
@@ -134,7 +135,8 @@ void warnOfGaps(ModelView& world) {
   });
   const Floor& extent = world.floor.extent;
   const double cell = world.settings.grid_spacing;
-  const double cells = (extent.max_x - extent.min_x) * (extent.max_y - extent.min_y) / (cell * cell);
+  const double cells =
+      (extent.max_x - extent.min_x) * (extent.max_y - extent.min_y) / (cell * cell);
   if (has_plane || parts == 0 || cells > kMostCells) return;
   const std::optional<PathPoint> gap = findGap(world, FloorCover(world));
   if (!gap) return;
