@@ -47,17 +47,17 @@ class WorldLink:
         self.chargers: frozenset[tuple[int, int]] = frozenset()
         self.grid: Grid | None = None
         self._floor_of: tuple[int, frozenset[int]] | None = None
-        topics = ("/warehouse/follow", "/lift", "/cancel", "/stop")
+        topics = ("warehouse/follow", "lift", "cancel", "stop")
         self._topics = {
             topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
         }
-        self._mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        self._mode = rospy.ServiceProxy("warehouse/set_robot_mode", SetRobotMode)
         follow = rospy.Subscriber
-        follow("/warehouse/events", Event, self._on_event, queue_size=10000)
-        follow("/warehouse/people", People, self._on_people, queue_size=1)
-        follow("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
-        follow("/warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
-        follow("/warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
+        follow("warehouse/events", Event, self._on_event, queue_size=10000)
+        follow("warehouse/people", People, self._on_people, queue_size=1)
+        follow("warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
+        follow("warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
+        follow("warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -154,19 +154,19 @@ class WorldLink:
         """Publishes on /warehouse/follow."""
         x, y = zip(*points)
         message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
-        self._publish("/warehouse/follow", message)
+        self._publish("warehouse/follow", message)
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""
-        self._publish("/lift", Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+        self._publish("lift", Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
 
     def cancel(self, kiva_id: int) -> None:
         """Publishes on /cancel."""
-        self._publish("/cancel", kiva_id)
+        self._publish("cancel", kiva_id)
 
     def stop(self, kiva_id: int, stopped: bool) -> None:
         """Publishes on /stop."""
-        self._publish("/stop", kiva_id, stopped)
+        self._publish("stop", kiva_id, stopped)
 
     def _publish(self, topic: str, *fields: Any) -> None:
         with contextlib.suppress(rospy.ROSException):  # the node is being shut down
@@ -184,7 +184,7 @@ class WorldLink:
 def _chargers(told: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
-        scenery = rospy.wait_for_message("/warehouse/scenery", Scenery, WAIT)
+        scenery = rospy.wait_for_message("warehouse/scenery", Scenery, WAIT)
         plan = FloorPlan.of_messages(told, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()

@@ -55,10 +55,10 @@ class Master:
         self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
         self._spawned: set[int] = set()
         self._modes: dict[int, bool] = {}
-        self._shadows = rospy.Publisher("/warehouse/shadows", FleetState, queue_size=10)
-        self._events = rospy.Publisher("/warehouse/events", Event, queue_size=1000)
+        self._shadows = rospy.Publisher("warehouse/shadows", FleetState, queue_size=10)
+        self._events = rospy.Publisher("warehouse/events", Event, queue_size=1000)
         self._at_broker = BrokerTopic()
-        self._set_mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        self._set_mode = rospy.ServiceProxy("warehouse/set_robot_mode", SetRobotMode)
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
 
