@@ -142,6 +142,7 @@ class WarehouseService:
             found = survey.of_engine(engine)
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
         to_try = hints.commands(found, self._ros.has_param(COORDINATOR))
+        to_try = hints.within(self._ros.get_namespace(), to_try)
         self._tell(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
 

@@ -35,6 +35,13 @@ def test_else_that_of_the_environment():
     assert master_of(line, {}) == "http://localhost:11311"
 
 
+def test_the_namespace_is_that_of_the_command_line_or_the_environment():
+    assert caller("warehouse_sim", "warehouse.launch").namespace({}) == "/"
+    assert caller("warehouse_sim", "x.launch").namespace({"ROS_NAMESPACE": "sim1"}) == "/sim1/"
+    named = caller("warehouse_sim", "x.launch", "__ns:=sim2")
+    assert named.namespace({"ROS_NAMESPACE": "sim1"}) == "/sim2/"
+
+
 def test_rostest_brings_a_master_of_its_own():
     rostest = ["/usr/bin/python3", "/usr/bin/rostest"]
     assert master_of(caller("roslaunch.test", program=rostest), {}) is None

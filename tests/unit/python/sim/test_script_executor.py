@@ -93,7 +93,7 @@ def test_the_next_command_waits_until_the_robot_may_take_it():
     stage, seen = Stage((Event.BLOCKED,)), []
     stage.watch(1)
     stage.status = lambda kiva: Stage.status(stage, kiva, KivaStatus.STATUS_BLOCKED)
-    with pytest.raises(DeadlineError, match="waiting: kiva1 for /movx distance 0"):
+    with pytest.raises(DeadlineError, match="waiting: kiva1 for movx distance 0"):
         stage.executor.play({1: script(1, seen)})
     assert seen == []
 

@@ -275,19 +275,19 @@ def test_paths_lead_from_the_robot_to_its_goal(scene):
 def test_a_path_is_told_while_somebody_listens(scene):
     scene.go(1, (3, 0), (3, 2))
     scene.shown()
-    assert scene.sent("/kiva1/path") == []
-    scene.publishers["/kiva1/path"].listeners = 1
+    assert scene.sent("kiva1/path") == []
+    scene.publishers["kiva1/path"].listeners = 1
     scene.drive(x=1.5)
     scene.shown()
-    (path,) = scene.sent("/kiva1/path")
+    (path,) = scene.sent("kiva1/path")
     at = [(p.pose.position.x, p.pose.position.y) for p in path.poses]
     assert at == [(1.5, 0), (3, 0), (3, 2)] and path.header.frame_id == "world"
     assert path.poses[1].pose.orientation.z == pytest.approx(math.sqrt(0.5))
     scene.shown()
-    assert len(scene.sent("/kiva1/path")) == 1
+    assert len(scene.sent("kiva1/path")) == 1
     scene.go(1)
     scene.shown()
-    assert scene.sent("/kiva1/path")[-1].poses == []
+    assert scene.sent("kiva1/path")[-1].poses == []
 
 
 def test_a_click_chooses_a_robot_and_a_goal_sends_it(scene):
@@ -309,8 +309,8 @@ def test_the_laser_of_the_chosen_is_told_again(scene):
     scene.shown()
     scene.click(1.1, 0)
     scan = LaserScan(ranges=[1.0])
-    scene.callbacks["/kiva1/chassis/laser/scan"](scan)
+    scene.callbacks["kiva1/chassis/laser/scan"](scan)
     assert scene.sent("warehouse/chosen/scan") == [scan]
     scene.click(50, 50)
     scene.drive()
-    assert "/kiva1/chassis/laser/scan" not in scene.callbacks
+    assert "kiva1/chassis/laser/scan" not in scene.callbacks
