@@ -15,6 +15,7 @@ from warehouse_client import survey
 from warehouse_client.engine import Engine
 from warehouse_client.latest import LatestMessages
 from warehouse_client.routes import goals, route
+from warehouse_client.services import is_offered
 from warehouse_client.survey import Survey
 from warehouse_layout import poses
 from warehouse_layout.layout import Floor
@@ -64,9 +65,7 @@ class Demo:
     def deliver(self, seconds: float) -> None:
         """Plays the last act: a fleet delivers for so long [s, simulated]. Raises DemoError."""
         self._tell(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
-        service = self._ros.resolve_name("warehouse/transport")
-        code, *_ = self._ros.get_master().lookupService(service)
-        if code == 1:
+        if is_offered(self._ros, "warehouse/transport"):
             raise DemoError("a coordinator runs already; the demonstration brings its own")
         fleet = FleetWatch(self._ros)
         self._build(FLEET)

@@ -11,6 +11,7 @@ import numpy as np
 import rospy
 
 from warehouse_client.commands import COMMANDS
+from warehouse_client.services import is_offered
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_layout.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import (
@@ -29,6 +30,7 @@ from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.simulated_driver import Sighting
 
+SET_MODE = "warehouse/set_robot_mode"
 WAIT = 10.0  # for the scenery of the floor [s]
 TOWED = 0.02  # an idle lost robot that moves so far was moved by others [m]
 
@@ -51,7 +53,7 @@ class WorldLink:
         self._topics = {
             topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
         }
-        self._mode = rospy.ServiceProxy("warehouse/set_robot_mode", SetRobotMode)
+        self._mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
         follow = rospy.Subscriber
         follow("warehouse/events", Event, self._on_event, queue_size=10000)
         follow("warehouse/people", People, self._on_people, queue_size=1)
@@ -175,9 +177,11 @@ class WorldLink:
     def set_mode(self, kiva_id: int, mode: int) -> str:
         """Calls /warehouse/set_robot_mode; returns why not, '' if so or there is no coordinator."""
         try:
+            if not is_offered(rospy, SET_MODE):
+                return ""
             answer = self._mode(kiva_id, mode)
-        except (rospy.ServiceException, rospy.ROSException):
-            return ""
+        except (rospy.ServiceException, rospy.ROSException, OSError):
+            return ""  # it ends just now
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
 
 

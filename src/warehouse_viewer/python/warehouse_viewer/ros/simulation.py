@@ -10,7 +10,7 @@ from itertools import count
 from typing import Any
 
 from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
-from warehouse_client import identity, placing
+from warehouse_client import identity, placing, services
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
 from warehouse_layout import models
@@ -188,10 +188,9 @@ class Simulation:
 def is_offered(ros: Any, name: str) -> bool:
     """Returns whether a node offers the service. Raises AwayError."""
     try:
-        code, *_ = ros.get_master().lookupService(ros.resolve_name(name))
+        return services.is_offered(ros, name)
     except OSError as error:
         raise AwayError(f"the ROS master does not answer: {error}") from error
-    return code == 1
 
 
 def request(ros: Any, name: str, kind: Any, fields: dict[str, Any]) -> Any:
