@@ -69,9 +69,7 @@ def named():
         if not source.is_file():
             continue
         text = source.read_text()
-        found |= {
-            f"/{one}" for one in re.findall(r'"/?((?:warehouse|gazebo)/\w+(?:/\w+)*)"', text)
-        }
+        found |= {f"/{one}" for one in re.findall(r'"/?((?:warehouse|gazebo)/\w+(?:/\w+)*)"', text)}
         found |= {
             f"/gazebo/{one}"
             for one in re.findall(r'node\.advertiseService(?:<[^>]*>)?\("(\w+)"', text)
