@@ -87,7 +87,8 @@ def asked() -> dict[str, dict[str, str]]:
         text = file.read_text()
         found = {}
         for name, rest in re.findall(r'get_param\(\s*"([~\w][\w/]+)"(?:,\s*([^()]*?))?\)', text):
-            found[name if name.startswith("~") else f"/{name}"] = DEFAULTS.get(rest.strip(), rest.strip())
+            key = name if name.startswith("~") else f"/{name}"
+            found[key] = DEFAULTS.get(rest.strip(), rest.strip())
         for name, default in viewer_settings(text) if file.name == "viewer" else ():
             found[name] = DEFAULTS.get(default, default)
         if found:

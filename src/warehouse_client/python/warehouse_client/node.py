@@ -6,7 +6,6 @@ from typing import Any
 
 import rospy
 
-
 # rospy's own names are absolute. In a namespace the clock and the frames are those of its world.
 OF_THE_WORLD = ("/clock:=clock", "/tf:=tf", "/tf_static:=tf_static")
 
