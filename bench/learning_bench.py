@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Agent steps a second of the vector environment with physics, beside RWARE where it is installed,
-in turns of a second: .venv/bin/pip install rware; .venv/bin/python bench/learning_bench.py
+in turns of a second: scripts/learning_packages; .venv/bin/python bench/learning_bench.py
 
     [--worlds 64] [--robots 10] [--seconds 10]; or --resets
 

@@ -86,8 +86,9 @@ def asked() -> dict[str, dict[str, str]]:
     for file in sorted(ROOT.glob("src/*/nodes/*")) + sorted(ROOT.glob("src/*/python/**/*.py")):
         text = file.read_text()
         found = {}
-        for name, rest in re.findall(r'get_param\(\s*"([~/][\w/]+)"(?:,\s*([^()]*?))?\)', text):
-            found[name] = DEFAULTS.get(rest.strip(), rest.strip())
+        for name, rest in re.findall(r'get_param\(\s*"([~\w][\w/]+)"(?:,\s*([^()]*?))?\)', text):
+            key = name if name.startswith("~") else f"/{name}"
+            found[key] = DEFAULTS.get(rest.strip(), rest.strip())
         for name, default in viewer_settings(text) if file.name == "viewer" else ():
             found[name] = DEFAULTS.get(default, default)
         if found:

@@ -102,7 +102,8 @@ def rows(found: list[Name], with_notes: bool = True) -> list[tuple[str, ...]]:
 INTRODUCTION = (
     "Robots stand on grid points, 1 m apart unless a world says otherwise. SI units, radians, x "
     "forward, y left, z up, frame `world`. A robot with plugins of gazebo_ros has topics of its "
-    "own: [plugins](plugins.md)."
+    "own: [plugins](plugins.md). A simulation in a namespace has all of these within it: [two "
+    "simulations](../how-to/namespaces.md)."
 )
 COMMANDS = (
     "Each command is answered by ACCEPTED or REFUSED, and each accepted one ends in DONE "

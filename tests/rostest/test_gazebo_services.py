@@ -27,6 +27,8 @@ from warehouse_test import (
 
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import (
+    ApplyBodyWrench,
+    GetLinkProperties,
     GetLinkState,
     GetModelProperties,
     GetModelState,
@@ -42,6 +44,13 @@ PAIR = """<sdf version="1.6"><world name="w">
   </include>
   <include><uri>model://kiva</uri><name>{}</name></include>
 </world></sdf>"""
+
+TOWER = """<sdf version="1.6"><model name="box"><link name="foot"/>
+  <model name="inner"><pose>0 0 1 0 0 0</pose><static>true</static><link name="mast">
+    <inertial><mass>3</mass></inertial>
+  </link></model>
+  <static>true</static>
+</model></sdf>"""
 
 
 def topics():
@@ -166,9 +175,29 @@ class Asking(unittest.TestCase):
         answer = call("/gazebo/get_link_state", GetLinkState, "kiva1::tower", "kiva1")
         self.assertEqual(answer.status_message, "GetLinkState: got state")
         self.assertAlmostEqual(answer.link_state.pose.position.z, 0.38)
-        for link in ("tower", "kiva1::nothing", "kiva1"):
+        for link in ("nothing", "kiva1::nothing", "kiva1"):
             answer = call("/gazebo/get_link_state", GetLinkState, link, "")
             self.assertIn("link not found", answer.status_message)
+
+    def test_a_plain_name_is_the_first_model_or_link_called_so(self):
+        spawn("box2", TOWER, pose(*HERE))
+        spawn("tower", BOX, pose(0.0, 1.0))
+        above = call("/gazebo/get_link_state", GetLinkState, "tower", "chassis").link_state
+        self.assertEqual((above.link_name, above.reference_frame), ("tower", "chassis"))
+        within = call("/gazebo/get_link_state", GetLinkState, "kiva1::tower", "kiva1::chassis")
+        self.assertEqual(above.pose, within.link_state.pose)
+        self.assertEqual(state("box1", "tower").pose, state("box1", "kiva1::tower").pose)
+        self.assertEqual(state("box1", "mast").pose, state("box1", "box2::inner::mast").pose)
+        self.assertTrue(put("tower", pose(z=5.0), "mast").success)
+        self.assertEqual(place("tower"), (*HERE, 6.0))
+        self.assertTrue(spawn("box3", where=pose(z=1.0), frame="mast").success)
+        self.assertEqual(place("box3"), (*HERE, 2.0))
+        mast = call("/gazebo/get_link_properties", GetLinkProperties, "mast")
+        self.assertEqual((mast.success, mast.mass), (True, 3.0))
+        push = call("/gazebo/apply_body_wrench", ApplyBodyWrench, body_name="tower")
+        self.assertTrue(push.success, push.status_message)  # kiva1's, not the static model
+        for name in ("box2", "box3", "tower"):
+            delete(name)
 
     def test_properties(self):
         answer = call("/gazebo/get_model_properties", GetModelProperties, "kiva1")

@@ -59,7 +59,7 @@ class Launching(unittest.TestCase):
         self.assertEqual(rospy.get_param("/warehouse/name"), "small")
         self.assertEqual(rospy.get_param("/gazebo/rtf"), 5)
         self.assertIn("kiva4", world().model_names)
-        Robot(1).do("/rot", direction=1)
+        Robot(1).do("rot", direction=1)
 
     def test_wrong_arguments(self):
         for args, reason in (
@@ -104,8 +104,8 @@ class Events(unittest.TestCase):
 
     def test_of_one_robot_in_words(self):
         process = self.told("kiva2")
-        Robot(1).do("/rot", direction=1)
-        Robot(2).do("/rot", direction=1)
+        Robot(1).do("rot", direction=1)
+        Robot(2).do("rot", direction=1)
         lines = [process.stdout.readline() for _ in range(2)]
         self.assertRegex(lines[0], r"^ +\d+\.\d{3} s  kiva2 +ACCEPTED .*turn")
         self.assertRegex(lines[1], r"^ +\d+\.\d{3} s  kiva2 +DONE\b")
@@ -114,7 +114,7 @@ class Events(unittest.TestCase):
     def test_in_colours_at_a_terminal(self):
         ours, its = os.openpty()
         process = self.told("--kind", "done", out=its)
-        Robot(3).do("/rot", direction=1)
+        Robot(3).do("rot", direction=1)
         self.assertIn("\033[32mDONE", os.read(ours, 1000).decode())
         self.assertEqual(self.ended(process), "")
 

@@ -48,7 +48,7 @@ class Respawn(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.wait_for_service(SERVICE, 30)
-        Robot(1).do("/movy", distance=-1)
+        Robot(1).do("movy", distance=-1)
         cls.robot = place("kiva1")
 
     def tearDown(self):

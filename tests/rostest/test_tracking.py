@@ -50,9 +50,9 @@ class Tracking(unittest.TestCase):
         """Takes a storage unit that far; returns where it stood."""
         at = place(named(self.units, f"storage_unit{unit}").pose)
         robot = Robot(1)
-        robot.do("/mov", x=at[0], y=at[1])
-        robot.do("/lift", status=Lift.CARRY, shelf_id=unit)
-        robot.do("/mov", x=at[0] + x, y=at[1] + y)
+        robot.do("mov", x=at[0], y=at[1])
+        robot.do("lift", status=Lift.CARRY, shelf_id=unit)
+        robot.do("mov", x=at[0] + x, y=at[1] + y)
         return at
 
     def test_all_of_them_are_there(self):

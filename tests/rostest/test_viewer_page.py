@@ -151,7 +151,7 @@ class ViewerPage(PageTest):
 
     def test_a_robot_stopped_by_an_obstacle_needs_help(self):
         x, y, _ = place("kiva4")
-        Robot(4).do("/mov", x=x, y=4.0)
+        Robot(4).do("mov", x=x, y=4.0)
         spawn("person1", model_file("person"), pose(x + 2, 4.0))
         self.page.until("page.world.scene.scenery.includes('person1')")
         self.page.read("page.details.order('kiva4', 'movx', {distance: 4}) && true")
@@ -160,7 +160,7 @@ class ViewerPage(PageTest):
         self.page.until(f"{first}.textContent.startsWith('needs helpkiva4')")
         delete("person1")
         self.page.until("!page.world.scene.scenery.includes('person1')")
-        Robot(4).do("/movx", distance=1.0)
+        Robot(4).do("movx", distance=1.0)
         self.page.until("page.world.activity[3] !== 4")
 
     # --- keys, one by one
@@ -271,7 +271,7 @@ class ViewerPage(PageTest):
     def test_the_past_is_seen_while_the_simulation_goes_on(self):
         self.page.until("!document.getElementById('timeline').hidden")
         then, before = self.page.read("page.world.stamp"), self.drawn(2)
-        Robot(2).do("/movx", distance=-1.0)
+        Robot(2).do("movx", distance=-1.0)
         self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
         # Back by the keyboard, as far as the moment before.
         self.page.driver.find_element("id", "replay-track").send_keys(Keys.ARROW_LEFT)
@@ -289,7 +289,7 @@ class ViewerPage(PageTest):
         self.until_link("live")
         self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
         self.page.until("!document.getElementById('pause').disabled")
-        Robot(2).do("/movx", distance=1.0)
+        Robot(2).do("movx", distance=1.0)
 
     def test_pauses(self):
         self.page.click_on("pause")
@@ -310,7 +310,7 @@ class ViewerPage(PageTest):
 
     def test_reset_asks_and_can_be_undone(self):
         x, y, _ = place("kiva2")
-        Robot(2).do("/movx", distance=-1.0)
+        Robot(2).do("movx", distance=-1.0)
         self.page.click_on("reset")
         self.page.until("document.getElementById('question').open")
         self.page.type(Keys.ESCAPE)
@@ -323,7 +323,7 @@ class ViewerPage(PageTest):
         self.page.until("!document.getElementById('notice').hidden")
         self.page.driver.find_element("css selector", "#notice button").click()
         wait_until(lambda: math.dist(place("kiva2")[:2], (x - 1, y)) < 1e-3, "the reset undone")
-        Robot(2).do("/movx", distance=1.0)
+        Robot(2).do("movx", distance=1.0)
 
     def test_undo_is_offered_only_where_it_works(self):
         # The world keeps no checkpoints of its own here.
@@ -344,7 +344,7 @@ class ViewerPage(PageTest):
         self.page.read("document.getElementById('checkpoint').click()")
         self.page.until(f"{tip} === 'checkpoint saved'")
         x = place("kiva3")[0]
-        robot.do("/movx", distance=1.0)
+        robot.do("movx", distance=1.0)
         self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")
         self.page.read("document.getElementById('restore').click()")
         self.page.until(f"Math.abs(page.world.shown[6] - {x}) < 0.01")
@@ -410,7 +410,7 @@ class ViewerPage(PageTest):
 
     # --- the log as a file
     def test_saves_the_events(self):
-        Robot(3).do("/rot", direction=1)
+        Robot(3).do("rot", direction=1)
         with tempfile.TemporaryDirectory() as folder:
             where = {"behavior": "allow", "downloadPath": folder}
             self.page.driver.execute_cdp_cmd("Page.setDownloadBehavior", where)

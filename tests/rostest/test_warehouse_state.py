@@ -60,8 +60,8 @@ class State(unittest.TestCase):
     def test_it_follows_a_robot_with_its_load(self):
         at = self.state.storage_units[0].pose.position
         robot = Robot(1)
-        robot.do("/mov", x=at.x, y=at.y)
-        robot.do("/lift", status=Lift.CARRY, shelf_id=1)
+        robot.do("mov", x=at.x, y=at.y)
+        robot.do("lift", status=Lift.CARRY, shelf_id=1)
         state = latched(TOPIC, WarehouseState, lambda m: m.storage_units[0].carrier)
         self.assertEqual(state.storage_units[0].carrier, "kiva1")
         self.assertEqual(state.kivas[0].shelf_id, 1)

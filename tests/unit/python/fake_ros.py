@@ -43,6 +43,12 @@ class FakeRos:
     def logwarn_once(self, text):
         self.warnings.append(text)
 
+    def get_namespace(self):
+        return "/"
+
+    def resolve_name(self, name):
+        return f"/{name.lstrip('/')}"
+
     def get_param(self, name, default):
         return self.parameters.get(name, default)
 

@@ -177,7 +177,12 @@ int main(int argc, char** argv) {
   mallopt(M_ARENA_MAX, kHeaps);
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // so that a log file gets each line at once
   if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
-  ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
+  std::vector<char*> arguments = {argv, argv + argc};
+  // roscpp's own name is absolute; in a namespace the clock is that of this world.
+  std::string clock = "/clock:=clock";
+  arguments.push_back(clock.data());
+  argc = static_cast<int>(arguments.size());
+  ros::init(argc, arguments.data(), "gazebo", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails instead
   ros::NodeHandle root, node("~");

@@ -5,7 +5,7 @@ from typing import Any
 
 from warehouse_client.engine import Engine
 
-BUILDING = "/warehouse/building"
+BUILDING = "warehouse/building"
 
 
 class BuildTransaction:

@@ -14,13 +14,13 @@ from warehouse_msgs.msg import (
 
 # The message type of each topic.
 COMMANDS = {
-    "/mov": MoveTo,
-    "/movx": MoveAlong,
-    "/movy": MoveAlong,
-    "/rot": Rotate,
-    "/lift": Lift,
-    "/follow": FollowPath,
-    "/warehouse/follow": FleetFollow,
-    "/cancel": Cancel,
-    "/stop": Stop,
+    "mov": MoveTo,
+    "movx": MoveAlong,
+    "movy": MoveAlong,
+    "rot": Rotate,
+    "lift": Lift,
+    "follow": FollowPath,
+    "warehouse/follow": FleetFollow,
+    "cancel": Cancel,
+    "stop": Stop,
 }

@@ -28,11 +28,11 @@ class Coordinator:
         self._events: list[TransportEvent] = []
         self._lock = threading.Lock()
         self.state: CoordinatorState | None = None
-        self._transport = ros.ServiceProxy("/warehouse/transport", Transport)
-        self._release = ros.ServiceProxy("/warehouse/release_transport", ReleaseTransport)
-        self._cancel = ros.ServiceProxy("/warehouse/cancel_transport", CancelTransport)
-        ros.Subscriber("/warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
-        ros.Subscriber("/warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
+        self._transport = ros.ServiceProxy("warehouse/transport", Transport)
+        self._release = ros.ServiceProxy("warehouse/release_transport", ReleaseTransport)
+        self._cancel = ros.ServiceProxy("warehouse/cancel_transport", CancelTransport)
+        ros.Subscriber("warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
+        ros.Subscriber("warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
 
     def submit(
         self,

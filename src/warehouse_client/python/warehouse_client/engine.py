@@ -35,7 +35,7 @@ class Engine:
 
     def __enter__(self) -> "Engine":
         try:
-            self._ros.wait_for_service("/gazebo/spawn_sdf_model", WAIT)
+            self._ros.wait_for_service("gazebo/spawn_sdf_model", WAIT)
         except self._ros.ROSException as error:
             raise EngineError(f"the world does not answer: {error}") from error
         return self
@@ -46,7 +46,7 @@ class Engine:
 
     def _call(self, service: str, kind: Any, *args: Any) -> Any:
         if service not in self._proxies:
-            name = service if service.startswith("/") else f"/gazebo/{service}"
+            name = service if "/" in service else f"gazebo/{service}"
             self._proxies[service] = self._ros.ServiceProxy(name, kind, persistent=True)
         try:
             return self._proxies[service](*args)
@@ -67,7 +67,7 @@ class Engine:
     def map(self) -> Any:
         """Returns the nav_msgs/OccupancyGrid of the floor, a cell a grid point: what other models
         take."""
-        return self._call("/warehouse/map", GetMap).map
+        return self._call("warehouse/map", GetMap).map
 
     def spawn(self, xml: str, name: str = "") -> None:
         """Adds all models of an SDF text, or none. Raises EngineError.

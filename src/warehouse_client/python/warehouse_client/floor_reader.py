@@ -41,7 +41,7 @@ class FloorReader:
         if scenery is None or same_things(scenery, self._scenery):
             return False
         try:
-            grid = self._ros.ServiceProxy("/warehouse/map", GetMap)().map
+            grid = self._ros.ServiceProxy("warehouse/map", GetMap)().map
             plan = FloorPlan.of_messages(grid, scenery) if grid.data else None
         except self._ros.ServiceException:
             return False  # the world comes or goes; there is another time

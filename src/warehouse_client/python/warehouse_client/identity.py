@@ -3,8 +3,8 @@
 
 from typing import Any
 
-NAME, NUMBER = "/warehouse/name", "/warehouse/id"
-LAYOUT = "/warehouse/layout"  # the layout file of the warehouse that stands; "" for another one
+NAME, NUMBER = "warehouse/name", "warehouse/id"
+LAYOUT = "warehouse/layout"  # the layout file of the warehouse that stands; "" for another one
 INT32 = 2**31
 
 

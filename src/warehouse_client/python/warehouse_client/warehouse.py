@@ -38,8 +38,8 @@ class Warehouse:
             ("scenery", Scenery, "scenery"),
             ("people", People, "people"),
         ):
-            ros.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
-        ros.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=10)
+            ros.Subscriber(f"warehouse/{topic}", kind, self._keep, name, queue_size=1)
+        ros.Subscriber("warehouse/fleet", FleetState, self._on_fleet, queue_size=10)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -72,7 +72,7 @@ class Warehouse:
 
     def plan(self) -> FloorPlan:
         """Reads the FloorPlan by the map service. Raises rospy.ServiceException, FloorError."""
-        grid = self._ros.ServiceProxy("/warehouse/map", GetMap)().map
+        grid = self._ros.ServiceProxy("warehouse/map", GetMap)().map
         return FloorPlan.of_messages(grid, self.scenery)
 
     def robot_cells(self, plan: FloorPlan) -> dict[int, int]:

@@ -70,10 +70,10 @@ class Coordinator:
         self._kept = np.zeros(0, np.uint8)  # the robots' modes, as the world keeps them
         self._next_state = self._next_paths = 0.0
         publish = rospy.Publisher
-        self._ordering = publish("/warehouse/fleet_orders", FleetOrders, queue_size=1000)
-        self._state = publish("/warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
-        self._paths = publish("/warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
-        self._keep_mode = rospy.ServiceProxy("/gazebo/keep_robot_mode", KeepRobotMode)
+        self._ordering = publish("warehouse/fleet_orders", FleetOrders, queue_size=1000)
+        self._state = publish("warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
+        self._paths = publish("warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
+        self._keep_mode = rospy.ServiceProxy("gazebo/keep_robot_mode", KeepRobotMode)
         CoordinatorServices(self)
         self._watch = WarehouseWatch()
         self._watch.begin()

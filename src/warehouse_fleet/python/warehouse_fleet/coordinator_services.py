@@ -40,12 +40,12 @@ class CoordinatorServices:
 
     def __init__(self, coordinator: "Coordinator") -> None:
         self._coordinator = coordinator
-        self._place = rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)
-        rospy.Service("/warehouse/transport", Transport, self._on_transport)
-        rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
-        rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
-        rospy.Service("/warehouse/tow", Tow, self._on_tow)
-        rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
+        self._place = rospy.ServiceProxy("gazebo/set_model_state", SetModelState)
+        rospy.Service("warehouse/transport", Transport, self._on_transport)
+        rospy.Service("warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("warehouse/cancel_transport", CancelTransport, self._on_cancel)
+        rospy.Service("warehouse/tow", Tow, self._on_tow)
+        rospy.Service("warehouse/set_robot_mode", SetRobotMode, self._on_mode)
 
     def _on_transport(self, wanted: TransportRequest) -> TransportResponse:
         host = self._coordinator

@@ -23,7 +23,7 @@ class EventPublisher:
         self._abandoned: list[Entry] = []
         self._connected_by = clock.monotonic() + CONNECTING
         self._topic = rospy.Publisher(
-            "/warehouse/transports", TransportEventMessage, queue_size=1000
+            "warehouse/transports", TransportEventMessage, queue_size=1000
         )
 
     def begin(self) -> None:

@@ -43,16 +43,16 @@ class WarehouseWatch:
         self.collisions = 0
         self._refused: list[str] = []
         follow = rospy.Subscriber
-        follow("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
-        follow("/warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
-        follow("/warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
-        follow("/warehouse/people", People, self._keep, "people", queue_size=1)
-        follow("/warehouse/events", Event, self._on_event, queue_size=10000)
-        follow("/warehouse/stations", StationStates, self._on_stations, queue_size=1)
+        follow("warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
+        follow("warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
+        follow("warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
+        follow("warehouse/people", People, self._keep, "people", queue_size=1)
+        follow("warehouse/events", Event, self._on_event, queue_size=10000)
+        follow("warehouse/stations", StationStates, self._on_stations, queue_size=1)
 
     def begin(self) -> None:
         """Subscribes to the robots' reports; the warehouse can be controlled from then on."""
-        rospy.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
+        rospy.Subscriber("warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -113,7 +113,7 @@ class WarehouseWatch:
 
 def request_map() -> OccupancyGrid:
     """Returns the world's map. Raises rospy.ServiceException."""
-    return rospy.ServiceProxy("/warehouse/map", GetMap)().map
+    return rospy.ServiceProxy("warehouse/map", GetMap)().map
 
 
 def is_same_floor(one: Scenery, other: Scenery) -> bool:

@@ -134,7 +134,7 @@ class OperationsNode:
             self._warehouse.robot_cells(plan),
             self._warehouse.unit_cells(plan),
             self._warehouse.items(),
-            rospy.get_param("/warehouse/name", ""),
+            rospy.get_param("warehouse/name", ""),
         )
 
     def _open_shift(self, now: float) -> Shift:
@@ -288,8 +288,8 @@ def _sleep_a_cycle() -> None:
 
 
 def _publisher(topic: str, kind: type) -> rospy.Publisher:
-    return rospy.Publisher(f"/warehouse/{topic}", kind, latch=True, queue_size=1)
+    return rospy.Publisher(f"warehouse/{topic}", kind, latch=True, queue_size=1)
 
 
 def _queued(topic: str, kind: type) -> rospy.Publisher:
-    return rospy.Publisher(f"/warehouse/{topic}", kind, queue_size=10000)
+    return rospy.Publisher(f"warehouse/{topic}", kind, queue_size=10000)

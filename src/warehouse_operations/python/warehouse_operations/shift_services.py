@@ -53,7 +53,7 @@ class ShiftServices:
             ("find_stock", srv.FindStock, self._find_stock),
             ("find_skus", srv.FindSkus, self._find_skus),
         ):
-            rospy.Service(f"/warehouse/{name}", kind, call)
+            rospy.Service(f"warehouse/{name}", kind, call)
 
     def _submit(self, request: Any) -> Any:
         lines = [(line.sku, line.quantity) for line in request.lines]

@@ -50,20 +50,20 @@ class Step:
 def move(goal: Any) -> list[Step]:
     """Returns the Steps of a MoveGoal."""
     target = (goal.x, goal.y)
-    return [Step(command("/mov", goal.kiva_id, x=goal.x, y=goal.y), target)]
+    return [Step(command("mov", goal.kiva_id, x=goal.x, y=goal.y), target)]
 
 
 def carry(goal: Any, unit: Any) -> list[Step]:
     """Returns the Steps of a CarryGoal, whose storage unit is at the grid point `unit` [m]."""
     kiva, target = goal.kiva_id, (goal.x, goal.y)
     lift, drop = (
-        command("/lift", kiva, status=status, shelf_id=goal.shelf_id)
+        command("lift", kiva, status=status, shelf_id=goal.shelf_id)
         for status in (Lift.CARRY, Lift.DROP)
     )
     return [
-        Step(command("/mov", kiva, x=unit[0], y=unit[1]), unit, CarryFeedback.FETCHING),
+        Step(command("mov", kiva, x=unit[0], y=unit[1]), unit, CarryFeedback.FETCHING),
         Step(lift, unit, CarryFeedback.LIFTING),
-        Step(command("/mov", kiva, x=goal.x, y=goal.y), target, CarryFeedback.CARRYING),
+        Step(command("mov", kiva, x=goal.x, y=goal.y), target, CarryFeedback.CARRYING),
         Step(drop, target, CarryFeedback.DROPPING),
     ]
 
@@ -105,15 +105,15 @@ class RobotActions:
         self._publishers = {t: ros.Publisher(t, k, queue_size=10) for t, k in COMMANDS.items()}
         self._places = LatestMessages(
             ros,
-            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
-            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
+            objects=("warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("warehouse/unit_states", numpy_msg(UnitStates)),
         )
-        ros.Subscriber("/warehouse/events", Event, self._on_event, queue_size=1000)
+        ros.Subscriber("warehouse/events", Event, self._on_event, queue_size=1000)
         self._servers = [
             ActionServer(name, kind, self._on_goal(begin), auto_start=False)
             for name, kind, begin in (
-                ("/warehouse/move", MoveAction, self._begin_move),
-                ("/warehouse/carry", CarryAction, self._begin_carry),
+                ("warehouse/move", MoveAction, self._begin_move),
+                ("warehouse/carry", CarryAction, self._begin_carry),
             )
         ]
         ros.set_param("~actionlib_status_frequency", 0)  # its timer ends when time goes back
@@ -214,7 +214,7 @@ class RobotActions:
         """The fleet is heard while anybody works."""
         if self._works and not self._hearing:
             self._hearing = self._ros.Subscriber(
-                "/warehouse/fleet", FleetState, self._on_fleet, queue_size=1
+                "warehouse/fleet", FleetState, self._on_fleet, queue_size=1
             )
         elif not self._works and self._hearing:
             self._hearing.unregister()

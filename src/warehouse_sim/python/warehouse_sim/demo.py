@@ -15,6 +15,7 @@ from warehouse_client import survey
 from warehouse_client.engine import Engine
 from warehouse_client.latest import LatestMessages
 from warehouse_client.routes import goals, route
+from warehouse_client.services import is_offered
 from warehouse_client.survey import Survey
 from warehouse_layout import poses
 from warehouse_layout.layout import Floor
@@ -45,8 +46,8 @@ class Demo:
         self.failed: list[str] = []
         self._newest = LatestMessages(
             ros,
-            units=("/storage_units", TrackedObjects),
-            items=("/items", TrackedObjects),
+            units=("storage_units", TrackedObjects),
+            items=("items", TrackedObjects),
         )
 
     def play(self) -> None:
@@ -64,8 +65,7 @@ class Demo:
     def deliver(self, seconds: float) -> None:
         """Plays the last act: a fleet delivers for so long [s, simulated]. Raises DemoError."""
         self._tell(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
-        code, *_ = self._ros.get_master().lookupService("/warehouse/transport")
-        if code == 1:
+        if is_offered(self._ros, "warehouse/transport"):
             raise DemoError("a coordinator runs already; the demonstration brings its own")
         fleet = FleetWatch(self._ros)
         self._build(FLEET)
@@ -82,7 +82,7 @@ class Demo:
         self._expect("every robot moved on", not fleet.watchdog)
 
     def _build(self, size):
-        create = self._ros.ServiceProxy("/warehouse/create_warehouse_models", CreateWarehouse)
+        create = self._ros.ServiceProxy("warehouse/create_warehouse_models", CreateWarehouse)
         try:
             answer = create(warehouse_name=size)
         except self._ros.ServiceException as error:
@@ -101,9 +101,9 @@ class Demo:
     def _fetching(self, mission):
         kiva, unit = mission.kiva, mission.unit
         yield from _drive(kiva, mission.to_unit)
-        yield from _do(command("/lift", kiva, status=Lift.CARRY, shelf_id=unit))
+        yield from _do(command("lift", kiva, status=Lift.CARRY, shelf_id=unit))
         yield from _drive(kiva, mission.to_drop)
-        yield from _do(command("/lift", kiva, status=Lift.DROP, shelf_id=unit))
+        yield from _do(command("lift", kiva, status=Lift.DROP, shelf_id=unit))
         # Out beneath the unit, by the way it came in.
         yield from _drive(kiva, [mission.to_drop[-1], mission.out])
 
@@ -135,7 +135,7 @@ class Demo:
     def _look(self):
         """Where everything stands, once it does: the service comes when its warehouse is built."""
         try:
-            self._ros.wait_for_service("/warehouse/create_warehouse_models", PATIENCE)
+            self._ros.wait_for_service("warehouse/create_warehouse_models", PATIENCE)
         except self._ros.ROSException as error:
             raise DemoError("no warehouse is running") from error
         with Engine(self._ros) as engine:
@@ -156,7 +156,7 @@ class Demo:
         self._found.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
         tracked = of_tracked(self._newest["units"])
         self._found.storage_unit = tracked.storage_unit
-        bounds = self._ros.get_param("/warehouse/floor", None)
+        bounds = self._ros.get_param("warehouse/floor", None)
         return Map(self._found, Floor(*bounds) if bounds else None)
 
     def _robot(self, kiva):
@@ -201,8 +201,8 @@ class FleetWatch:
 
     def __init__(self, ros: Any) -> None:
         self._state, self.delivered = CoordinatorState(), 0
-        ros.Subscriber("/warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
-        ros.Subscriber("/warehouse/transports", TransportEvent, self._count, queue_size=1000)
+        ros.Subscriber("warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
+        ros.Subscriber("warehouse/transports", TransportEvent, self._count, queue_size=1000)
 
     def _take(self, state):
         self._state = state
@@ -265,7 +265,7 @@ def _away(tracked, at):
 def _drive(kiva, points):
     """A script: along a route, point by point. Raises DemoError if anything stops the robot."""
     for x, y in goals(points):
-        yield from _do(command("/mov", kiva, x=x, y=y))
+        yield from _do(command("mov", kiva, x=x, y=y))
 
 
 def _do(wanted):
@@ -276,4 +276,4 @@ def _do(wanted):
 
 def _try(kiva, goal):
     """A script: straight to the goal, as far as it goes."""
-    yield command("/mov", kiva, x=goal[0], y=goal[1])
+    yield command("mov", kiva, x=goal[0], y=goal[1])

@@ -38,7 +38,7 @@ class FleetStatistics:
 
     def __init__(self, ros: Any) -> None:
         self._odometers: dict[Any, Odometer] = defaultdict(Odometer)
-        ros.Subscriber("/warehouse/fleet", FleetState, self._measure, queue_size=100)
+        ros.Subscriber("warehouse/fleet", FleetState, self._measure, queue_size=100)
 
     def _measure(self, fleet):
         for kiva, x, y, yaw in zip(fleet.kiva_id, fleet.x, fleet.y, fleet.yaw):

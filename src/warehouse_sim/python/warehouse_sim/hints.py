@@ -82,6 +82,20 @@ def _pub(topic, kind, **fields):
     return f"rostopic pub -1 /{topic} warehouse_msgs/{kind} '{{{text}}}'"
 
 
+def within(namespace: str, pairs: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Returns pairs (shell command, what it does) as they are typed for a warehouse in a namespace,
+    `/` or `/sim1/`."""
+    return [(_within(namespace, command), meaning) for command, meaning in pairs]
+
+
+def _within(namespace, command):
+    if namespace == "/":
+        return command
+    if " /" in command:
+        return command.replace(" /", f" {namespace}")
+    return f"ROS_NAMESPACE={namespace.rstrip('/')} {command}"
+
+
 def greeting(title: str, pairs: Any) -> str:
     """Returns what the terminal shows once a warehouse is built."""
     wide = max(len(command) for command, _ in pairs)

@@ -10,13 +10,15 @@ from typing import Any
 from urllib.parse import urlsplit
 from xmlrpc.client import ServerProxy
 
+import rosgraph
+
 from warehouse_layout import files
 from warehouse_sim import launch_arguments
 from warehouse_sim.launch_arguments import Place
 
 TIMEOUT = 3.0  # for a world to say that it is there [s, wall]
 SHARE = files.share(__file__)  # the folder with launch/
-ENGINE = "/gazebo"
+ENGINE = "gazebo"  # in the namespace of its launch
 LOCAL = re.compile(r"localhost|127\..*")  # names of this machine
 OURS = "$(find warehouse_sim)/"  # how a launch file names files of this package
 
@@ -57,6 +59,11 @@ class Caller:
         ours = self._share / "launch" / files[0]
         path = ours if before[-1:] == ["warehouse_sim"] else self.cwd / files[0]
         return path if path.is_file() else None
+
+    def namespace(self, environment: Mapping[str, str]) -> str:
+        """Returns the namespace of all that the launch starts, as `/` or `/sim1/`. That of a group
+        in a launch file of one's own is not known."""
+        return rosgraph.names.get_ros_namespace({**environment}, [*self.words])
 
     @property
     def name(self) -> str:
@@ -136,29 +143,36 @@ def openness(caller: Caller, environment: Mapping[str, str]) -> str:
     )
 
 
-def check_master(uri: str, connect: Callable[[str], Any] = ServerProxy) -> None:
-    """Raises LaunchError if a world runs at that master already.
+def check_master(
+    uri: str, namespace: str = "/", connect: Callable[[str], Any] = ServerProxy
+) -> None:
+    """Raises LaunchError if a world runs at that master already, in that namespace.
 
     A second of the same name would end the first, and with it the master of both.
     """
     try:
-        code, _, address = connect(uri).lookupNode("/launch_check", ENGINE)
+        code, _, address = connect(uri).lookupNode("/launch_check", namespace + ENGINE)
         if code != 1 or connect(address).getPid("/launch_check")[0] != 1:
             return
-        name = connect(uri).getParam("/launch_check", "/warehouse/name")
-        page = connect(uri).getParam("/launch_check", "/viewer/address")
+        name = connect(uri).getParam("/launch_check", f"{namespace}warehouse/name")
+        page = connect(uri).getParam("/launch_check", f"{namespace}viewer/address")
     except OSError:  # no answer: no master, or a world that died
         return
-    raise LaunchError(_runs_already(uri, *(v if code == 1 else "" for code, _, v in (name, page))))
+    texts = (v if code == 1 else "" for code, _, v in (name, page))
+    raise LaunchError(_runs_already(uri, namespace, *texts))
 
 
-def _runs_already(uri: str, name: str, page: str) -> str:
+def _runs_already(uri: str, namespace: str, name: str, page: str) -> str:
+    within = f" in {namespace.rstrip('/')}" if namespace != "/" else ""
+    events, create = (
+        f"{namespace}warehouse/{one}" for one in ("events", "create_warehouse_models")
+    )
     lines = [
-        f"a warehouse{f' ({name})' if name else ''} runs at {uri} already; nothing was started",
-        f"  join it:             rostopic echo /warehouse/events{f'    or {page}' if page else ''}",
-        "  build another in it: rosservice call /warehouse/create_warehouse_models"
-        " '{warehouse_name: medium}'",
-        "  start one beside it: export ROS_MASTER_URI=http://localhost:11312, then the same with"
-        " viewer_port:=8081",
+        f"a warehouse{f' ({name})' if name else ''} runs at {uri}{within} already; nothing was"
+        " started",
+        f"  join it:             rostopic echo {events}{f'    or {page}' if page else ''}",
+        f"  build another in it: rosservice call {create} '{{warehouse_name: medium}}'",
+        "  start one beside it: the same with __ns:=another viewer_port:=8081, or first"
+        " export ROS_MASTER_URI=http://localhost:11312",
     ]
     return "\n".join(lines)

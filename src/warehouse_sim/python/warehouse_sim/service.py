@@ -24,7 +24,7 @@ from warehouse_sim import hints
 from warehouse_sim.layout_building import LayoutBuilding
 
 GREETED = "~greeted"
-COORDINATOR = "/coordinator/demand"  # a parameter that a launch with a coordinator sets
+COORDINATOR = "coordinator/demand"  # a parameter that a launch with a coordinator sets
 
 
 class WarehouseService:
@@ -102,7 +102,7 @@ class WarehouseService:
     def _finish(self, transaction, name, number, floor, path=""):
         identity.write(self._ros, name, number)
         self._ros.set_param(identity.LAYOUT, path)
-        self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
+        self._ros.set_param("warehouse/floor", [float(edge) for edge in astuple(floor)])
         transaction.commit()
 
     def start(self, size: str) -> None:
@@ -142,6 +142,7 @@ class WarehouseService:
             found = survey.of_engine(engine)
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
         to_try = hints.commands(found, self._ros.has_param(COORDINATOR))
+        to_try = hints.within(self._ros.get_namespace(), to_try)
         self._tell(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
 

@@ -57,13 +57,13 @@ class StatePublisher:
         self._next: float | None = None  # when to publish again [s, simulated]
         self._newest = LatestMessages(
             ros,
-            fleet=("/warehouse/fleet", FleetState),
-            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
-            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
-            scenery=("/warehouse/scenery", Scenery),
+            fleet=("warehouse/fleet", FleetState),
+            objects=("warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("warehouse/unit_states", numpy_msg(UnitStates)),
+            scenery=("warehouse/scenery", Scenery),
         )
         self._floor = FloorReader(ros)
-        self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
+        self._topic = LazyPublisher(ros, "warehouse/state", WarehouseState, self.message)
 
     def message(self) -> WarehouseState | None:
         """Returns the newest WarehouseState, or None if nothing is known yet."""

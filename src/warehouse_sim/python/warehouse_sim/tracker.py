@@ -175,8 +175,8 @@ def follow(ros: Any, kind: Any, prefix: str) -> None:
     listing = LazyPublisher(ros, prefix, TrackedObjects, tracker.message)
     newest = LatestMessages(
         ros,
-        objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
-        states=("/warehouse/unit_states", numpy_msg(UnitStates)),
+        objects=("warehouse/objects", numpy_msg(WarehouseObjects)),
+        states=("warehouse/unit_states", numpy_msg(UnitStates)),
     )
     work_left = False
     while not ros.is_shutdown():

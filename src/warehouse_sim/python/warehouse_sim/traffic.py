@@ -27,8 +27,8 @@ class Traffic:
 
     def __init__(self, ros: Any, robots: int) -> None:
         self._way = dict.fromkeys(range(1, robots + 1), 1)
-        self._topic = ros.Publisher("/movx", MoveAlong, queue_size=0)
-        ros.Subscriber("/warehouse/events", Event, self._go_on, queue_size=100000)
+        self._topic = ros.Publisher("movx", MoveAlong, queue_size=0)
+        ros.Subscriber("warehouse/events", Event, self._go_on, queue_size=100000)
         while not self._topic.get_num_connections():
             time.sleep(0.05)
 

@@ -124,7 +124,7 @@ def wait_for_warehouse() -> WarehouseState:
         if state.kivas and state.storage_units and state.stations:
             found.append(state)
 
-    rospy.Subscriber("/warehouse/state", WarehouseState, look, queue_size=1)
+    rospy.Subscriber("warehouse/state", WarehouseState, look, queue_size=1)
     for _ in range(int(WAIT * 10)):
         if found:
             return found[-1]

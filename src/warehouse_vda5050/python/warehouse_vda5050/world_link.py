@@ -11,6 +11,7 @@ import numpy as np
 import rospy
 
 from warehouse_client.commands import COMMANDS
+from warehouse_client.services import is_offered
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_layout.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import (
@@ -29,6 +30,7 @@ from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.simulated_driver import Sighting
 
+SET_MODE = "warehouse/set_robot_mode"
 WAIT = 10.0  # for the scenery of the floor [s]
 TOWED = 0.02  # an idle lost robot that moves so far was moved by others [m]
 
@@ -47,17 +49,17 @@ class WorldLink:
         self.chargers: frozenset[tuple[int, int]] = frozenset()
         self.grid: Grid | None = None
         self._floor_of: tuple[int, frozenset[int]] | None = None
-        topics = ("/warehouse/follow", "/lift", "/cancel", "/stop")
+        topics = ("warehouse/follow", "lift", "cancel", "stop")
         self._topics = {
             topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
         }
-        self._mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        self._mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
         follow = rospy.Subscriber
-        follow("/warehouse/events", Event, self._on_event, queue_size=10000)
-        follow("/warehouse/people", People, self._on_people, queue_size=1)
-        follow("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
-        follow("/warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
-        follow("/warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
+        follow("warehouse/events", Event, self._on_event, queue_size=10000)
+        follow("warehouse/people", People, self._on_people, queue_size=1)
+        follow("warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
+        follow("warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
+        follow("warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -154,19 +156,19 @@ class WorldLink:
         """Publishes on /warehouse/follow."""
         x, y = zip(*points)
         message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
-        self._publish("/warehouse/follow", message)
+        self._publish("warehouse/follow", message)
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""
-        self._publish("/lift", Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+        self._publish("lift", Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
 
     def cancel(self, kiva_id: int) -> None:
         """Publishes on /cancel."""
-        self._publish("/cancel", kiva_id)
+        self._publish("cancel", kiva_id)
 
     def stop(self, kiva_id: int, stopped: bool) -> None:
         """Publishes on /stop."""
-        self._publish("/stop", kiva_id, stopped)
+        self._publish("stop", kiva_id, stopped)
 
     def _publish(self, topic: str, *fields: Any) -> None:
         with contextlib.suppress(rospy.ROSException):  # the node is being shut down
@@ -175,16 +177,18 @@ class WorldLink:
     def set_mode(self, kiva_id: int, mode: int) -> str:
         """Calls /warehouse/set_robot_mode; returns why not, '' if so or there is no coordinator."""
         try:
+            if not is_offered(rospy, SET_MODE):
+                return ""
             answer = self._mode(kiva_id, mode)
-        except (rospy.ServiceException, rospy.ROSException):
-            return ""
+        except (rospy.ServiceException, rospy.ROSException, OSError):
+            return ""  # it ends just now
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
 
 
 def _chargers(told: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
-        scenery = rospy.wait_for_message("/warehouse/scenery", Scenery, WAIT)
+        scenery = rospy.wait_for_message("warehouse/scenery", Scenery, WAIT)
         plan = FloorPlan.of_messages(told, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()

@@ -39,7 +39,7 @@ class FakeWorld(FakeRos):
         pass
 
     def ServiceProxy(self, name, kind, persistent):  # noqa: N802 (rospy's name)
-        call = getattr(self, name.removeprefix("/gazebo/").removeprefix("/warehouse/"))
+        call = getattr(self, name.removeprefix("gazebo/").removeprefix("warehouse/"))
         return _Proxy(call)
 
     def get_world_properties(self):

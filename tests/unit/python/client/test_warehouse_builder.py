@@ -46,9 +46,9 @@ def test_small_stands():
         "item": 96,
         "conveyor_belt": 2,
     }
-    assert world.parameters["/warehouse/name"] == "small"
-    assert world.parameters["/warehouse/id"] == 7
-    assert world.parameters["/warehouse/floor"] == [-10.5, 10.5, -6.5, 7.5]
+    assert world.parameters["warehouse/name"] == "small"
+    assert world.parameters["warehouse/id"] == 7
+    assert world.parameters["warehouse/floor"] == [-10.5, 10.5, -6.5, 7.5]
 
 
 def test_items_are_spawned_within_their_units():
@@ -117,7 +117,7 @@ def test_half_a_warehouse_is_taken_away_again(monkeypatch):
     assert not answer.success
     assert answer.message == "item5 is bad; the half-made warehouse was taken away"
     assert set(world.standing) == {FLOOR, "person1"}
-    assert world.parameters["/warehouse/name"] == ""
+    assert world.parameters["warehouse/name"] == ""
     assert not world.has_param(BUILDING)
 
 
@@ -256,10 +256,10 @@ def test_a_layout_file_takes_the_place_of_the_last(tmp_path):
     assert answer.success, answer.message
     assert answer.message.startswith("mine: 1 robot, 2 storage units, 2 items, 0 conveyor belts")
     assert counts(world)["kiva"] == 1 and "layout_walls1" not in world.standing
-    assert world.parameters["/warehouse/name"] == "mine"
-    assert world.parameters["/warehouse/layout"] == str(path)
+    assert world.parameters["warehouse/name"] == "mine"
+    assert world.parameters["warehouse/layout"] == str(path)
     ask(world, "small")
-    assert world.parameters["/warehouse/layout"] == ""
+    assert world.parameters["warehouse/layout"] == ""
 
 
 def test_a_layout_file_that_is_none_changes_nothing(tmp_path):

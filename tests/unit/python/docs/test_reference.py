@@ -34,12 +34,10 @@ BACK = re.compile(r"sentence|(?i:correct the value)|what (?:is|was) (?:accepted|
 MANY = 40  # refusals that one advice may be for
 # No topic and no service: parameters, files, and beginnings of names.
 OTHERS = {
-    "/warehouse",
     "/warehouse/checkpoints",
     "/warehouse/keyframe",
     "/warehouse/sizes",
     "/warehouse/building",
-    "/gazebo",
     "/gazebo/autosave",
 }
 
@@ -71,7 +69,7 @@ def named():
         if not source.is_file():
             continue
         text = source.read_text()
-        found |= set(re.findall(r'"(/(?:warehouse|gazebo)(?:/\w+)*)"', text))
+        found |= {f"/{one}" for one in re.findall(r'"/?((?:warehouse|gazebo)/\w+(?:/\w+)*)"', text)}
         found |= {
             f"/gazebo/{one}"
             for one in re.findall(r'node\.advertiseService(?:<[^>]*>)?\("(\w+)"', text)

@@ -219,3 +219,22 @@ def test_nodes_that_lie_on_no_grid(write):
     assert file.spacing == 1.0
     assert any(text.startswith("nodes were moved to the middle of their cells") for text in told)
     assert any("is neither along x nor along y: it got a corner" in text for text in told)
+
+
+def test_stations_one_above_the_other_are_told(write):
+    values = lif()
+    values["layouts"][0]["stations"] += [
+        {
+            "stationId": f"S1{level}",
+            "interactionNodeIds": ["R1"],
+            "stationName": f"rack {level}",
+            "stationHeight": height,
+        }
+        for level, height in zip("ABC", (0.0, 2.5, 5.0))
+    ]
+    file, told = formats.read(write(values))
+    assert told[-1] == (
+        "a cell has one place, on the floor; node R1 has 3: rack A at 0 m, rack B at 2.5 m,"
+        " rack C at 5 m"
+    )
+    assert file.floor[1, 2] == "s"

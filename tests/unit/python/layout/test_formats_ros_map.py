@@ -187,3 +187,26 @@ def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(FormatError) as error:
         formats.read(tmp_path / "none.yaml")
     assert str(error.value) == f"{tmp_path}/none.yaml: No such file or directory"
+
+
+def small(pixels, degrees):
+    """A room of so many pixels by four fifths of that, turned: (h, w) grey values."""
+    rows, columns = np.indices((2 * pixels + 6, 2 * pixels + 6)) - (pixels + 2.5)
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    x, y = c * columns - s * rows, -c * rows - s * columns
+    inside = np.maximum(abs(x) - pixels / 2, abs(y) - 0.4 * pixels)
+    grey = np.where(inside < 0, 254, 205)
+    grey[(inside >= 0) & (inside < 1.2)] = 0
+    return grey.astype(np.uint8)
+
+
+@pytest.mark.parametrize("pixels", [10, 20, 60])
+def test_how_sure_the_angle_of_a_small_picture_is(tmp_path, pixels):
+    for degrees in (-41.0, -29.5, -12.0, 7.0, 17.3, 32.7, 38.0):
+        path = write_map(tmp_path, small(pixels, degrees), resolution=0.5)
+        _, told = formats.read(path, spacing=0.5)
+        words = told[0].split()
+        assert words[:2] == ["turned", "by"] and words[3:7] == ["degrees,", "give", "or", "take"]
+        assert "--angle sets it" in told[0]
+        off = (float(words[2]) + degrees + 45) % 90 - 45
+        assert abs(off) <= float(words[7].rstrip(":")) <= math.degrees(1.6 / pixels)

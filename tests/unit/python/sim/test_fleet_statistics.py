@@ -17,7 +17,7 @@ def ros():
 
 def drive(ros, *poses):
     for x, y, yaw in poses:
-        ros.callbacks["/warehouse/fleet"](FleetState(kiva_id=[4], x=[x], y=[y], yaw=[yaw]))
+        ros.callbacks["warehouse/fleet"](FleetState(kiva_id=[4], x=[x], y=[y], yaw=[yaw]))
 
 
 def row(statistics, events=()):

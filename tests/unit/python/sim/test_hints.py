@@ -90,3 +90,12 @@ def test_a_survey_says_what_it_found():
     survey = of_models(dict.fromkeys(names, (0, 0, 0)))
     assert str(survey) == "1 robot, 2 storage units, 1 other model"
     assert str(Survey()) == "an empty floor"
+
+
+def test_in_a_namespace_the_names_are_those_within():
+    pairs = [("rostopic echo -n 1 /warehouse/state", "all"), ("rosrun warehouse_sim events", "")]
+    assert hints.within("/", pairs) == pairs
+    assert hints.within("/sim1/", pairs) == [
+        ("rostopic echo -n 1 /sim1/warehouse/state", "all"),
+        ("ROS_NAMESPACE=/sim1 rosrun warehouse_sim events", ""),
+    ]

@@ -32,12 +32,12 @@ class Stage(FakeRos):
     def event(self, kind, kiva, **fields):
         event = Event(kind=kind, model=f"kiva{kiva}", **fields)
         event.header.stamp = rospy.Time(self.seconds)
-        self.callbacks["/warehouse/events"](event)
+        self.callbacks["warehouse/events"](event)
 
     def status(self, kiva, status=KivaStatus.STATUS_IDLE, seconds=None):
         message = KivaStatus(kiva_id=kiva, status=status)
         message.header.stamp = rospy.Time(self.seconds if seconds is None else seconds)
-        self.callbacks[f"/kiva{kiva}/status"](message)
+        self.callbacks[f"kiva{kiva}/status"](message)
 
     def watch(self, kiva):
         self.executor.watch(kiva)
@@ -46,7 +46,7 @@ class Stage(FakeRos):
 
 def script(kiva, seen, steps=2):
     for step in range(steps):
-        event = yield command("/movx", kiva, distance=step)
+        event = yield command("movx", kiva, distance=step)
         seen.append((kiva, event.kind))
 
 
@@ -65,9 +65,9 @@ def test_commands_follow_each_other():
     stage.executor.play({3: script(3, seen)})
     assert seen == [(3, Event.DONE), (3, Event.BLOCKED)]
     assert [text for _, _, text in stage.said] == [
-        "/movx distance 0",
+        "movx distance 0",
         "DONE",
-        "/movx distance 1",
+        "movx distance 1",
         "BLOCKED",
     ]
 
@@ -93,7 +93,7 @@ def test_the_next_command_waits_until_the_robot_may_take_it():
     stage, seen = Stage((Event.BLOCKED,)), []
     stage.watch(1)
     stage.status = lambda kiva: Stage.status(stage, kiva, KivaStatus.STATUS_BLOCKED)
-    with pytest.raises(DeadlineError, match="waiting: kiva1 for /movx distance 0"):
+    with pytest.raises(DeadlineError, match="waiting: kiva1 for movx distance 0"):
         stage.executor.play({1: script(1, seen)})
     assert seen == []
 
@@ -110,7 +110,7 @@ def test_an_old_status_does_not_count():
 def test_nothing_starts_before_the_commands_are_heard():
     stage = Stage()
     stage.watch(1)
-    stage.publishers["/lift"].listeners = 0
+    stage.publishers["lift"].listeners = 0
     with pytest.raises(DeadlineError, match="waiting: no robot"):
         stage.executor.play({1: script(1, [])})
     assert stage.said == []
@@ -147,6 +147,6 @@ def test_waiting_for_a_condition_has_an_end():
 
 
 def test_a_command_reads_well():
-    wanted = command("/lift", 2, status=Lift.CARRY, shelf_id=7)
-    assert str(wanted) == "/lift status 1, shelf_id 7"
+    wanted = command("lift", 2, status=Lift.CARRY, shelf_id=7)
+    assert str(wanted) == "lift status 1, shelf_id 7"
     assert wanted.message.kiva_id == 2

@@ -19,7 +19,7 @@ class World(FakeRos):
         super().__init__()
         self.seconds = 10
         self.publisher = StatePublisher(self)
-        self.topic = self.publishers["/warehouse/state"]
+        self.topic = self.publishers["warehouse/state"]
         self.topic.connect()
 
     @property
@@ -28,7 +28,7 @@ class World(FakeRos):
 
     def tell(self, revision=1, seconds=10):
         self.seconds = seconds
-        self.callbacks["/warehouse/objects"](
+        self.callbacks["warehouse/objects"](
             WarehouseObjects(
                 revision=revision,
                 storage_units=["storage_unit3"],
@@ -39,13 +39,13 @@ class World(FakeRos):
                 kiva_id=[1, 4],
             )
         )
-        self.callbacks["/warehouse/unit_states"](
+        self.callbacks["warehouse/unit_states"](
             UnitStates(revision=revision, pose=[*poses.planar(5, 6, 0)], carrier=[4])
         )
 
     def drive(self, seconds):
         self.seconds = seconds
-        self.callbacks["/warehouse/fleet"](
+        self.callbacks["warehouse/fleet"](
             FleetState(
                 stamp=rospy.Time(seconds),
                 kiva_id=[1, 4],
@@ -71,7 +71,7 @@ def world():
 
 
 def test_everything_is_in_it(world):
-    world.parameters |= {"/warehouse/name": "small", "/warehouse/id": 9}
+    world.parameters |= {"warehouse/name": "small", "warehouse/id": 9}
     world.tell()
     world.drive(seconds=12)
     assert world.turn() == 1
@@ -105,7 +105,7 @@ def test_at_once_when_something_comes_or_goes(world):
 def test_a_new_name_is_seen_while_time_stands_still(world):
     world.tell()
     assert (world.turn(), world.turn()) == (1, 0)
-    world.parameters["/warehouse/name"] = "new"
+    world.parameters["warehouse/name"] = "new"
     assert (world.turn(), world.turn()) == (1, 0)
     assert world.topic.sent[-1].warehouse_name == "new"
 
@@ -133,9 +133,9 @@ def test_a_newcomer_gets_the_newest_at_once(world):
 
 @pytest.mark.parametrize("wrong", ["seven", 1.5, 2**40, True, [7]])
 def test_an_id_of_another_type_is_told_and_ends_nothing(world, wrong):
-    world.parameters["/warehouse/id"] = wrong
+    world.parameters["warehouse/id"] = wrong
     world.tell()
     assert world.turn() == 1
     world.topic.sent[-1].serialize(io.BytesIO())
     assert world.topic.sent[-1].warehouse_id == 0
-    assert "/warehouse/id is" in world.warnings[0]
+    assert "warehouse/id is" in world.warnings[0]

@@ -61,11 +61,11 @@ class Scene(FakeRos):
         super().__init__()
         self.warnings, self.numbers = [], list(range(1, robots + 1))
         self.picture = Picture(self)
-        self.topic = self.publishers["/warehouse/markers"]
+        self.topic = self.publishers["warehouse/markers"]
         self.topic.listeners = 1
         self.tell_scenery()
         self.drive()
-        self.callbacks["/warehouse/objects"](
+        self.callbacks["warehouse/objects"](
             WarehouseObjects(
                 storage_units=["storage_unit1", "storage_unit2"],
                 items=["item1", "item2"],
@@ -82,11 +82,11 @@ class Scene(FakeRos):
         out = Scenery(floor=floor, grid_spacing=1.0, looks=[KIVA, UNIT, ITEM, PERSON])
         out.kiva_look, out.storage_unit_look, out.item_look = 0, 1, 2
         out.models, out.model_look, out.pose = ["person1"], [3], [2, 1, 0, 0, 0, 0, 1]
-        self.callbacks["/warehouse/scenery"](out)
+        self.callbacks["warehouse/scenery"](out)
 
     def drive(self, x=1.0, status=KivaStatus.STATUS_IDLE, shelf=0, ended=0):
         others = len(self.numbers) - 1
-        self.callbacks["/warehouse/fleet"](
+        self.callbacks["warehouse/fleet"](
             FleetState(
                 kiva_id=self.numbers,
                 x=[x, *range(2, 2 + others)],
@@ -104,13 +104,13 @@ class Scene(FakeRos):
         x, y = zip(*corners) if corners else ((), ())
         ways = FleetPaths(kiva_id=[number][: len(corners)], points=[len(corners)][: len(corners)])
         ways.x, ways.y = x, y
-        self.callbacks["/warehouse/paths"](ways)
+        self.callbacks["warehouse/paths"](ways)
 
     def turn_unit(self, yaw, carrier=0, z=0.0):
         first = poses.planar(0, 0, 0)
         first[2] = z
         flat = [*first, *poses.planar(1, 1, yaw)]
-        self.callbacks["/warehouse/unit_states"](UnitStates(pose=flat, carrier=[carrier, 0]))
+        self.callbacks["warehouse/unit_states"](UnitStates(pose=flat, carrier=[carrier, 0]))
 
     def shown(self):
         """{name: marker} of what one more turn sends, as a subscriber reads it."""
@@ -121,7 +121,7 @@ class Scene(FakeRos):
         return {m.text or m.ns: m for message in sent for m in _read(message)}
 
     def click(self, x, y):
-        self.callbacks["/clicked_point"](PointStamped(point=Point(x, y, 0)))
+        self.callbacks["clicked_point"](PointStamped(point=Point(x, y, 0)))
 
     def sent(self, topic):
         return self.publishers[topic].sent
@@ -275,33 +275,33 @@ def test_paths_lead_from_the_robot_to_its_goal(scene):
 def test_a_path_is_told_while_somebody_listens(scene):
     scene.go(1, (3, 0), (3, 2))
     scene.shown()
-    assert scene.sent("/kiva1/path") == []
-    scene.publishers["/kiva1/path"].listeners = 1
+    assert scene.sent("kiva1/path") == []
+    scene.publishers["kiva1/path"].listeners = 1
     scene.drive(x=1.5)
     scene.shown()
-    (path,) = scene.sent("/kiva1/path")
+    (path,) = scene.sent("kiva1/path")
     at = [(p.pose.position.x, p.pose.position.y) for p in path.poses]
     assert at == [(1.5, 0), (3, 0), (3, 2)] and path.header.frame_id == "world"
     assert path.poses[1].pose.orientation.z == pytest.approx(math.sqrt(0.5))
     scene.shown()
-    assert len(scene.sent("/kiva1/path")) == 1
+    assert len(scene.sent("kiva1/path")) == 1
     scene.go(1)
     scene.shown()
-    assert scene.sent("/kiva1/path")[-1].poses == []
+    assert scene.sent("kiva1/path")[-1].poses == []
 
 
 def test_a_click_chooses_a_robot_and_a_goal_sends_it(scene):
     scene.shown()
     goal = PoseStamped()
     goal.pose.position = Point(4.4, -1.6, 0)
-    scene.callbacks["/move_base_simple/goal"](goal)
-    assert "Publish Point" in scene.warnings[0] and not scene.sent("/mov")
+    scene.callbacks["move_base_simple/goal"](goal)
+    assert "Publish Point" in scene.warnings[0] and not scene.sent("mov")
     scene.click(2.3, 0.2)
     scene.drive()
     low, high = extent(scene.shown()["chosen"])
     assert [*low[:2], *high[:2]] == pytest.approx([1.52, -0.48, 2.48, 0.48])
-    scene.callbacks["/move_base_simple/goal"](goal)
-    (sent,) = scene.sent("/mov")
+    scene.callbacks["move_base_simple/goal"](goal)
+    (sent,) = scene.sent("mov")
     assert (sent.kiva_id, sent.x, sent.y) == (2, 4, -2)
 
 
@@ -309,8 +309,8 @@ def test_the_laser_of_the_chosen_is_told_again(scene):
     scene.shown()
     scene.click(1.1, 0)
     scan = LaserScan(ranges=[1.0])
-    scene.callbacks["/kiva1/chassis/laser/scan"](scan)
-    assert scene.sent("/warehouse/chosen/scan") == [scan]
+    scene.callbacks["kiva1/chassis/laser/scan"](scan)
+    assert scene.sent("warehouse/chosen/scan") == [scan]
     scene.click(50, 50)
     scene.drive()
-    assert "/kiva1/chassis/laser/scan" not in scene.callbacks
+    assert "kiva1/chassis/laser/scan" not in scene.callbacks

@@ -72,7 +72,7 @@ class Shift:
     def tell(self, topic, kind, **fields):
         self.seq[topic] = self.seq.get(topic, 0) + 1
         header = Header(seq=self.seq[topic], stamp=rospy.Time(60))
-        self.ros.callbacks[f"/warehouse/{topic}"](kind(header=header, **fields))
+        self.ros.callbacks[f"warehouse/{topic}"](kind(header=header, **fields))
 
     def orders(self, *numbers, **fields):
         rows = [msg.OrderStatus(order_id=number, **fields) for number in numbers]

@@ -115,20 +115,20 @@ def ros(monkeypatch):
 
 
 def test_a_coordinator_that_is_silent_or_gone_is_none(ros):
-    ros.callbacks["/warehouse/coordinator"](state(1.0, automatic=2))
-    ros.callbacks["/warehouse/fleet"](fleet(stamp=60.0))
+    ros.callbacks["warehouse/coordinator"](state(1.0, automatic=2))
+    ros.callbacks["warehouse/fleet"](fleet(stamp=60.0))
     assert ros.feed.coordinator.automatic == 2  # time passes fast
     ros.wall += feeds.SILENT + 1
     assert ros.feed.coordinator is None
-    ros.callbacks["/warehouse/fleet"](fleet(stamp=1.5))
+    ros.callbacks["warehouse/fleet"](fleet(stamp=1.5))
     assert ros.feed.coordinator  # time stands still
     ros.coordinators = 0
     assert ros.feed.coordinator is None
 
 
 def test_one_that_refuses_the_floor_says_so_as_long_as_it_lives(ros):
-    ros.callbacks["/warehouse/coordinator"](state(1.0, alarms=["a deadlock"]))
-    ros.callbacks["/warehouse/fleet"](fleet(stamp=60.0))
+    ros.callbacks["warehouse/coordinator"](state(1.0, alarms=["a deadlock"]))
+    ros.callbacks["warehouse/fleet"](fleet(stamp=60.0))
     ros.wall += feeds.SILENT + 1
     assert ros.feed.coordinator.alarms == ["a deadlock"]
 

@@ -195,7 +195,7 @@ def command(events, until_end, timeout=1.0):
     async def scenario():
         commander = Commander(FakeRos())
         fields = {"direction": 1}
-        waiting = asyncio.create_task(commander.send("/rot", 1, fields, until_end, timeout))
+        waiting = asyncio.create_task(commander.send("rot", 1, fields, until_end, timeout))
         await settle()
         for kind, model, *number in events:
             known = {"command": number[0] if number else 7}

@@ -3,6 +3,12 @@
 
 namespace kiva_ros {
 
+std::string withoutNamespace(const std::string& resolved) {
+  const std::string& own = ros::this_node::getNamespace();  // "/" at the root
+  const bool is_within = own != "/" && resolved.rfind(own + "/", 0) == 0;
+  return is_within ? resolved.substr(own.size()) : resolved;
+}
+
 void PluginInputs::forEach(const std::function<void(const std::shared_ptr<InputTopic>&)>& act) {
   for (auto at = topics_.begin(); at != topics_.end();) {
     const auto topic = at->second.lock();

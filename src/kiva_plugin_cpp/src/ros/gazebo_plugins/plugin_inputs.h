@@ -40,8 +40,10 @@ class TypedInputTopic : public InputTopic {
  public:
   using Pointer = boost::shared_ptr<const Message>;
 
-  /// `name`: resolved. `live`: whether to subscribe; a replay does not.
-  TypedInputTopic(ros::NodeHandle& node, const std::string& name, bool live) : name_(name) {
+  /// `recorded_as`: its name in a recording. `live`: whether to subscribe; a replay does not.
+  TypedInputTopic(ros::NodeHandle& node, const std::string& name, const std::string& recorded_as,
+                  bool live)
+      : recorded_as_(recorded_as) {
     if (!live) return;
     const boost::function<void(const Pointer&)> keep = [this](const Pointer& m) { receive(m); };
     subscriber_ = node.subscribe<Message>(name, 1, keep, ros::VoidConstPtr(),
@@ -57,7 +59,7 @@ class TypedInputTopic : public InputTopic {
   }
   void discard() override { receive(nullptr); }
   void write(rosbag::Bag& bag, const ros::Time& stamp) const override {
-    bag.write(name_, stamp, *current_);
+    bag.write(recorded_as_, stamp, *current_);
   }
   void replay(const rosbag::MessageInstance& recorded) override {
     if (const auto message = recorded.instantiate<Message>()) receive(message);
@@ -73,7 +75,7 @@ class TypedInputTopic : public InputTopic {
     newest_ = message;
   }
 
-  const std::string name_;
+  const std::string recorded_as_;
   std::mutex mutex_;
   Pointer newest_;  ///< Guarded by mutex_.
   Pointer current_;
@@ -126,20 +128,23 @@ class PluginInputs : public StepHook {
   void forEach(const std::function<void(const std::shared_ptr<InputTopic>&)>& act);
 
   const bool live_;
-  std::map<std::string, std::weak_ptr<InputTopic>> topics_;  ///< By resolved name.
+  std::map<std::string, std::weak_ptr<InputTopic>> topics_;  ///< By their names in a recording.
   std::function<void(std::shared_ptr<const InputTopic>)> on_message_;
 };
 
+/// Returns what a topic is called where its world is in no namespace: recordings know of none.
+std::string withoutNamespace(const std::string& resolved);
+
 template <typename Message>
 PluginInput<Message> PluginInputs::subscribe(ros::NodeHandle& node, const std::string& topic) {
-  const std::string name = node.resolveName(topic);
-  std::weak_ptr<InputTopic>& slot = topics_[name];
+  const std::string name = node.resolveName(topic), recorded_as = withoutNamespace(name);
+  std::weak_ptr<InputTopic>& slot = topics_[recorded_as];
   if (const auto known = slot.lock()) {
     const auto same = std::dynamic_pointer_cast<TypedInputTopic<Message>>(known);
     if (!same) throw std::runtime_error("topic " + name + " is subscribed to with another type");
     return PluginInput<Message>(same);
   }
-  const auto made = std::make_shared<TypedInputTopic<Message>>(node, name, live_);
+  const auto made = std::make_shared<TypedInputTopic<Message>>(node, name, recorded_as, live_);
   slot = made;
   return PluginInput<Message>(made);
 }

@@ -43,8 +43,8 @@ struct MessageType {
   using Message = T;
 };
 
-/// Calls `visit(MessageType<Message>(), topic, toOrders)` for each of the topics, where
-/// toOrders(message) are Orders.
+/// Calls `visit(MessageType<Message>(), topic, toOrders)` for each of the topics, whose names are
+/// those in the world's namespace, where toOrders(message) are Orders.
 template <typename Visit>
 void forEachCommandTopic(Visit visit) {
   using Kind = kiva::Command::Kind;
@@ -53,15 +53,15 @@ void forEachCommandTopic(Visit visit) {
   const auto along_x = [](const MoveAlong& m) { return Orders{fromMessage(m, Kind::kMoveX)}; };
   const auto along_y = [](const MoveAlong& m) { return Orders{fromMessage(m, Kind::kMoveY)}; };
   const auto each = [](const warehouse_msgs::FleetFollow& m) { return fromMessage(m); };
-  visit(MessageType<warehouse_msgs::MoveTo>(), "/mov", as_is);
-  visit(MessageType<MoveAlong>(), "/movx", along_x);
-  visit(MessageType<MoveAlong>(), "/movy", along_y);
-  visit(MessageType<warehouse_msgs::Rotate>(), "/rot", as_is);
-  visit(MessageType<warehouse_msgs::Lift>(), "/lift", as_is);
-  visit(MessageType<warehouse_msgs::FollowPath>(), "/follow", as_is);
-  visit(MessageType<warehouse_msgs::FleetFollow>(), "/warehouse/follow", each);
-  visit(MessageType<warehouse_msgs::Cancel>(), "/cancel", as_is);
-  visit(MessageType<warehouse_msgs::Stop>(), "/stop", as_is);
+  visit(MessageType<warehouse_msgs::MoveTo>(), "mov", as_is);
+  visit(MessageType<MoveAlong>(), "movx", along_x);
+  visit(MessageType<MoveAlong>(), "movy", along_y);
+  visit(MessageType<warehouse_msgs::Rotate>(), "rot", as_is);
+  visit(MessageType<warehouse_msgs::Lift>(), "lift", as_is);
+  visit(MessageType<warehouse_msgs::FollowPath>(), "follow", as_is);
+  visit(MessageType<warehouse_msgs::FleetFollow>(), "warehouse/follow", each);
+  visit(MessageType<warehouse_msgs::Cancel>(), "cancel", as_is);
+  visit(MessageType<warehouse_msgs::Stop>(), "stop", as_is);
 }
 
 }  // namespace kiva_ros

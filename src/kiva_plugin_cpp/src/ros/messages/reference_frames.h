@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference frames of Gazebo's services: empty, world, map and /map are inertial, otherwise a
-// model or `model::link`.
+// The entities and reference frames that Gazebo's services name: `model::link`, or the name of a
+// model or link alone. As frames empty, world, map and /map are inertial.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,20 @@
 
 namespace kiva_ros {
 
+/// A model's name, and that of a link or joint in it; the second is empty for the model itself.
+using ScopedName = std::pair<std::string, std::string>;
+
 /// Returns the two names in `model::link`, or a model's name alone.
-std::pair<std::string, std::string> splitScoped(const std::string& name);
+ScopedName splitScoped(const std::string& name);
+
+/// Returns the model or link that a name means, as Gazebo's World::EntityByName does: by its scoped
+/// name, or the first called so, each model before its links, models in the order in which they
+/// were added. Returns nothing if there is none.
+std::optional<ScopedName> findEntity(const kiva::World& world, const std::string& name);
 
 /// Returns the model and the name in it of a joint, given as `model::joint` or by its name alone,
 /// of the first model with such a joint. Returns nothing if there is none.
-std::optional<std::pair<std::string, std::string>> findJoint(const kiva::World& world,
-                                                             const std::string& name);
+std::optional<ScopedName> findJoint(const kiva::World& world, const std::string& name);
 
 /// Returns whether a frame is the world's own.
 bool isInertial(const std::string& frame);

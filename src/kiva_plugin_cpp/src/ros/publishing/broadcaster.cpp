@@ -34,26 +34,26 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
     : snapshots_(snapshots),
       robots_(root, subscribers),
       transforms_(root, subscribers),
-      clock_(root, "/clock", kStreamQueue, [](int) {}),
-      events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
-      collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
-      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
+      clock_(root, "clock", kStreamQueue, [](int) {}),
+      events_(root.advertise<warehouse_msgs::Event>("warehouse/events", kEventQueue)),
+      collisions_(root.advertise<warehouse_msgs::Collision>("warehouse/collisions", kEventQueue)),
+      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("warehouse/objects", kStreamQueue,
                                                                 kLatched)),
-      units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kStreamQueue,
+      units_(root.advertise<warehouse_msgs::UnitStates>("warehouse/unit_states", kStreamQueue,
                                                         kLatched)),
-      people_(root.advertise<warehouse_msgs::People>("/warehouse/people", kStreamQueue, kLatched)) {
+      people_(root.advertise<warehouse_msgs::People>("warehouse/people", kStreamQueue, kLatched)) {
   fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
-      root, "/warehouse/fleet", kStreamQueue,
+      root, "warehouse/fleet", kStreamQueue,
       [&subscribers](int change) { subscribers.count(SubscriberCounts::Topic::kFleet, change); });
   hash_ = advertiseCounted<std_msgs::String>(
-      root, "/warehouse/state_hash", kStreamQueue, [&subscribers](int change) {
+      root, "warehouse/state_hash", kStreamQueue, [&subscribers](int change) {
         subscribers.count(SubscriberCounts::Topic::kStateHash, change);
       });
   const auto count_models = [&subscribers](int change) {
     subscribers.count(SubscriberCounts::Topic::kModelStates, change);
   };
   model_states_ =
-      advertiseCounted<gazebo_msgs::ModelStates>(root, "/model_states", kStreamQueue, count_models);
+      advertiseCounted<gazebo_msgs::ModelStates>(root, "model_states", kStreamQueue, count_models);
   gazebo_model_states_ =
       advertiseCounted<gazebo_msgs::ModelStates>(node, "model_states", kStreamQueue, count_models);
   link_states_ = advertiseCounted<gazebo_msgs::LinkStates>(

@@ -43,7 +43,7 @@ std::function<void(int)> RobotTopics::counter(SubscriberCounts::RobotTopic topic
 
 RobotTopics::Topics RobotTopics::advertise(const RobotInfo& robot) {
   using Kind = SubscriberCounts::RobotTopic;
-  const std::string name = "/kiva" + std::to_string(robot.id);
+  const std::string name = "kiva" + std::to_string(robot.id);
   Topics out;
   out.laser = robot.laser;
   out.status = LatchedPublisher<warehouse_msgs::KivaStatus>(node_, name + "/status", kStatusQueue,

@@ -27,11 +27,11 @@ kiva::Pose raised(const kiva::Pose& tower, double height) {
 
 RobotTransforms::RobotTransforms(ros::NodeHandle& node, SubscriberCounts& subscribers)
     : moving_(advertiseCounted<tf2_msgs::TFMessage>(
-          node, "/tf", kQueue,
+          node, "tf", kQueue,
           [&subscribers](int change) {
             subscribers.count(SubscriberCounts::Topic::kTransforms, change);
           })),
-      fixed_(node.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {}
+      fixed_(node.advertise<tf2_msgs::TFMessage>("tf_static", kQueue, true)) {}
 
 void RobotTransforms::update(const RobotInfos& robots) {
   robots_.clear();

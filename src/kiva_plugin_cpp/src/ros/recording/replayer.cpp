@@ -29,7 +29,7 @@ std::string checkpointIn(const rosbag::MessageInstance& message) {
 Orders ordersIn(const rosbag::MessageInstance& message) {
   Orders out;
   forEachCommandTopic([&](auto type, const char* topic, auto toOrders) {
-    if (message.getTopic() != topic) return;
+    if (message.getTopic() != std::string("/") + topic) return;
     const auto command = message.instantiate<typename decltype(type)::Message>();
     if (command) out = toOrders(*command);
   });

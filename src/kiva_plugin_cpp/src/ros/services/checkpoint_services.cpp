@@ -25,9 +25,9 @@ std::string seconds(double time) {
 CheckpointServices::CheckpointServices(ros::NodeHandle& root, SimulationThread& simulation,
                                        const Options& options)
     : simulation_(simulation), options_(options), store_(options.folder, options.most_bytes) {
-  servers_ = {root.advertiseService("/warehouse/checkpoint", &CheckpointServices::save, this),
-              root.advertiseService("/warehouse/restore", &CheckpointServices::restore, this),
-              root.advertiseService("/warehouse/undo", &CheckpointServices::undo, this)};
+  servers_ = {root.advertiseService("warehouse/checkpoint", &CheckpointServices::save, this),
+              root.advertiseService("warehouse/restore", &CheckpointServices::restore, this),
+              root.advertiseService("warehouse/undo", &CheckpointServices::undo, this)};
 }
 
 bool CheckpointServices::save(Request& request, Response& response) {

@@ -27,7 +27,7 @@ CommandTopics::CommandTopics(ros::NodeHandle& root, SimulationThread& simulation
         simulation.command(fromMessage(*message), message->timeline);
       };
   subscribers_.push_back(root.subscribe<warehouse_msgs::FleetOrders>(
-      "/warehouse/fleet_orders", kUnlimited, post, ros::VoidConstPtr(),
+      "warehouse/fleet_orders", kUnlimited, post, ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay()));
 }
 

@@ -24,7 +24,7 @@ void act(kiva::World& world, const FailRequest& request) {
 
 FailureService::FailureService(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(root.advertiseService("/warehouse/fail", &FailureService::fail, this)) {}
+      server_(root.advertiseService("warehouse/fail", &FailureService::fail, this)) {}
 
 bool FailureService::fail(warehouse_msgs::Fail::Request& request,
                           warehouse_msgs::Fail::Response& response) {

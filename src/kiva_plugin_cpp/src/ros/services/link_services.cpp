@@ -25,12 +25,11 @@ constexpr int kSetLinkQueue = 10;
 
 /// Returns the model and the link that a name means. Throws Refusal with that text if there is no
 /// such link.
-std::pair<std::string, std::string> linkNamed(const kiva::World& world, const std::string& name,
-                                              const std::string& no_link) {
-  const auto scoped = splitScoped(name);
-  const auto model = world.description(scoped.first);
-  if (scoped.second.empty() || !model || !model->findLink(scoped.second)) throw Refusal(no_link);
-  return scoped;
+ScopedName linkNamed(const kiva::World& world, const std::string& name,
+                     const std::string& no_link) {
+  const auto entity = findEntity(world, name);
+  if (!entity || entity->second.empty()) throw Refusal(no_link);
+  return *entity;
 }
 
 kiva::EntityState frameNamed(const kiva::World& world, const std::string& name,
@@ -185,9 +184,9 @@ LinkServices::LinkServices(ros::NodeHandle& node, SimulationThread& simulation)
       }));
   const boost::function<bool(BodyRequest::Request&, BodyRequest::Response&)> clear =
       [&simulation](BodyRequest::Request& request, BodyRequest::Response&) {
-        const auto [model, link] = splitScoped(request.body_name);
-        simulation.post([&simulation, model = model, link = link](kiva::World& world) {
+        simulation.post([&simulation, body = request.body_name](kiva::World& world) {
           simulation.noteChange();
+          const auto [model, link] = findEntity(world, body).value_or(splitScoped(body));
           world.clearWrenches(model, link);
         });
         return true;

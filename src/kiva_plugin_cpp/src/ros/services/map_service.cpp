@@ -5,7 +5,7 @@ namespace kiva_ros {
 
 MapService::MapService(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(root.advertiseService("/warehouse/map", &MapService::get, this)) {}
+      server_(root.advertiseService("warehouse/map", &MapService::get, this)) {}
 
 bool MapService::get(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response) {
   const kiva::Occupancy found =

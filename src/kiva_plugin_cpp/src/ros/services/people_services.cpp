@@ -51,9 +51,9 @@ PeopleServices::PeopleServices(ros::NodeHandle& root, SimulationThread& simulati
                                kiva::ModelPaths model_paths)
     : simulation_(simulation),
       model_paths_(std::move(model_paths)),
-      person_(root.advertiseService("/warehouse/person", &PeopleServices::walk, this)),
+      person_(root.advertiseService("warehouse/person", &PeopleServices::walk, this)),
       light_curtain_(
-          root.advertiseService("/warehouse/light_curtain", &PeopleServices::setCurtain, this)) {}
+          root.advertiseService("warehouse/light_curtain", &PeopleServices::setCurtain, this)) {}
 
 bool PeopleServices::walk(warehouse_msgs::Person::Request& request,
                           warehouse_msgs::Person::Response& response) {

@@ -26,7 +26,7 @@ std::string pickUpAll(kiva::World& world) {
 
 PickUpService::PickUpService(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
-      server_(root.advertiseService("/warehouse/pick_up", &PickUpService::pickUp, this)) {}
+      server_(root.advertiseService("warehouse/pick_up", &PickUpService::pickUp, this)) {}
 
 bool PickUpService::pickUp(warehouse_msgs::PickUp::Request& request,
                            warehouse_msgs::PickUp::Response& response) {

@@ -48,7 +48,7 @@ void moveAll(kiva::World& world, const warehouse_msgs::FleetState& m) {
 }  // namespace
 
 ShadowTopic::ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs)
-    : input_(inputs.subscribe<warehouse_msgs::FleetState>(root, "/warehouse/shadows")) {}
+    : input_(inputs.subscribe<warehouse_msgs::FleetState>(root, "warehouse/shadows")) {}
 
 bool ShadowTopic::beforeStep(kiva::World& world) {
   if (const warehouse_msgs::FleetState* told = input_.take()) moveAll(world, *told);

@@ -42,7 +42,7 @@ kiva::EntityState seenFrom(const kiva::World& world, const std::string& frame_na
 StateServices::StateServices(ros::NodeHandle& root, ros::NodeHandle& node,
                              SimulationThread& simulation)
     : simulation_(simulation) {
-  servers_ = {root.advertiseService("/get_model_state", &StateServices::getModel, this),
+  servers_ = {root.advertiseService("get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_properties", &StateServices::getProperties, this),
               node.advertiseService("set_model_state", &StateServices::setModel, this)};

@@ -17,9 +17,9 @@ constexpr int kLatestOnly = 1;
 VisualizationTopics::VisualizationTopics(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
       scenery_topic_(root.advertise<warehouse_msgs::Scenery>(
-          "/warehouse/scenery", kLatestOnly,
+          "warehouse/scenery", kLatestOnly,
           [this](const ros::SingleSubscriberPublisher&) { newcomer_ = true; })),
-      paths_topic_(root.advertise<warehouse_msgs::FleetPaths>("/warehouse/paths", kLatestOnly)),
+      paths_topic_(root.advertise<warehouse_msgs::FleetPaths>("warehouse/paths", kLatestOnly)),
       timer_(root.createWallTimer(ros::WallDuration(1 / kDrawnRate),
                                   [this](const ros::WallTimerEvent&) { publish(); })) {}
 

@@ -31,6 +31,7 @@ class _Reading:
     graph: Graph = field(default_factory=Graph)
     types: set[str] = field(default_factory=set)  # of vehicles
     extras: Counter[str] = field(default_factory=Counter)
+    stations: dict[str, list[str]] = field(default_factory=dict)  # names, by node
 
 
 def read(path: PathName) -> tuple[LayoutFile, list[str]]:
@@ -121,6 +122,9 @@ def _take_stations(layout: Fields, reading: _Reading) -> None:
         nodes = one.texts("interactionNodeIds")
         if not nodes or not set(nodes) <= reading.graph.nodes.keys():
             one.fail("interactionNodeIds", "name no node that there is")
+        height = f" at {one.number('stationHeight'):g} m" if "stationHeight" in one else ""
+        for node in nodes:
+            reading.stations.setdefault(node, []).append(name + height)
         kinds = {reading.graph.nodes[n].kind for n in nodes}
         kind = _kind(f"{name} {about}", "charging" if "charging" in kinds else "pick")
         if kind not in ("pick", "replenish"):
@@ -138,6 +142,11 @@ def _unsaid(reading: _Reading) -> list[str]:
     out = [
         f"a layout holds no {name}: left out {plural(n, 'time')}"
         for name, n in reading.extras.items()
+    ]
+    out += [
+        f"a cell has one place, on the floor; node {node} has {len(names)}: {', '.join(names)}"
+        for node, names in reading.stations.items()
+        if len(names) > 1
     ]
     if len(reading.types) > 1:
         names = ", ".join(sorted(reading.types))

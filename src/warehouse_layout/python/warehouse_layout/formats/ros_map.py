@@ -28,6 +28,8 @@ from warehouse_layout.formats.map_cells import Picture
 from warehouse_layout.layout_file import LayoutFile
 
 SPECK = 0.12  # what is smaller than this along x and y is noise [m]
+OFF = 1.5  # pixels that walls are off their axis at their ends, at most, where an angle was found
+CLEAR = math.radians(0.5)  # an angle that is right within this is told without a doubt
 ISLAND = 4  # cells of floor that are joined to no other: fewer are noise
 
 MODES = ("trinary", "scale", "raw")
@@ -45,11 +47,12 @@ def read(
     picture, specks = _without_specks(_picture(Path(path)))
     if not picture.free.any():
         raise FormatError(f"{path}: no pixel is free: see negate, free_thresh and the picture")
+    within = 0.0
     if angle is None:
-        angle = _angle(picture)
+        angle, within = _angle(picture)
     floor = map_cells.floor_of(path, picture, angle, spacing)
     floor, islands = _without_islands(floor)
-    told = [f"turned by {math.degrees(angle):.2f} degrees"] if angle else []
+    told = [f"turned by {math.degrees(angle):.2f} degrees{_doubt(within)}"] if angle else []
     told += [f"{plural(specks, 'speck')} of noise left out"] if specks else []
     told += (
         [f"{plural(islands, 'cell')} of floor without a way to the others left out"]
@@ -135,12 +138,24 @@ def _without_specks(picture: Picture) -> tuple[Picture, int]:
     return replace(picture, occupied=occupied, free=free), count - int(keep.sum())
 
 
-def _angle(picture: Picture) -> float:
-    """Returns the angle [rad] by which the picture must be turned, as its walls lie."""
+def _angle(picture: Picture) -> tuple[float, float]:
+    """Returns the angle [rad] by which the picture must be turned, as its walls lie, and within
+    which [rad] that is right."""
     count = int(np.count_nonzero(picture.occupied))
     every = max(1, count // straight.MOST_POINTS)
     points = list(picture.points(picture.occupied, every))
-    return straight.angle_of(points[0], picture.resolution) if points else 0.0
+    if not points:
+        return 0.0, 0.0
+    angle = straight.angle_of(points[0], picture.resolution)
+    longest = np.ptp(straight.turned(points[0], angle), axis=0).max()
+    return angle, math.atan2(OFF * picture.resolution, longest)
+
+
+def _doubt(within: float) -> str:
+    """Returns what is added to an angle that is right within another [rad]."""
+    if within < CLEAR:
+        return ""
+    return f", give or take {math.degrees(within):.1f}: the picture is small; --angle sets it"
 
 
 def _without_islands(floor: np.ndarray) -> tuple[np.ndarray, int]:

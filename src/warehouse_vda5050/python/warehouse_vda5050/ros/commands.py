@@ -38,19 +38,19 @@ class CommandTopics:
     ) -> None:
         self._numbers, self._post, self._timeline = numbers, post, timeline
         for topic, kind, take in (
-            ("/follow", FollowPath, self._on_follow),
-            ("/warehouse/follow", FleetFollow, self._on_fleet_follow),
-            ("/warehouse/fleet_orders", FleetOrders, self._on_orders),
-            ("/lift", Lift, self._on_lift),
-            ("/cancel", Cancel, self._on_cancel),
-            ("/stop", Stop, self._on_stop),
+            ("follow", FollowPath, self._on_follow),
+            ("warehouse/follow", FleetFollow, self._on_fleet_follow),
+            ("warehouse/fleet_orders", FleetOrders, self._on_orders),
+            ("lift", Lift, self._on_lift),
+            ("cancel", Cancel, self._on_cancel),
+            ("stop", Stop, self._on_stop),
         ):
             rospy.Subscriber(topic, kind, take, queue_size=QUEUE, tcp_nodelay=True)
         for topic, other, what in (
-            ("/mov", MoveTo, "way of its own to a point"),
-            ("/movx", MoveAlong, "distance along x"),
-            ("/movy", MoveAlong, "distance along y"),
-            ("/rot", Rotate, "turn"),
+            ("mov", MoveTo, "way of its own to a point"),
+            ("movx", MoveAlong, "distance along x"),
+            ("movy", MoveAlong, "distance along y"),
+            ("rot", Rotate, "turn"),
         ):
             rospy.Subscriber(topic, other, self._on_other, what, queue_size=QUEUE)
 

@@ -13,7 +13,7 @@ from warehouse_vda5050.grid import Grid
 
 def read_map() -> Any:
     """Returns the nav_msgs/OccupancyGrid of the floor now. Raises rospy.ServiceException."""
-    return rospy.ServiceProxy("/warehouse/map", GetMap)().map
+    return rospy.ServiceProxy("warehouse/map", GetMap)().map
 
 
 def grid_of(told: Any) -> Grid:

@@ -13,6 +13,7 @@ from queue import Empty, SimpleQueue
 import rospy
 
 from warehouse_client.engine import Engine, EngineError
+from warehouse_client.services import is_offered
 from warehouse_client.warehouse import Warehouse
 from warehouse_fleet.message_enums import EventKind as Kind
 from warehouse_fleet.message_enums import FailureKind, Mode
@@ -31,6 +32,7 @@ from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.telling import BrokerTopic, masters_message
 from warehouse_vda5050.topics import Identity
 
+SET_MODE = "warehouse/set_robot_mode"
 PERIOD = 0.1  # of shadows [s, wall]
 Send = Callable[[Identity, Order | InstantActions], None]
 MODES = {True: Mode.AUTOMATIC, False: Mode.MANUAL}  # by whether the vehicle takes orders
@@ -55,10 +57,10 @@ class Master:
         self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
         self._spawned: set[int] = set()
         self._modes: dict[int, bool] = {}
-        self._shadows = rospy.Publisher("/warehouse/shadows", FleetState, queue_size=10)
-        self._events = rospy.Publisher("/warehouse/events", Event, queue_size=1000)
+        self._shadows = rospy.Publisher("warehouse/shadows", FleetState, queue_size=10)
+        self._events = rospy.Publisher("warehouse/events", Event, queue_size=1000)
         self._at_broker = BrokerTopic()
-        self._set_mode = rospy.ServiceProxy("/warehouse/set_robot_mode", SetRobotMode)
+        self._set_mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
 
@@ -165,9 +167,11 @@ class Master:
             self._modes[number] = True  # as it was added
             return
         try:
+            if not is_offered(rospy, SET_MODE):
+                return  # no coordinator runs
             answer = self._set_mode(number, MODES[takes])
-        except rospy.ServiceException:
-            return  # no coordinator runs
+        except (rospy.ServiceException, OSError):
+            return  # it ends just now
         if answer.success:
             self._modes[number] = takes
 

@@ -9,9 +9,9 @@ from warehouse_viewer.page.source import RefusedError
 from warehouse_viewer.ros.simulation import is_offered, request
 
 SERVICES = {
-    Transport: "/warehouse/transport",
-    ReleaseTransport: "/warehouse/release_transport",
-    SetRobotMode: "/warehouse/set_robot_mode",
+    Transport: "warehouse/transport",
+    ReleaseTransport: "warehouse/release_transport",
+    SetRobotMode: "warehouse/set_robot_mode",
 }
 NONE_RUNS = "no coordinator runs: start with coordinator:=true"
 _MODES = {name: number for number, name in MODE.items()}

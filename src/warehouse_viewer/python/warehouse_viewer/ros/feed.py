@@ -26,12 +26,12 @@ from warehouse_viewer.ros.simulation import Standing
 from warehouse_viewer.ros.vda5050_feed import Vda5050Feed
 
 TOPICS = {
-    "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
-    "objects": ("/warehouse/objects", WarehouseObjects),
-    "states": ("/warehouse/unit_states", numpy_msg(UnitStates)),
-    "scenery": ("/warehouse/scenery", Scenery),
-    "coordinator": ("/warehouse/coordinator", CoordinatorState),
-    "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
+    "fleet": ("warehouse/fleet", numpy_msg(FleetState)),
+    "objects": ("warehouse/objects", WarehouseObjects),
+    "states": ("warehouse/unit_states", numpy_msg(UnitStates)),
+    "scenery": ("warehouse/scenery", Scenery),
+    "coordinator": ("warehouse/coordinator", CoordinatorState),
+    "performance": ("gazebo/performance_metrics", PerformanceMetrics),
 }
 SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
 KEPT = ("fleet", "coordinator")  # heard all the time: their history is told
@@ -58,8 +58,8 @@ class Feed:
         self._extras: dict[str, Any] = {}
         self._used, self._coordinated = 0.0, 0.0
         self.vda5050 = Vda5050Feed(ros)
-        ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
-        topic = "/warehouse/transports"
+        ros.Subscriber("warehouse/events", Event, on_event, queue_size=10000)
+        topic = "warehouse/transports"
         ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
 
     def __getitem__(self, name: str) -> Any:
@@ -150,13 +150,13 @@ class Feed:
 
     def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
         """Subscribes to paths, to ways, and to the scans of exactly these robots (ids)."""
-        wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        wanted = {f"scan{n}": (f"kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
-            wanted["frames"] = ("/tf_static", TFMessage)
+            wanted["frames"] = ("tf_static", TFMessage)
         if paths:
-            wanted["paths"] = ("/warehouse/paths", FleetPaths)
+            wanted["paths"] = ("warehouse/paths", FleetPaths)
         if ways:
-            wanted["ways"] = ("/warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
+            wanted["ways"] = ("warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
         with self._lock:
             for name in self._extras.keys() - wanted.keys():
                 self._extras.pop(name).unregister()

@@ -31,7 +31,7 @@ class OperationsClient:
 
     def request(self, service: str, kind: Any, *fields: Any) -> Any:
         """Returns the response of /warehouse/`service`, also where it refuses."""
-        name = f"/warehouse/{service}"
+        name = f"warehouse/{service}"
         try:
             return self._ros.ServiceProxy(name, kind)(*fields)
         except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:

@@ -31,12 +31,12 @@ class ShiftFeed:
         self._messages: dict[str, Any] = {}
         self._seq: dict[str, int] = {}
         self._subscribers = {
-            name: ros.Subscriber(f"/warehouse/{name}", kind, self._keep, name, queue_size=1)
+            name: ros.Subscriber(f"warehouse/{name}", kind, self._keep, name, queue_size=1)
             for name, kind in WHOLE.items()
         }
         for topic, kind, take in (
-            ("/warehouse/order_changes", OrderStatuses, self._take_orders),
-            ("/warehouse/stock_changes", StockPlaces, self._take_places),
+            ("warehouse/order_changes", OrderStatuses, self._take_orders),
+            ("warehouse/stock_changes", StockPlaces, self._take_places),
         ):
             ros.Subscriber(topic, kind, take, queue_size=10000)
 

@@ -10,7 +10,7 @@ from itertools import count
 from typing import Any
 
 from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
-from warehouse_client import identity, placing
+from warehouse_client import identity, placing, services
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
 from warehouse_layout import models
@@ -18,18 +18,18 @@ from warehouse_viewer.page.source import AwayError, RefusedError
 
 # What is offered under which service; types by name, since not every engine has them all.
 SERVICES = {
-    "pause": ("/gazebo/pause_physics", "std_srvs", "Empty"),
-    "resume": ("/gazebo/unpause_physics", "std_srvs", "Empty"),
-    "reset": ("/gazebo/reset_simulation", "std_srvs", "Empty"),
-    "reset_poses": ("/gazebo/reset_world", "std_srvs", "Empty"),
-    "step": ("/gazebo/step", "warehouse_msgs", "Step"),
-    "speed": ("/gazebo/set_physics_properties", "gazebo_msgs", "SetPhysicsProperties"),
-    "checkpoint": ("/warehouse/checkpoint", "warehouse_msgs", "Checkpoint"),
-    "restore": ("/warehouse/restore", "warehouse_msgs", "Checkpoint"),
-    "undo": ("/warehouse/undo", "warehouse_msgs", "Undo"),
-    "create": ("/warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
-    "person": ("/warehouse/person", "warehouse_msgs", "Person"),
-    "pick_up": ("/warehouse/pick_up", "warehouse_msgs", "PickUp"),
+    "pause": ("gazebo/pause_physics", "std_srvs", "Empty"),
+    "resume": ("gazebo/unpause_physics", "std_srvs", "Empty"),
+    "reset": ("gazebo/reset_simulation", "std_srvs", "Empty"),
+    "reset_poses": ("gazebo/reset_world", "std_srvs", "Empty"),
+    "step": ("gazebo/step", "warehouse_msgs", "Step"),
+    "speed": ("gazebo/set_physics_properties", "gazebo_msgs", "SetPhysicsProperties"),
+    "checkpoint": ("warehouse/checkpoint", "warehouse_msgs", "Checkpoint"),
+    "restore": ("warehouse/restore", "warehouse_msgs", "Checkpoint"),
+    "undo": ("warehouse/undo", "warehouse_msgs", "Undo"),
+    "create": ("warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
+    "person": ("warehouse/person", "warehouse_msgs", "Person"),
+    "pick_up": ("warehouse/pick_up", "warehouse_msgs", "PickUp"),
 }
 
 
@@ -61,7 +61,7 @@ class Simulation:
             offered = is_offered(self._ros, name)
         except AwayError as error:
             return str(error)
-        if action == "undo" and not self._ros.get_param("/gazebo/autosave", 0):
+        if action == "undo" and not self._ros.get_param("gazebo/autosave", 0):
             return "nothing is saved for it: start with autosave:=60, say"
         return None if offered else f"the engine offers no {name}"
 
@@ -80,7 +80,7 @@ class Simulation:
 
     def standing(self) -> Standing:
         """Returns the models that exist now."""
-        world = self._call("/gazebo/get_world_properties", GetWorldProperties, {})
+        world = self._call("gazebo/get_world_properties", GetWorldProperties, {})
         names = {n for n in world.model_names if models.kind_and_number(n)[0] in models.KINDS}
         return Standing(names, world.sim_time, self._physics().pause)
 
@@ -148,7 +148,7 @@ class Simulation:
         return self._do("pick_up", item=f"item{number}")
 
     def _new_person(self):
-        names = self._call("/gazebo/get_world_properties", GetWorldProperties, {}).model_names
+        names = self._call("gazebo/get_world_properties", GetWorldProperties, {}).model_names
         return next(name for n in count(1) if (name := f"person{n}") not in names)
 
     def remove_robot(self, number: int) -> str:
@@ -168,7 +168,7 @@ class Simulation:
             raise RefusedError(str(error)) from error
 
     def _physics(self):
-        return self._call("/gazebo/get_physics_properties", GetPhysicsProperties, {})
+        return self._call("gazebo/get_physics_properties", GetPhysicsProperties, {})
 
     def _do(self, action, **fields):
         lack = self._lack(action)
@@ -188,10 +188,9 @@ class Simulation:
 def is_offered(ros: Any, name: str) -> bool:
     """Returns whether a node offers the service. Raises AwayError."""
     try:
-        code, *_ = ros.get_master().lookupService(name)
+        return services.is_offered(ros, name)
     except OSError as error:
         raise AwayError(f"the ROS master does not answer: {error}") from error
-    return code == 1
 
 
 def request(ros: Any, name: str, kind: Any, fields: dict[str, Any]) -> Any:

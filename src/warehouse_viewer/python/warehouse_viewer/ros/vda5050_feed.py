@@ -11,7 +11,7 @@ class Vda5050Feed:
 
     def __init__(self, ros: Any) -> None:
         self._told: dict[int, Vda5050] = {}
-        self._subscriber = ros.Subscriber("/warehouse/vda5050", Vda5050, self._keep, queue_size=10)
+        self._subscriber = ros.Subscriber("warehouse/vda5050", Vda5050, self._keep, queue_size=10)
 
     def _keep(self, message: Vda5050) -> None:
         self._told[message.direction] = message

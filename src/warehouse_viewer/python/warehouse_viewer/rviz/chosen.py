@@ -22,10 +22,10 @@ class Chosen:
     def __init__(self, ros: Any) -> None:
         self._ros, self.number, self._scan = ros, 0, None
         self._fleet, self._spacing = None, 1.0
-        ros.Subscriber("/clicked_point", PointStamped, self._choose, queue_size=1)
-        ros.Subscriber("/move_base_simple/goal", PoseStamped, self._send, queue_size=1)
-        self._goals = ros.Publisher("/mov", MoveTo, queue_size=10)
-        self._scans = ros.Publisher("/warehouse/chosen/scan", LaserScan, queue_size=1)
+        ros.Subscriber("clicked_point", PointStamped, self._choose, queue_size=1)
+        ros.Subscriber("move_base_simple/goal", PoseStamped, self._send, queue_size=1)
+        self._goals = ros.Publisher("mov", MoveTo, queue_size=10)
+        self._scans = ros.Publisher("warehouse/chosen/scan", LaserScan, queue_size=1)
 
     def take(self, fleet: FleetState, spacing: float) -> None:
         """Takes over the newest FleetState; grid points are `spacing` [m] apart."""
@@ -49,7 +49,7 @@ class Chosen:
             self._scan.unregister()
         self.number, self._scan = number, None
         if number:
-            topic = f"/kiva{number}/chassis/laser/scan"
+            topic = f"kiva{number}/chassis/laser/scan"
             self._scan = self._ros.Subscriber(topic, LaserScan, self._scans.publish, queue_size=1)
 
     def _send(self, goal):

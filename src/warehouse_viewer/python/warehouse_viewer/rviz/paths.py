@@ -55,7 +55,7 @@ class PathTopics:
         """Publishes the paths that changed, and adds or removes topics as robots come or go."""
         standing = {int(n) for n in fleet.kiva_id}
         for number in sorted(standing - self._topics.keys())[:AT_ONCE]:
-            topic = f"/kiva{number}/path"
+            topic = f"kiva{number}/path"
             self._topics[number] = self._ros.Publisher(topic, Path, queue_size=1)
         for number in self._topics.keys() - standing:
             self._topics.pop(number).unregister()

@@ -92,14 +92,14 @@ class Picture:
         self._fixed: list[Any] = []
         self._newest = LatestMessages(
             ros,
-            fleet=("/warehouse/fleet", FleetState),
-            objects=("/warehouse/objects", WarehouseObjects),
-            states=("/warehouse/unit_states", UnitStates),
-            scenery=("/warehouse/scenery", Scenery),
-            paths=("/warehouse/paths", FleetPaths),
-            coordinated=("/warehouse/coordinator_paths", CoordinatorPaths),
+            fleet=("warehouse/fleet", FleetState),
+            objects=("warehouse/objects", WarehouseObjects),
+            states=("warehouse/unit_states", UnitStates),
+            scenery=("warehouse/scenery", Scenery),
+            paths=("warehouse/paths", FleetPaths),
+            coordinated=("warehouse/coordinator_paths", CoordinatorPaths),
         )
-        self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
+        self._topic = LazyPublisher(ros, "warehouse/markers", MarkerArray, self._all, self._moved)
         self._chosen, self._paths = Chosen(ros), PathTopics(ros)
 
     def _all(self):

@@ -86,7 +86,7 @@ async def command_robot(
     """
     await backend.robot(number)
     fields = as_dict(command, exclude={"command"})
-    topic = f"/{command.command}"
+    topic = command.command
     if not await backend.commander.ready(topic):
         raise HTTPException(503, f"{topic} has no subscriber; does the world run?")
     to_end = wait == "end"
