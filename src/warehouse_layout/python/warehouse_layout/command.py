@@ -46,11 +46,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _check(args: argparse.Namespace) -> int:
     file = lf.read(args.file)
-    faults = file_check.faults(file)
+    faults = file_check.faults(file) or file_check.lacks(file)
     for fault in faults:
         print(f"{args.file}: {fault.text}")
     if not faults:
         print(f"{args.file}: a fleet can work on it: {_summary(file)}")
+        if all(one.kind == "replenish" for one in file.stations):
+            print(f"{args.file}: no order can be picked: there is no picking station")
     return BAD_FILE if faults else 0
 
 
