@@ -95,7 +95,9 @@ def test_scenarios_are_compared(compared):
     mean = sum(each["item_throughput_per_hour"] for each in kpis) / 2
     assert pieces["cells"][0]["mean"] == pytest.approx(mean)
     assert pieces["cells"][0]["count"] == 2 and "verdict" not in pieces["cells"][0]
-    assert pieces["cells"][1]["difference"]["mean"] < 0
+    # Two runs have no interval, and tell no difference from chance.
+    assert "difference" not in pieces["cells"][1] and pieces["cells"][0]["half"] is None
+    assert pieces["cells"][1]["mean"] < mean and len(told["limits"]) == 2
     shown = one.scenarios()["scenarios"][0]
     assert shown["summary"]["figures"]["pieces"]["mean"] == pytest.approx(mean)
     assert shown["site"] == {"name": "small", "robots": 4, "stations": 2}
@@ -312,20 +314,29 @@ def run(seed, pieces, robots=10, wall_s=5.0):
     return Run(None, kpis, data)
 
 
-def test_differences_are_told_where_intervals_are_apart():
+def test_differences_are_told_where_they_are_above_chance():
     first = [run(seed, [10] * 30) for seed in (1, 2, 3)]
-    more = [run(seed, [12] * 30) for seed in (1, 2, 3)]
+    more = [run(seed, [12 + 0.01 * seed] * 30) for seed in (1, 2, 3)]
     wild = [run(seed, [pieces] * 30) for seed, pieces in ((1, 5), (2, 12), (3, 15))]
     told = figures.comparison({"first": first, "more": more, "wild": wild, "again": first})
     row = {one["key"]: one["cells"] for one in told["rows"]}
     verdicts = [cell["verdict"] for cell in row["pieces"][1:]]
     assert verdicts == ["better", "no difference shown", "no difference shown"]
-    assert row["pieces"][1]["relative"] == pytest.approx(0.2)
+    assert row["pieces"][1]["relative"] == pytest.approx(0.202)
     assert row["metres"][1]["verdict"] == "better" and row["waiting"][1]["mean"] == 50
+    # The interval of a difference leaves out 0 where it is shown, and nowhere else.
+    for cell in (one for cells in row.values() for one in cells[1:]):
+        difference = cell.get("difference")
+        if difference and difference["half"] is not None and difference["mean"]:
+            is_apart = abs(difference["mean"]) > difference["half"]
+            assert is_apart == (cell["verdict"] != "no difference shown"), cell
+    assert told["limits"][0] == {"what": "the orders and the stock", "when": ""}
     turned = figures.comparison({"more": more, "first": first})
     assert turned["rows"][0]["cells"][1]["verdict"] == "worse"
-    alone = figures.comparison({"first": first[:1], "more": more[:1]})["rows"][0]["cells"]
-    assert "verdict" not in alone[1] and alone[0]["half"] is None
+    for count in (1, 2):
+        few = figures.comparison({"first": first[:count], "more": more[:count]})
+        alone = few["rows"][0]["cells"]
+        assert "verdict" not in alone[1] and alone[0]["half"] is None
 
 
 def test_figures_come_after_the_warm_up():

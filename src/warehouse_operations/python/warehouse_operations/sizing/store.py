@@ -8,7 +8,7 @@ from pathlib import Path
 
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
-VERSION = 1  # of what is kept; another one is simulated again
+VERSION = 2  # of what is kept; another one is simulated again
 
 
 class Store:
@@ -23,7 +23,8 @@ class Store:
         try:
             text = self._path(point).read_text(encoding="utf-8")
             record = Record(**json.loads(text))
-            complete = all(len(record.series[name]) == point.minutes for name in SERIES)
+            whole = point.run_in + point.minutes
+            complete = all(len(record.series[name]) == whole for name in SERIES)
         except (OSError, ValueError, TypeError, KeyError):
             return None
         return record if complete else None
