@@ -305,11 +305,34 @@ def test_a_wish_that_can_not_be_met_by_its_bound():
         wish(orders_per_hour=1000, lines=1.9, pieces=1.0).least_stations()
     assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked for"
     assert wish(orders_per_hour=1000, lines=1.4, pieces=1.0).least_stations() == 4
-    stocked = replace(generator.of_request(Request(4, 24, 9, 2), "full"), stock="s.csv")
-    with pytest.raises(WishError, match="stock s.csv is not taken; items: a count was expected"):
-        Wish(stocked, 100)
     with pytest.raises(WishError, match="items is 0; there is nothing to pick"):
         Wish(generator.of_request(Request(4, 24, 0, 2), "bare"), 100)
+
+
+OWN = "reference,sku,quantity,at,due\n" + "".join(
+    f"A{i},bolt-m{i % 9},1,{60 * i},{60 * i + 1800}\n" for i in range(60)
+)
+
+
+def test_a_stock_and_skus_of_ones_own_are_sized(tmp_path):
+    (tmp_path / "orders.csv").write_text(OWN)
+    rows = "".join(f"bolt-m{i % 9},20,{i + 1}\n" for i in range(18))
+    (tmp_path / "stock.csv").write_text(f"sku,quantity,storage_unit\n{rows}")
+    drawn = layout_choice.chosen("small")
+    layout_file.write(replace(drawn, stock="stock.csv"), tmp_path / "own.layout.yaml")
+    for file in (layout_file.read(tmp_path / "own.layout.yaml"), drawn):
+        wanted = Wish(file, 60, orders_file=str(tmp_path / "orders.csv"), hours=0.25)
+        (one,) = wanted.points(3, 1, [1])
+        record = point.simulate(replace(one, run_in=5))
+        assert sum(record.series["completed"]) > 5
+    # What the stock lacks is named once, in whichever number of lines it is asked for.
+    (tmp_path / "orders.csv").write_text(OWN.replace("bolt-m8", "nut"))
+    wanted = Wish(
+        layout_file.read(tmp_path / "own.layout.yaml"), 60, orders_file=str(tmp_path / "orders.csv")
+    )
+    with pytest.raises(DemandError) as told:
+        point.simulate(wanted.points(3, 1, [1])[0])
+    assert str(told.value).count("sku 'nut' is unknown") == 1 and "\n" not in str(told.value)
 
 
 def test_a_point_is_the_shift_that_simulate_would_run():

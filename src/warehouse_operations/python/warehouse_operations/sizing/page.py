@@ -133,19 +133,25 @@ def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
     yield f"Decisions: {told}."
     yield (
         f"Shifts of {wish.hours:g} h on {wish.file.title}: {count(wish.units, 'storage unit')},"
-        f" {count(wish.file.items, 'bin')}; all replenishing stations are open, and nothing breaks."
+        f" {_bins(wish)}; all replenishing stations are open, and nothing breaks."
     )
     if prices:
         yield (
             f"Prices: robot {prices.robot:,g}, station {prices.station:,g}, storage unit"
             f" {prices.unit:,g}, used up in {prices.hours:,g} hours; {prices.hour:,g} an hour for"
-            f" the person at each open picking station and at {_all(wish.replenishing)}. The answer is the cheapest point that does."
+            f" the person at each open picking station and at {_all(wish.replenishing)}."
+            " The answer is the cheapest point that does."
         )
     else:
         yield (
             "Without prices the answer has the fewest stations, each of which takes a person, and"
             " the fewest robots that do with them."
         )
+
+
+def _bins(wish: Wish) -> str:
+    stock = wish.file.stock
+    return f"the stock of {Path(stock).name}" if stock else count(wish.file.items, "bin")
 
 
 def _all(replenishing: int) -> str:

@@ -51,22 +51,22 @@ class Wish:
     most_robots: int = 0  # 0: as many as could be of use, and there is room for
 
     def __post_init__(self) -> None:
-        if self.file.stock:
-            raise WishError(
-                f"{self.file.title}: stock {self.file.stock} is not taken; items: a count was"
-                " expected, whose stock is drawn by each seed"
-            )
         if faults := file_check.faults(self.file):
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
             raise WishError(f"{self.file.title}: there is no picking station")
-        if not self.file.items:
+        if not self.file.items and not self.file.stock:
             raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
 
     @cached_property
     def stations(self) -> list[str]:
         """The names of the picking stations, in the order in which they are opened."""
         return sites.picking_stations(self.file)
+
+    @property
+    def stock_file(self) -> str:
+        """The path of the layout's stock, wherever a shift is simulated; "" without."""
+        return str(self.file.beside_file(self.file.stock).absolute()) if self.file.stock else ""
 
     @property
     def replenishing(self) -> int:
@@ -131,7 +131,7 @@ class Wish:
         self, robots: int, stations: int, seeds: Sequence[int], physics_hours: float = 0.0
     ) -> list[Point]:
         """Returns the Point of each seed; physics_hours: of simulated robots, 0: ideal ones."""
-        file = replace(self.file, robots=robots, name="")
+        file = replace(self.file, robots=robots, name="", stock=self.stock_file)
         return [
             Point(
                 robots,
