@@ -77,9 +77,10 @@ def _convert(args: argparse.Namespace) -> int:
 
     angle = None if args.angle is None else math.radians(args.angle)
     source, target = Path(args.source), Path(args.target)
-    lost = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
-    for sentence in lost:
+    told = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
+    for sentence in told:
         print(sentence)
+    lost = [sentence for sentence in told if not isinstance(sentence, formats.Note)]
     return BAD_FILE if lost and not args.lenient else 0
 
 

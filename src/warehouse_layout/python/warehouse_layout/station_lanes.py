@@ -134,7 +134,7 @@ class _Around:
         self._part = tuple(slice(low, at + reach + 1) for low, at in zip(self._low, service[::-1]))
         self._floor = np.pad(file.floor[self._part], 1, constant_values=lf.FLOOR)
         lanes = np.pad(lane_mask(others, file.shape)[self._part], 1)
-        self._floor[lanes] = lf.WALL  # nobody drives through them
+        self._floor[lanes] = lf.WALL  # no robot drives through them
         self._before = _cells_at_fault(self._floor, [])
 
     def has_room(self, station: Station) -> bool:

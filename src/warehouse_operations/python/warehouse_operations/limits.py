@@ -106,7 +106,11 @@ def windows_of(
                 total["arrived"],
                 total["completed"],
                 float(sum(late[first:last])),
-                *(total[name] for name in ("pieces", "bound", "robots_s", "idle_s", "queue_s")),
+                total["pieces"],
+                total["bound"],
+                total["robots_s"],
+                total["idle_s"],
+                total["queue_s"],
                 total["replenishing_s"] / max(total["open_replenishing_s"], 1.0),
                 delay,
             )

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from warehouse_layout import layout_file as lf
-from warehouse_layout.formats.common import FormatError, within_limits
+from warehouse_layout.formats.common import FormatError, Note, within_limits
 from warehouse_layout.layout_file import LayoutFile
 
-__all__ = ["FormatError", "convert", "read", "write"]
+__all__ = ["FormatError", "Note", "convert", "read", "write"]
 
 LAYOUT = lf.SUFFIX
 # By the end of a file's name, the longest first: the module that reads it, and that which writes.
