@@ -305,9 +305,10 @@ def _add_new(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") ->
     parser.add_argument("--out", metavar="F", type=_suffixed(lf.SUFFIX), required=True)
 
 
-CONVERT = """Write a layout in another format; the ends of the names tell which.
+CONVERT = """Write a layout in another format. What IN is, it tells by itself; the end of the name
+of OUT tells which to write.
 
-in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf
+in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf .xml .csv .xlsx
 out  .layout.yaml .sdf .map .lif.json .svg .png
 
 What can't be carried over is told, a line each; then the exit code is 1, unless --lenient."""

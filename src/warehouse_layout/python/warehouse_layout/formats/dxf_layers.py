@@ -22,7 +22,7 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     "streets": ("streets", "street", "one way", "oneway"),
     "keep_out": ("keep out", "keepout"),
     "belts": ("belts", "belt", "conveyor belts", "conveyors", "conveyor"),
-    "storage": ("storage", "storage units", "storage places", "shelves", "shelf", "pods", "pod"),
+    "storage": ("storage", "storage units", "storage places", "shelves", "shelf", "racks", "rack", "pods", "pod"),
     "parking": ("parking",),
     "charging": ("charging", "chargers", "charger"),
     "stations": ("stations", "station", "pick", "pick stations"),

@@ -76,7 +76,7 @@ def _take_nodes(layout: Fields, reading: _Reading) -> None:
             reading.types |= set(_types(types))
             actions |= {a.text("actionType") for a in types.each("actions", "feasibleActions")}
         words = f"{one.text('nodeName', '')} {one.text('nodeDescription', '')}"
-        kind = _kind(words, "")
+        kind = kind_of(words, "")
         if actions & CHARGING:
             kind = "charging"
         elif actions >= LIFTING and not kind:
@@ -92,7 +92,8 @@ def _types(properties: Fields) -> list[str]:
     return [f"{t.text('manufacturer', '')} {t.text('seriesName', '')}".strip() for t in each]
 
 
-def _kind(words: str, default: str) -> str:
+def kind_of(words: str, default: str) -> str:
+    """Returns what a place is for by the words that name and describe it."""
     lower = words.lower()
     return next((kind for kind, ws in WORDS.items() if any(w in lower for w in ws)), default)
 
@@ -122,7 +123,7 @@ def _take_stations(layout: Fields, reading: _Reading) -> None:
         if not nodes or not set(nodes) <= reading.graph.nodes.keys():
             one.fail("interactionNodeIds", "name no node that there is")
         kinds = {reading.graph.nodes[n].kind for n in nodes}
-        kind = _kind(f"{name} {about}", "charging" if "charging" in kinds else "pick")
+        kind = kind_of(f"{name} {about}", "charging" if "charging" in kinds else "pick")
         if kind not in ("pick", "replenish"):
             for node in nodes:
                 reading.graph.nodes[node].kind = kind
@@ -145,4 +146,4 @@ def _unsaid(reading: _Reading) -> list[str]:
     return out
 
 
-__all__ = ["FormatError", "read"]
+__all__ = ["FormatError", "kind_of", "read"]
