@@ -19,10 +19,14 @@ LEAST_SPACING = 0.97  # [m]: a unit that turns sweeps 0.566 m, and its neighbour
 
 @dataclass(frozen=True)
 class Fault:
-    """What is wrong and how to change it, with the cells (column, row) at which it shows."""
+    """What is wrong and how to change it, with the cells (column, row) at which it shows.
+
+    is_of_bodies: it hinders robots with bodies alone; ideal ones pass through each other.
+    """
 
     text: str
     cells: tuple[Cell, ...] = ()
+    is_of_bodies: bool = False
 
 
 def faults(file: LayoutFile) -> list[Fault]:
@@ -42,7 +46,9 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
     return [
         Fault(
             f"spacing is {file.spacing:g} m; {LEAST_SPACING:g} m or more were expected: a storage"
-            " unit that turns needs it beside another one"
+            " unit that turns needs it beside another one. Write 'spacing: 1.0', or simulate"
+            " without physics: ideal robots work there as it is",
+            is_of_bodies=True,
         )
     ]
 
@@ -100,6 +106,7 @@ def _pocket(file: LayoutFile, plan: FloorPlan) -> Fault | None:
         f"loaded robots that meet at {_named(named)} can't pass each other, and no storage place or"
         f" station is served from there: draw 'x' in {'this cell' if len(named) == 1 else 'these'}",
         named,
+        is_of_bodies=True,
     )
 
 
@@ -108,8 +115,9 @@ def _dead_end(edges: np.ndarray, plan: FloorPlan) -> Fault:
     return Fault(
         f"loaded robots that meet at {_named(cells)} can't pass each other: streets there lead"
         " neither round nor on; join them into a ring, make them one-way, or draw 'p' or 'x' where"
-        " no loaded robot needs to go",
+        " no loaded robot needs to go. Ideal robots, without physics, work there as it is",
         cells,
+        is_of_bodies=True,
     )
 
 

@@ -141,7 +141,7 @@ class _Around:
         """Returns whether a lane adds no fault here."""
         rows, columns = np.divmod(station.cells, self._width)
         inside = rows - self._low[0] + 1, columns - self._low[1] + 1
-        if not all(((0 < at) & (at < n - 1)).all() for at, n in zip(inside, self._floor.shape)):
+        if not all(((at > 0) & (at < n - 1)).all() for at, n in zip(inside, self._floor.shape)):
             return True  # a drawn part of it lies farther away
         numbers = np.ravel_multi_index(inside, self._floor.shape).astype(np.int32)
         with_it = _cells_at_fault(self._floor, [replace(station, cells=numbers)])

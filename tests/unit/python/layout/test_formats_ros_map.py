@@ -244,9 +244,7 @@ def test_pixels_are_read_as_map_server_does(tmp_path, mode, negate, kind):
     grey.flat[:8] = [0, 100, 101, 205, 206, 254, 255, 89]
     path = tmp_path / f"m.{suffix}"
     Image.fromarray(grey, colours).save(path)
-    found = ros_map.occupancy(
-        images.read(path), mode, negate, ros_map.Thresholds(0.65, 0.25)
-    )
+    found = ros_map.occupancy(images.read(path), mode, negate, ros_map.Thresholds(0.65, 0.25))
     assert (found == server(path, 0.65, 0.25, mode, negate)).all()
 
 

@@ -37,9 +37,7 @@ def day(tmp_path_factory):
                 rows.writerow((f"o{number}", skus[number % len(skus)], 1, at, at + 1200))
                 number += 1
     run, _ = simulate(
-        Description(
-            instance=str(instance), orders=str(path), seconds=3600 * HOURS, physics=False
-        ),
+        Description(instance=str(instance), orders=str(path), seconds=3600 * HOURS, physics=False),
         folder / "out",
     )
     return comparison.grouped([run])[0], (folder / "out" / "report.html").read_text()

@@ -16,7 +16,6 @@ from warehouse_layout.formats.common import FormatError, PathName, check_spacing
 from warehouse_layout.formats.dxf_shapes import Drawing
 from warehouse_layout.layout_file import LayoutFile
 
-
 MOST_NAMED = 20  # layers that a sentence names, at most
 
 

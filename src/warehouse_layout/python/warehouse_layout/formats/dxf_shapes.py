@@ -2,7 +2,6 @@
 """Reads the entities of a DXF drawing, by layer, as shapes in metres."""
 
 import logging
-import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator

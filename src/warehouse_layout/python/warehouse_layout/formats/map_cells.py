@@ -66,7 +66,9 @@ class _Cells:
         # Centres on the grid of a world, on which robots stop, keep the poses of the map.
         corner = self._low + self._spacing
         if self._parts == 1:
-            corner = self._best_corner(corner - (corner + origin + self._spacing / 2) % self._spacing)
+            corner = self._best_corner(
+                corner - (corner + origin + self._spacing / 2) % self._spacing
+            )
         return self._drawn(corner, 1), corner + origin + self._spacing / 2
 
     def _extent(self) -> tuple[np.ndarray, tuple[int, int]]:

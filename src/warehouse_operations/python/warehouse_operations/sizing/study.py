@@ -101,9 +101,7 @@ class Study:
         records: Sequence[Record],
     ) -> Verdict:
         """Returns the Verdict on these shifts, and adds it to those that were found."""
-        verdict = Verdict(
-            robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN
-        )
+        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN)
         known = found.get((robots, stations))
         if known is None or len(known.records) < len(records):
             found[robots, stations] = verdict

@@ -51,7 +51,8 @@ class Wish:
     most_robots: int = 0  # 0: as many as could be of use, and there is room for
 
     def __post_init__(self) -> None:
-        if faults := file_check.faults(self.file):
+        faults = [one for one in file_check.faults(self.file) if not one.is_of_bodies]
+        if faults:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
             raise WishError(f"{self.file.title}: there is no picking station")

@@ -226,8 +226,8 @@ def _check_layout(file: layout_file.LayoutFile) -> None:
     """Raises LayoutFileError for a layout that names files elsewhere."""
     if file.stock and not is_file_name(file.stock, ".csv"):
         raise LayoutFileError(
-            f"{file.path}: items: stock is {file.stock!r}; the name of a CSV file was expected, which"
-            " is opened together with the layout"
+            f"{file.path}: items: stock is {file.stock!r}; the name of a CSV file was expected,"
+            " which is opened together with the layout"
         )
     if not all(char.isalnum() or char in "_-" for char in file.building):
         raise LayoutFileError(f"{file.path}: building: the name of a world was expected")
