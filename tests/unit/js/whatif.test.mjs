@@ -7,7 +7,7 @@ import { freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
 import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
 import { chartOf, topOf } from '../../../src/warehouse_viewer/web/js/whatif/whiskers.js';
-import { describe, differences, duration, interval, ordersOf } from '../../../src/warehouse_viewer/web/js/whatif/words.js';
+import { describe, differences, duration, interval, limitOf, ordersOf } from '../../../src/warehouse_viewer/web/js/whatif/words.js';
 
 const MEDIUM = { layout: 'medium', robots: 0, stations: 0, orders: 'fill', minutes: 60, seeds: 5, physics: false, realism: '', policies: {} };
 const SITE = { name: 'medium', robots: 20, stations: 4 };
@@ -48,6 +48,11 @@ test('figures have their intervals, and seconds are told as people say them', ()
   assert.equal(interval({ mean: 1405.4, half: 11.6 }), '1,405 ± 12');
   assert.equal(interval({ mean: -0.04, half: null }, 1), '−0.0');
   assert.deepEqual([3, 47, 61, 3600, 8000].map(duration), ['5 s', '50 s', '2 min', '1 h 0 min', '2 h 14 min']);
+});
+
+test('what limits a scenario is told with its hours', () => {
+  assert.equal(limitOf({ what: 'the robots', when: '' }), 'the robots');
+  assert.equal(limitOf({ what: 'the picking stations', when: '3:20 to 5:20' }), 'the picking stations, 3:20 to 5:20');
 });
 
 test('a chart begins at zero and shows all of each interval', () => {

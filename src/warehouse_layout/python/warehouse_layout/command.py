@@ -46,11 +46,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _check(args: argparse.Namespace) -> int:
     file = lf.read(args.file)
-    faults = file_check.faults(file)
+    faults = file_check.faults(file) or file_check.lacks(file)
     for fault in faults:
         print(f"{args.file}: {fault.text}")
     if not faults:
         print(f"{args.file}: a fleet can work on it: {_summary(file)}")
+        if all(one.kind == "replenish" for one in file.stations):
+            print(f"{args.file}: no order can be picked: there is no picking station")
     return BAD_FILE if faults else 0
 
 
@@ -75,9 +77,10 @@ def _convert(args: argparse.Namespace) -> int:
 
     angle = None if args.angle is None else math.radians(args.angle)
     source, target = Path(args.source), Path(args.target)
-    lost = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
-    for sentence in lost:
+    told = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
+    for sentence in told:
         print(sentence)
+    lost = [sentence for sentence in told if not isinstance(sentence, formats.Note)]
     return BAD_FILE if lost and not args.lenient else 0
 
 
@@ -302,9 +305,10 @@ def _add_new(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") ->
     parser.add_argument("--out", metavar="F", type=_suffixed(lf.SUFFIX), required=True)
 
 
-CONVERT = """Write a layout in another format; the ends of the names tell which.
+CONVERT = """Write a layout in another format. What IN is, it tells by itself; the end of the name
+of OUT tells which to write.
 
-in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf
+in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf .xml .csv .xlsx
 out  .layout.yaml .sdf .map .lif.json .svg .png
 
 What can't be carried over is told, a line each; then the exit code is 1, unless --lenient."""

@@ -18,8 +18,9 @@ from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 
 SUFFIXES = (".svg", ".png")
 DPI = 200
+INCH = 0.0254  # [m]
 LONGEST = 14.0  # [in]: edge of the plan, unless cells get too small
-LEAST_CELL, MOST_CELL = 0.02, 0.42  # [in]
+LEAST_CELL, MOST_CELL = 0.02, 0.42  # [in], about
 LEGEND, LEGEND_HEIGHT = 2.5, 5.2  # [in]
 EDGE, TITLE, DIMENSIONS = 0.35, 0.85, 0.75  # [in]: around the page, above, below and at the left
 
@@ -57,7 +58,10 @@ class _Page:
         self._subject, self.figure = subject, figure
         file: LayoutFile = subject.file
         height, width = file.shape
-        self._cell = min(MOST_CELL, max(LEAST_CELL, LONGEST / max(width, height)))
+        roomy = min(MOST_CELL, max(LEAST_CELL, LONGEST / max(width, height)))
+        # A scale of those on rulers: 1:50, 1:100, 1:200 …
+        self._ratio = _nice(file.spacing / (roomy * INCH))
+        self._cell = file.spacing / (self._ratio * INCH)
         longest = max((station.name for station in subject.stations), key=len, default="")
         # Names may reach beyond the floor.
         self._beside = name_width(longest, self._cell) + 0.1
@@ -190,10 +194,9 @@ class _Page:
         axes.text(left, y - 0.1, "0", **_text(7, "top") | {"ha": "center"})
         at = left + length * a_metre
         axes.text(at, y - 0.1, f"{length} m", **_text(7, "top") | {"ha": "center"})
-        ratio = round(spacing / (self._cell * 0.0254))
         width, height = (edge * 25.4 for edge in self._size)
         axes.text(
-            left, y - 0.35, f"1 : {ratio} on {width:.0f} × {height:.0f} mm", **_text(7, "top")
+            left, y - 0.35, f"1 : {self._ratio} on {width:.0f} × {height:.0f} mm", **_text(7, "top")
         )
         axes.text(left, y - 0.52, "grey numbers: column and row of a cell", **_text(7, "top"))
 

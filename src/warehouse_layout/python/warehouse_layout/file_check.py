@@ -2,15 +2,16 @@
 """Checks that a fleet can work in the warehouse that a layout file describes."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from warehouse_layout import drawn_floor, station_lanes
-from warehouse_layout._core import layout_faults
+from warehouse_layout._core import FloorError, layout_faults
 from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError
+from warehouse_layout.layout_file import KEEP_OUT, Cell, LayoutFile, LayoutFileError
 from warehouse_layout.placement import place, plan_of
+from warehouse_layout.served_part import served_part
 
 NAMED = 6  # cells that a sentence names, at most
 LEAST_SPACING = 0.97  # [m]: a unit that turns sweeps 0.566 m, and its neighbour reaches 0.4 m
@@ -18,10 +19,14 @@ LEAST_SPACING = 0.97  # [m]: a unit that turns sweeps 0.566 m, and its neighbour
 
 @dataclass(frozen=True)
 class Fault:
-    """What is wrong and how to change it, with the cells (column, row) at which it shows."""
+    """What is wrong and how to change it, with the cells (column, row) at which it shows.
+
+    is_of_bodies: it hinders robots with bodies alone; ideal ones pass through each other.
+    """
 
     text: str
     cells: tuple[Cell, ...] = ()
+    is_of_bodies: bool = False
 
 
 def faults(file: LayoutFile) -> list[Fault]:
@@ -29,7 +34,7 @@ def faults(file: LayoutFile) -> list[Fault]:
     drawn = drawn_floor.areas(file.floor)
     stations, lane_faults = station_lanes.of_file(file, drawn)
     out = [*_spacing_faults(file), *(Fault(fault.text, fault.cells) for fault in lane_faults)]
-    out += _floor_faults(plan_of(file, drawn, stations))
+    out += _floor_faults(file, plan_of(file, drawn, stations))
     if not lane_faults:
         out += _placing_faults(file)
     return out
@@ -41,7 +46,9 @@ def _spacing_faults(file: LayoutFile) -> list[Fault]:
     return [
         Fault(
             f"spacing is {file.spacing:g} m; {LEAST_SPACING:g} m or more were expected: a storage"
-            " unit that turns needs it beside another one"
+            " unit that turns needs it beside another one. Write 'spacing: 1.0', or simulate"
+            " without physics: ideal robots work there as it is",
+            is_of_bodies=True,
         )
     ]
 
@@ -54,17 +61,53 @@ def _placing_faults(file: LayoutFile) -> list[Fault]:
     return []
 
 
-def _floor_faults(plan: FloorPlan) -> list[Fault]:
+def lacks(file: LayoutFile) -> list[Fault]:
+    """Returns what a floor needs besides, before a fleet has work there; [] if nothing."""
+    layout = place(file)
+    out = []
+    if not len(layout.robots):
+        out.append(Fault("there are no robots: draw parking 'p', and say how many in robots"))
+    if not len(layout.units):
+        text = "there are no storage units: draw places 's', and say how many in storage_units"
+        out.append(Fault(text))
+    return out
+
+
+def _floor_faults(file: LayoutFile, plan: FloorPlan) -> list[Fault]:
     out = []
     for kind, cells in layout_faults(plan.floor()):
         numbers = np.array(cells, int)
         if not len(numbers):
             out.append(Fault("there is no street for a loaded robot: draw '.', or arrows"))
         elif kind == "dead end":
-            out.append(_dead_end(numbers, plan))
+            out.append(_pocket(file, plan) or _dead_end(numbers, plan))
         else:
             out += _cut_off(numbers, plan)
     return out
+
+
+def _pocket(file: LayoutFile, plan: FloorPlan) -> Fault | None:
+    """Returns a Fault for streets that lead nowhere, which can be closed; None where closing them
+    would take places or stations away."""
+    try:
+        cells = served_part(plan)[1].cells
+    except FloorError:
+        return None
+    floor = file.floor.copy()
+    streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
+    if not len(cells) or not streets.flat[cells].all():
+        return None
+    floor.flat[cells] = KEEP_OUT
+    closed = plan_of(replace(file, floor=floor), drawn_floor.areas(floor), plan.stations)
+    if layout_faults(closed.floor()):
+        return None
+    named = _cells(cells, plan)
+    return Fault(
+        f"loaded robots that meet at {_named(named)} can't pass each other, and no storage place or"
+        f" station is served from there: draw 'x' in {'this cell' if len(named) == 1 else 'these'}",
+        named,
+        is_of_bodies=True,
+    )
 
 
 def _dead_end(edges: np.ndarray, plan: FloorPlan) -> Fault:
@@ -72,8 +115,9 @@ def _dead_end(edges: np.ndarray, plan: FloorPlan) -> Fault:
     return Fault(
         f"loaded robots that meet at {_named(cells)} can't pass each other: streets there lead"
         " neither round nor on; join them into a ring, make them one-way, or draw 'p' or 'x' where"
-        " no loaded robot needs to go",
+        " no loaded robot needs to go. Ideal robots, without physics, work there as it is",
         cells,
+        is_of_bodies=True,
     )
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a warehouse deals in: SKUs, how often each is asked for, and the stock at first."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +26,12 @@ class Assortment:
         """Gamma(1) distributed weights: the top fifth of many SKUs takes about 52 to 58 %."""
         weights = rng.gamma(1.0, size=count)
         return cls(tuple(f"sku-{i}" for i in range(1, count + 1)), weights / weights.sum())
+
+    @classmethod
+    def of_lines(cls, lines: Mapping[str, int]) -> "Assortment":
+        """Returns the SKUs of order lines, each as popular as it has lines."""
+        counts = np.array(list(lines.values()), float)
+        return cls(tuple(lines), counts / counts.sum())
 
 
 def told(
@@ -55,13 +61,16 @@ def stocked(
     skus: int | None = None,
     capacity: int = CAPACITY,
     level: float = INITIAL_LEVEL,
+    own: Assortment | None = None,
 ) -> tuple["Assortment", list[tuple[Bin, int]]]:
     """Returns an Assortment and Bins with pieces of it: (assortment, [(bin, pieces)]).
 
     items: (name, unit) of each bin. Each SKU has a bin; the others are shared out by popularity.
+    own: the SKUs, as many as there are bins at most; None: they are drawn.
     """
     count = min(skus or SKUS, max(len(items) // (1 if skus else BINS_A_SKU), 1))
-    assortment = Assortment.draw(count, rng)
+    assortment = own or Assortment.draw(count, rng)
+    count = len(assortment.skus)
     skus_of = np.concatenate(
         [
             np.arange(min(count, len(items))),

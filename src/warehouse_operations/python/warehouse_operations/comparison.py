@@ -3,7 +3,7 @@
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,12 @@ from scipy import special
 from warehouse_operations.runs import Run
 
 CONFIDENCE = 0.95
+LEAST = 3  # runs that an interval takes: of two, their deviation is next to unknown
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean and half its confidence interval; nan where one run alone can't tell."""
+    """A mean and half its confidence interval; nan where fewer than LEAST runs can't tell."""
 
     mean: float
     half: float
@@ -27,7 +28,7 @@ class Estimate:
         """Returns the mean of values with its confidence interval."""
         sample = np.asarray(values, float)
         half = float("nan")
-        if len(sample) > 1:
+        if len(sample) >= LEAST:
             factor = special.stdtrit(len(sample) - 1, (1 + CONFIDENCE) / 2)
             half = float(factor * sample.std(ddof=1) / np.sqrt(len(sample)))
         return cls(float(sample.mean()), half, len(sample))
@@ -39,7 +40,7 @@ class Difference:
 
     estimate: with its confidence interval. paired: seeds that both have are compared one by one.
     effect: over the standard deviation of the pairs' differences, else of the runs (Hedges' g);
-    inf where all pairs differ alike.
+    inf where all pairs differ alike, and have no interval. freedom: degrees of it.
     """
 
     estimate: Estimate
@@ -48,6 +49,21 @@ class Difference:
     paired: bool
     effect: float = float("nan")
     base: float = float("nan")  # mean of the first
+    freedom: float = float("nan")
+
+    def corrected(self, p_value: float) -> "Difference":
+        """Returns the same with a p-value that is corrected for others, as by holm().
+
+        The interval is corrected alike: it is of that confidence at which it leaves out 0 where
+        the corrected p-value is below 1 - CONFIDENCE, and only there.
+        """
+        risk = 1 - CONFIDENCE
+        wider = risk * self.p_value / p_value if p_value else risk
+        half = self.estimate.half * float(
+            special.stdtrit(self.freedom, 1 - wider / 2)
+            / special.stdtrit(self.freedom, 1 - risk / 2)
+        )
+        return replace(self, p_value=p_value, estimate=replace(self.estimate, half=half))
 
     @property
     def significant(self) -> bool:
@@ -100,15 +116,16 @@ def difference(first: Group, second: Group, kpi: str) -> Difference | None:
 def difference_of(a: dict[int, float], b: dict[int, float]) -> Difference | None:
     """Returns the Difference of figures by seed; None if there are too few."""
     common = sorted(a.keys() & b.keys())
-    if len(common) > 1:
-        estimate, p_value, effect = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
-    elif len(a) > 1 and len(b) > 1:
-        estimate, p_value, effect = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
+    if len(common) >= LEAST:
+        found = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
+    elif not common and min(len(a), len(b)) >= LEAST:
+        found = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
     else:
         return None
     base = float(np.mean(list(a.values())))
+    estimate, p_value, effect, freedom = found
     relative = estimate.mean / base if base else float("nan")
-    return Difference(estimate, relative, p_value, len(common) > 1, effect, base)
+    return Difference(estimate, relative, p_value, bool(common), effect, base, freedom)
 
 
 def holm(p_values: Sequence[float]) -> list[float]:
@@ -120,7 +137,10 @@ def holm(p_values: Sequence[float]) -> list[float]:
     return corrected
 
 
-def _of_pairs(deltas: np.ndarray) -> tuple[Estimate, float, float]:
+_Found = tuple[Estimate, float, float, float]  # with p-value, effect and degrees of freedom
+
+
+def _of_pairs(deltas: np.ndarray) -> _Found:
     """Returns the mean of differences, its p-value and effect.
 
     Where all are the same, t says nothing: their signs alone are tested, of which all are alike
@@ -128,27 +148,28 @@ def _of_pairs(deltas: np.ndarray) -> tuple[Estimate, float, float]:
     """
     estimate, count = Estimate.of(deltas), len(deltas)
     if not deltas.any():
-        return estimate, 1.0, 0.0
+        return estimate, 1.0, 0.0, count - 1
     deviation = deltas.std(ddof=1)
     if deviation <= 1e-12 * np.abs(deltas).max():
-        return estimate, 2.0 ** (1 - count), float(np.copysign(np.inf, estimate.mean))
+        effect = float(np.copysign(np.inf, estimate.mean))
+        return replace(estimate, half=float("nan")), 2.0 ** (1 - count), effect, count - 1
     p_value = _p_value(estimate.mean, deviation / np.sqrt(count), count - 1)
-    return estimate, p_value, estimate.mean / deviation * _small_sample(count - 1)
+    return estimate, p_value, estimate.mean / deviation * _small_sample(count - 1), count - 1
 
 
-def _of_samples(a: np.ndarray, b: np.ndarray) -> tuple[Estimate, float, float]:
+def _of_samples(a: np.ndarray, b: np.ndarray) -> _Found:
     """Returns the difference of two means by Welch's t, its p-value and effect."""
     mean = float(b.mean() - a.mean())
     errors = np.array([one.var(ddof=1) / len(one) for one in (a, b)])
     if not errors.any():
         nothing = Estimate(mean, float("nan"), len(b))
-        return nothing, 1.0, float(np.copysign(np.inf, mean)) if mean else 0.0
+        return nothing, 1.0, float(np.copysign(np.inf, mean)) if mean else 0.0, len(a) + len(b) - 2
     freedom = errors.sum() ** 2 / (errors**2 / [len(a) - 1, len(b) - 1]).sum()
     half = float(special.stdtrit(freedom, (1 + CONFIDENCE) / 2) * np.sqrt(errors.sum()))
     p_value = _p_value(mean, np.sqrt(errors.sum()), freedom)
     spread = np.sqrt((a.var(ddof=1) + b.var(ddof=1)) / 2)
     small = _small_sample(len(a) + len(b) - 2)
-    return Estimate(mean, half, len(b)), p_value, float(mean / spread * small)
+    return Estimate(mean, half, len(b)), p_value, float(mean / spread * small), float(freedom)
 
 
 def _p_value(mean: float, error: float, freedom: float) -> float:

@@ -24,7 +24,7 @@ class Tally:
 
     def __init__(self) -> None:
         self.items_picked = self.lines_picked = self.orders_completed = 0
-        self.bundles_stored = self.pieces_stored = self.late_orders = 0
+        self.bundles_stored = self.pieces_stored = self.late_orders = self.orders_received = 0
         self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
         self.turnover_s: list[float] = []
         self.throughput_s: list[float] = []
@@ -32,6 +32,7 @@ class Tally:
         self.picked_in: dict[int, int] = defaultdict(int)  # by INTERVAL
         self.stored_in: dict[int, int] = defaultdict(int)
         self.completed_in: dict[int, int] = defaultdict(int)
+        self.late_in: dict[int, int] = defaultdict(int)  # late orders, when they were due
 
     def picked(self, now: float, pieces: int, line: Line) -> None:
         """Counts pieces that were picked for an order line."""
@@ -60,7 +61,7 @@ class Tally:
     def completed(self, order: Order) -> None:
         """Counts an order that is complete."""
         self.orders_completed += 1
-        self.late_orders += bool(order.due) and order.completed > order.due
+        self._late(order, 1)
         self.turnover_s.append(order.completed - order.created)
         self.throughput_s.append(order.completed - order.assigned)
         self.completed_s.append(order.completed)
@@ -69,13 +70,19 @@ class Tally:
     def reopened(self, order: Order) -> None:
         """Counts an order no longer that was complete. Raises ValueError if it was not counted."""
         self.orders_completed -= 1
-        self.late_orders -= bool(order.due) and order.completed > order.due
+        self._late(order, -1)
         times = order.completed - order.created, order.completed - order.assigned, order.completed
         counted = self.turnover_s, self.throughput_s, self.completed_s
         at = list(zip(*counted)).index(times)
         for series in counted:
             del series[at]
         self.completed_in[int(order.completed // INTERVAL)] -= 1
+
+    def _late(self, order: Order, sign: int) -> None:
+        """Counts an order if it was late."""
+        if order.due and order.completed > order.due:
+            self.late_orders += sign
+            self.late_in[int(order.due // INTERVAL)] += sign
 
     def visited(self, visit: Visit) -> None:
         """Counts a visit that is over, if its unit reached the station."""

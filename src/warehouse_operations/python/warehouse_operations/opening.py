@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Opens a shift: with new stock, or with the stock and orders that a database holds."""
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_operations.assortment import stocked, told
+from warehouse_operations import order_mix
+from warehouse_operations.assortment import Assortment, stocked, told
 from warehouse_operations.demand import make_demand
+from warehouse_operations.order_file import DemandError, lines_by_sku
 from warehouse_operations.policies import Policies
 from warehouse_operations.protocols import Requests
 from warehouse_operations.returning import changes, layout_of
@@ -71,7 +74,8 @@ def open_shift(
     elif site.stock:
         assortment, stock = told(site.items, site.stock, stock_rng)
     else:
-        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
+        own = _own_skus(str(orders), site)
+        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level, own=own)
     settings = settings or site.settings
     picks = [station.kind == "PICK" for station in site.plan.stations]
     refilling = [settings.of(station.name).replenishes for station in site.plan.stations]
@@ -104,3 +108,22 @@ def open_shift(
         journal.commit(shift)
         journal.flush()
     return shift
+
+
+def _own_skus(orders: str, site: Site) -> Assortment | None:
+    """Returns the SKUs of a file of orders, where a drawn stock would lack some of them; or None.
+
+    Raises DemandError.
+    """
+    file = order_mix.file_of(orders)
+    if not file:
+        return None
+    lines = lines_by_sku(file)
+    if all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in lines):
+        return None  # those that are drawn
+    if len(lines) > len(site.items):
+        raise DemandError(
+            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items), one"
+            " of each SKU at least was expected"
+        )
+    return Assortment.of_lines(lines)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from warehouse_operations import kpis
 from warehouse_operations.ideal import IdealFleet
+from warehouse_operations.minute_log import MinuteLog
 from warehouse_operations.opening import open_shift
 from warehouse_operations.policies import Policies
 from warehouse_operations.settings import Settings
@@ -69,7 +70,7 @@ class Operations:
             unless_open.pop_all()
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
-        self.driven_m: dict[int, float] = {}  # by all robots up to the end of each kpis.INTERVAL
+        self.log = MinuteLog(self)
 
     def _fleet(
         self, world: Any, physics: bool, seed: int, threads: int, planner: Any
@@ -127,7 +128,7 @@ class Operations:
             self.shift.fallen.update(self.fleet.fallen_items)
             # A world counts steps: times that differ by rounding alone are the same.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
-            self.driven_m[int(self.shift.now // kpis.INTERVAL)] = self.fleet.distance_m
+            self.log.observe()
             observe(self)
             count += 1
             if progress and count % ASKED == 0 and progress(self):

@@ -49,6 +49,7 @@ class OrderBook:
             merged[sku] += pieces
         order = Order(next(self._ids), merged.items(), self._shift.now, due, priority, reference)
         self.orders[order.order_id] = order
+        self._shift.tally.orders_received += 1
         self._shift.journal.order(order)
         self.publish_event(order, OrderEventKind.RECEIVED)
         lacking = [s for s, n in merged.items() if n > self.unpromised(s)]

@@ -74,6 +74,11 @@ def read_csv(
     return orders
 
 
+def lines_by_sku(path: str | os.PathLike[str]) -> Counter[str]:
+    """Returns how many lines of a file ask for each SKU. Raises DemandError."""
+    return Counter(sku for order in read_csv(path) for sku, _ in order.lines)
+
+
 def parse_csv(
     text: str, skus: Collection[str] | None = None, capacity: float = float("inf")
 ) -> tuple[list[Wanted], list[Fault]]:
@@ -110,6 +115,7 @@ class _Orders:
         self._skus, self._capacity = skus, capacity
         self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
         self._pieces: Counter[str] = Counter()
+        self._unknown: set[str] = set()  # SKUs, each of which is named once
 
     def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
         """Adds a row. Raises ValueError, which says what is wrong with it."""
@@ -122,7 +128,10 @@ class _Orders:
         if fault := acceptance.fault_of_head(reference):
             raise _FieldError("reference", fault)
         if not sku or (self._skus is not None and sku not in self._skus):
-            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown")
+            if sku and sku in self._unknown:
+                return
+            self._unknown.add(sku)
+            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
         quantity = _field(row, "quantity", int, 1, 2**31 - 1)
         if decimal_comma:
             row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}

@@ -4,12 +4,25 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from warehouse_operations import limits
 from warehouse_operations.comparison import Group, value_of
 from warehouse_operations.document.sheets import Rows
 from warehouse_operations.report_figures import ROWS
 from warehouse_operations.runs import Run
 
 Row = Sequence[Any]
+HOURS = (
+    "hour",
+    "orders in an hour",
+    "done",
+    "became late",
+    "pieces",
+    "stations, % of most",
+    "robots at work %",
+    "before stations %",
+    "idle %",
+    "limit",
+)
 
 
 def tables(groups: Sequence[Group]) -> dict[str, Rows]:
@@ -19,6 +32,10 @@ def tables(groups: Sequence[Group]) -> dict[str, Rows]:
         "figures": list(figures(runs, [name for name, *_ in ROWS])),
         "throughput": list(throughput(runs)),
         "stations": list(stations(runs)),
+        "hours": [
+            ("configuration", *HOURS),
+            *((group.label, *row) for group in groups for row in list(hours(group))[1:]),
+        ],
     }
 
 
@@ -37,6 +54,22 @@ def throughput(runs: Sequence[tuple[str, Run]]) -> Iterator[Row]:
         pairs = zip(intervals["picked"], intervals["completed"])
         for i, (pieces, orders) in enumerate(pairs, start=1):
             yield label, run.seed, i * intervals["seconds"], pieces, orders
+
+
+def hours(group: Group) -> Iterator[Row]:
+    """Yields HOURS, and a row an hour of the shift: means of the runs."""
+    yield HOURS
+    count = len(group.runs)
+    for one, limit in limits.hours(limits.windows(group.runs)):
+        hourly = limits.HOUR / max(one.end - one.begin, 1.0) / count
+        counts = (one.arrived, one.completed, one.late, one.pieces)
+        shares = (one.of_bound, one.at_work, one.queue, one.idle)
+        yield (
+            f"{limits.clock(one.begin)} to {limits.clock(one.end)}",
+            *(round(hourly * value, 1) for value in counts),
+            *(round(100 * value, 1) for value in shares),
+            str(limit),
+        )
 
 
 def stations(runs: Sequence[tuple[str, Run]]) -> Iterator[Row]:

@@ -5,15 +5,13 @@ from collections.abc import Iterator, Sequence
 from datetime import date
 from typing import Any
 
-from warehouse_operations import charts
+from warehouse_operations import charts, limits, report_exports
 from warehouse_operations.comparison import Group
 from warehouse_operations.document import page
+from warehouse_operations.limits import Limit, Window
 from warehouse_operations.report_figures import number
 from warehouse_operations.runs import Run
 
-SATURATED = 0.95  # of the stations' upper bound: they are what limits
-IDLE = 0.15  # of the robots' time: they lack work
-HELD_UP = 1.15  # driven over planned time: traffic holds robots up
 # Of kpis.json: name, words, unit, factor, digits.
 BIG: tuple[tuple[str, str, str, float, int], ...] = (
     ("item_throughput_per_hour", "pieces an hour", "", 1, 0),
@@ -30,7 +28,7 @@ def sheet(group: Group) -> str:
             page.opening(question(group), answer(group)),
             page.big(_big(group)),
             _warning(group),
-            page.section(f"What limits it: {limit(group)}", f"<p>{reason(group)}</p>"),
+            page.section(f"What limits it: {limit(group)}", page.sentences(reasons(group))),
             charts.throughput([group]).html(),
             page.section("Assumptions", page.facts(assumptions(group.runs))),
         ]
@@ -57,41 +55,60 @@ def answer(group: Group) -> str:
     )
 
 
-def limit(group: Group) -> str:
-    """Returns what limits the throughput: picking stations, orders, streets or robots."""
-    if _mean(group, "item_score") >= SATURATED:
-        return "the picking stations"
-    if _shares(group).get("idle", 0.0) > IDLE:
-        return "the orders and the stock"
-    if _mean(group, "executed_over_planned") > HELD_UP:
-        return "the streets"
-    return "the robots"
+def limit(group: Group) -> Limit:
+    """Returns what limits the throughput, or where orders become late."""
+    return limits.limit(limits.windows(group.runs))
 
 
-def reason(group: Group) -> str:
-    """Returns the figures from which the limit follows, as a sentence."""
-    shares = _shares(group)
-    waits, idle = (f"{100 * shares.get(name, 0.0):.0f} %" for name in ("queue", "idle"))
-    of_bound = f"{100 * _mean(group, 'item_score'):.0f} % of what they can at most"
-    late = 100 * (_mean(group, "executed_over_planned") - 1)
+def reasons(group: Group) -> Iterator[str]:
+    """Yields sentences from which the limit follows, and from when to when it holds."""
+    parts = limits.windows(group.runs)
+    chosen = limits.limiting(parts)
+    if when := limits.when(parts):
+        late = limits.share_of_late(parts, chosen)
+        then = f": {100 * late:.0f} % of the late orders became late then" if late else ""
+        yield f"From {when}{then}."
+    yield _reason(limits.limit(parts), limits.merged(chosen))
+
+
+def _reason(found: Limit, then: Window) -> str:
+    """Returns the figures from which a limit follows, of the time in which it holds."""
+    waits, idle = f"{100 * then.queue:.0f} %", f"{100 * then.idle:.0f} %"
+    of_bound = f"{100 * then.of_bound:.0f} % of what they can at most"
+    late = 100 * (then.delay - 1)
     return {
-        "the picking stations": (
+        Limit.STATIONS: (
             f"They pick {of_bound}. Robots wait for them {waits} of their time: more robots would"
             " bring next to nothing, more stations or quicker pickers would."
         ),
-        "the orders and the stock": (
+        Limit.REPLENISHING: (
+            f"They work {100 * then.replenishing:.0f} % of their time, while robots have nothing to"
+            f" do for {idle} of theirs: stock comes too late for what is ordered."
+        ),
+        Limit.ORDERS: (
             f"Stations pick {of_bound}, and robots have nothing to do for {idle} of their time:"
             " there are too few orders, or too little stock of what is ordered."
         ),
-        "the streets": (
+        Limit.STREETS: (
             f"Stations pick {of_bound}, and robots take {late:.0f} % longer than their ways would"
             " without others on them: wider aisles or fewer robots would tell."
         ),
-        "the robots": (
+        Limit.ROBOTS: (
             f"Stations pick {of_bound} and wait for units meanwhile; robots are idle for {idle} and"
             f" wait for stations {waits} of their time: more robots would bring more."
         ),
-    }[limit(group)]
+    }[found]
+
+
+def by_hour(group: Group) -> str:
+    """Returns a table of the shift hour by hour: a mean of its runs."""
+    head, *rows = report_exports.hours(group)
+    shown = [[str(name), *(_cell(one) for one in cells)] for name, *cells in rows]
+    return page.table([str(one) for one in head], shown, "Hour by hour")
+
+
+def _cell(value: Any) -> str:
+    return value if isinstance(value, str) else f"{value:,.0f}"
 
 
 def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, str]]:
@@ -183,13 +200,3 @@ def _mean(group: Group, kpi: str) -> float:
 def _count(group: Group, kpi: str, noun: str) -> str:
     count = f"{_mean(group, kpi):,.0f}"
     return f"{count} {noun}{'' if count == '1' else 's'}"
-
-
-def _shares(group: Group) -> dict[str, float]:
-    """Returns the share of the robots' time that each activity takes."""
-    total: dict[str, float] = {}
-    for run in group.runs:
-        for activity, seconds in run.data["robots"].items():
-            total[activity] = total.get(activity, 0.0) + seconds
-    whole = sum(total.values()) or 1.0
-    return {activity: seconds / whole for activity, seconds in total.items()}

@@ -9,7 +9,7 @@ import numpy as np
 from warehouse_operations import bar_charts, report_front
 from warehouse_operations import verdicts as differences
 from warehouse_operations.charts import key_of
-from warehouse_operations.comparison import Group
+from warehouse_operations.comparison import LEAST, Group
 from warehouse_operations.document import page
 from warehouse_operations.document.chart import Chart, key, letter
 from warehouse_operations.report_figures import number
@@ -26,8 +26,8 @@ COMPARED = (
 NOTE = "Means of the runs with half their 95 % confidence interval, where there are several runs."
 INTERVALS = "Means of the runs with 95 % confidence intervals."
 NO_INTERVALS = (
-    "Where there is one run alone nothing tells how much of a difference is chance: simulate with"
-    " several seeds."
+    "Fewer than three runs don't tell how much of a difference is chance: simulate with three seeds"
+    " or more."
 )
 SHORT = {
     PIECES: "pieces an hour",
@@ -35,7 +35,7 @@ SHORT = {
     "turnover_s": "time of an order, median",
 }
 METHOD = (
-    "p is corrected for the number of differences (Holm); effect: over the standard deviation of"
+    "p is corrected for the number of differences (Holm), and the interval alike; effect: over the standard deviation of"
     " the pairs (Hedges' g)."
 )
 
@@ -76,7 +76,7 @@ def more(groups: Sequence[Group]) -> str:
 
 
 def _chart(groups: Sequence[Group], kpi: str, label: str) -> Chart:
-    has_several = all(len(group.runs) > 1 for group in groups)
+    has_several = all(len(group.runs) >= LEAST for group in groups)
     note = INTERVALS if has_several else NO_INTERVALS
     drawn = bar_charts.comparison(groups, kpi, label)
     return replace(drawn, note=note if kpi == KPI else "")
@@ -99,7 +99,7 @@ def answer(groups: Sequence[Group], found: Sequence[Verdict]) -> str:
 def _sure(found: Sequence[Verdict], group: Group) -> str:
     told = [one for one in found if one.group is group and one.figure == PIECES]
     if not told:
-        return "too few runs to tell it from chance"
+        return too_few(group)
     if told[0].difference.significant:
         return f"chance hardly explains it ({p_text(told[0].p_value)})"
     return f"chance may explain it ({p_text(told[0].p_value)})"
@@ -115,8 +115,15 @@ def by_chance(first: Group, group: Group) -> str:
     a, b = (one.estimate(KPI).mean for one in (first, group))
     return (
         f"{group.label}: {100 * (b / max(a, 1e-9) - 1):+.1f} % pieces an hour against"
-        f" {first.label} (too few runs to tell it from chance)"
+        f" {first.label} ({too_few(group)})"
     )
+
+
+def too_few(group: Group) -> str:
+    """Returns a clause about a group that has no interval, and how many runs would."""
+    count = len(group.runs)
+    runs = f"{count} run{'' if count == 1 else 's'}"
+    return f"{runs}: chance can't be told apart; {LEAST} seeds or more can"
 
 
 def _differences(groups: Sequence[Group], found: Sequence[Verdict], label: str) -> str:

@@ -2,7 +2,8 @@
 """The files that a shift leaves in its folder: kpis.json, and run.json with data for the report.
 
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
-stored, completed: a list each}, driven_m [metres in each of these], stations [{name, kind, cell
+stored, completed: a list each}, driven_m [metres in each of these], minutes {a list for each of
+minute_log.SERIES, and late: orders that became late}, stations [{name, kind, cell
 [x, y], busy_fraction, pieces, visits}], completed_s, turnover_s and throughput_s of each order,
 robots {activity: seconds}, floor [a text a row], traffic and waiting (h, w) or null,
 failures [{kind, count, repairs, mean_repair_s}],
@@ -11,6 +12,7 @@ lateness, date [when it was simulated], version.
 
 import json
 import os
+from collections import Counter
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -103,7 +105,8 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
         "intervals": {"seconds": INTERVAL}
         | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
         "stations": [_station(station, shift) for station in shift.stations],
-        "driven_m": _driven(ops, count),
+        "driven_m": ops.log.series["metres"],
+        "minutes": ops.log.series | {"late": _late(shift, count)},
         "completed_s": [round(value - shift.began, 1) for value in tally.completed_s],
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
@@ -128,14 +131,15 @@ def floor_rows(plan: FloorPlan) -> list[str]:
     return ["".join(row) for row in cells.tolist()]
 
 
-def _driven(ops: "Operations", count: int) -> list[float]:
-    """Returns the metres of all robots in each interval."""
-    out, last = [], 0.0
-    for i in range(count):
-        total = ops.driven_m.get(i, last)
-        out.append(round(total - last, 1))
-        last = total
-    return out
+def _late(shift: "Shift", count: int) -> list[int]:
+    """Returns how many orders became late in each interval."""
+    late = Counter(shift.tally.late_in)
+    late.update(
+        int(order.due // INTERVAL)
+        for order in shift.orders.values()
+        if order.due and order.due < shift.now
+    )
+    return [late[i] for i in range(count)]
 
 
 def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:

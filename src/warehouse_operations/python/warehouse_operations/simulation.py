@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from warehouse_fleet.planner_plugins import PlannerError
-from warehouse_layout import FloorError, layout_choice
-from warehouse_layout.layout_file import LayoutFileError, text_of
+from warehouse_layout import FloorError, file_check, layout_choice, placement
+from warehouse_layout.layout_file import LayoutFile, LayoutFileError, text_of
 from warehouse_layout.request import items_for
 from warehouse_operations import check, layout_site, runs
 from warehouse_operations.building import world_of
@@ -126,7 +126,17 @@ def remarks(description: Description) -> list[str]:
     if description.instance and not description.physics:
         jams = _jams(description.instance, read_instance(description.instance))
         told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+    if description.layout and not description.physics:
+        file = layout_choice.chosen(description.layout)
+        told += [f"{description.layout}: {text}" for text in _of_bodies(file)]
     return told
+
+
+def _of_bodies(file: LayoutFile) -> list[str]:
+    """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
+    ideal ones, too."""
+    faults = file_check.faults(file)
+    return [one.text for one in faults] if all(one.is_of_bodies for one in faults) else []
 
 
 def _jams(path: str, site: Site) -> str:
@@ -159,8 +169,13 @@ def open_operations(description: Description, database: str | None = None) -> Op
         site = Site.of_world(world, description.site_name)
     elif description.layout or description.robots:
         file = layout_choice.chosen(description.layout or description.size)
-        world = _of_layout(description)
-        site = layout_site.of_file(Site.of_world(world, file.title), file)
+        if not description.physics and _of_bodies(file):
+            world, robots = None, description.robots or None
+            site = Site.of_layout(placement.place(file, description.seed, robots), file.title)
+        else:
+            world = _of_layout(description)
+            site = Site.of_world(world, file.title)
+        site = layout_site.of_file(site, file)
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)

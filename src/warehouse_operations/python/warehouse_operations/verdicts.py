@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Says how configurations differ: after the warm-up, seed by seed, with Holm's correction.
 
+Intervals are widened as p-values are corrected, so that both say the same. Fewer than
+comparison.LEAST runs say nothing.
+
 The warm-up is where MSER-5 cuts the pieces picked a minute; all configurations lose as much as the
 one that takes longest. All differences that are told together are corrected together.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isnan
 
 import numpy as np
 
@@ -24,7 +28,7 @@ TOLD: tuple[tuple[str, str, float, int], ...] = (
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a group differs from the first in a figure; p_value: corrected, as in `difference`."""
+    """How a group differs from the first in a figure; p-value and interval: corrected."""
 
     group: Group
     first: Group
@@ -41,12 +45,13 @@ class Verdict:
 
     def __str__(self) -> str:
         found, (low, high) = self.difference, self.bounds
+        bounds = "all alike" if isnan(low) else f"95 %: {100 * low:+.1f} to {100 * high:+.1f} %"
         sure = "significant" if found.significant else "not significant"
         pairs = ", seed by seed" if found.paired else ""
         return (
             f"{self.group.label}: {100 * found.relative:+.1f} % {self.words} against"
-            f" {self.first.label} ({sure}, {p_text(self.p_value)}, 95 %:"
-            f" {100 * low:+.1f} to {100 * high:+.1f} %, effect {found.effect:+.1f},"
+            f" {self.first.label} ({sure}, {p_text(self.p_value)}, {bounds},"
+            f" effect {found.effect:+.1f},"
             f" {found.estimate.count} runs{pairs})"
         )
 
@@ -63,7 +68,7 @@ def verdicts(groups: Sequence[Group]) -> list[Verdict]:
                 out.append(Verdict(group, groups[0], name, words, found, found.p_value))
     corrected = holm([one.p_value for one in out])
     return [
-        replace(one, difference=replace(one.difference, p_value=p), p_value=p)
+        replace(one, difference=one.difference.corrected(p), p_value=p)
         for one, p in zip(out, corrected)
     ]
 

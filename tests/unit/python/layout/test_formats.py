@@ -139,7 +139,9 @@ def test_names_of_files_tell_the_format(write, tmp_path):
     with pytest.raises(FormatError, match="no format that can be written: known are .layout.yaml"):
         formats.convert(path, tmp_path / "a.dxf")
     with pytest.raises(FormatError, match="no format that can be read: known are .layout.yaml, "):
-        formats.convert(tmp_path / "a.svg", tmp_path / "b.map")
+        formats.convert(write("<svg/>", "a.svg"), tmp_path / "b.map")
+    with pytest.raises(FormatError, match="none.svg: No such file or directory"):
+        formats.convert(tmp_path / "none.svg", tmp_path / "b.map")
     with pytest.raises(FormatError, match="none.map: No such file or directory"):
         formats.convert(tmp_path / "none.map", tmp_path / "b.map")
     with pytest.raises(FormatError, match="b.map: No such file or directory"):

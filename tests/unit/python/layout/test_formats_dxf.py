@@ -101,7 +101,7 @@ def test_layers_of_ones_own(path, tmp_path):
     assert lines_of(file.floor) == FLOOR and told == []
     layers.write_text("walls: A-walls-*\nstorage: A-storage-NEW\n")
     _, told = formats.read(path, layers)
-    assert "layer 'A-parking-NEW': 1 entity left out; --layers can say what it holds" in told
+    assert "layer 'A-parking-NEW': 1 POINT left out; --layers can say what it holds" in told
     for text, message in (
         ("wals: A", "'wals' is not one of our names; did you mean 'walls'"),
         ("walls: {a: 1}", "walls is {'a': 1}; names of layers were expected"),
@@ -131,7 +131,7 @@ def test_a_block_of_everything_and_streets(path):
     document.modelspace().add_blockref("FLOOR1", (100, 50), dxfattribs={"layer": "XREF"})
     document.saveas(path)
     file, told = formats.read(path)
-    assert told == ["layer 'dimensions': 1 entity left out; --layers can say what it holds"]
+    assert told == ["layer 'dimensions': 1 MTEXT left out; --layers can say what it holds"]
     assert lines_of(file.floor) == [
         "##########",
         "#......###",
@@ -183,3 +183,61 @@ def test_a_truncated_drawing_is_told_or_read(path):
             formats.read(path)
         except FormatError as error:
             assert str(error).startswith(str(path))
+
+
+def test_layers_are_listed_with_what_is_on_them_and_a_proposal(path):
+    own = {"walls": "A-WAND", "storage": "Regale", "station": "0-X", "parking": "AGV-PARK"}
+    drawing(names=lambda name: own.get(name, "rest")).saveas(path)
+    with pytest.raises(FormatError) as told:
+        formats.read(path)
+    text = str(told.value)
+    assert "'A-WAND' (1 LWPOLYLINE, 2 LINE)" in text and "'Regale' (64 LWPOLYLINE" not in text
+    assert "'walls: [A-WAND]'; 'storage: [Regale]'" in text and "parking: [AGV-PARK]" in text
+    with pytest.raises(FormatError, match="its model space is empty"):
+        ezdxf.new().saveas(path)
+        formats.read(path)
+
+
+def test_loose_lines_are_joined(path):
+    """Shelves, a station and the floor as four lines each, drawn in any order and direction."""
+    document = ezdxf.new("R2010")
+    document.header["$INSUNITS"] = 6
+    space = document.modelspace()
+
+    def box(x, y, u, v, layer):
+        corners = [(x, y), (u, y), (u, v), (x, v)]
+        edges = list(zip(corners, corners[1:] + corners[:1]))
+        edges[1], edges[3] = edges[3][::-1], edges[1]
+        for a, b in edges:
+            space.add_line(a, b, dxfattribs={"layer": layer})
+
+    box(0, 0, 8, 5, "floor")
+    box(1, 1, 5, 3, "storage")
+    box(6.1, 1.1, 6.9, 1.9, "station")
+    space.add_line((6.2, 4.5), (7.8, 4.5), dxfattribs={"layer": "belts"})
+    document.saveas(path)
+    file, told = formats.read(path)
+    assert told == [] and lines_of(file.floor) == [
+        "......==",
+        "........",
+        ".ssss...",
+        ".ssss.A.",
+        "........",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"", "is not a DXF drawing: it is empty"),
+        (b"AC1027" + bytes(99), "it is a DWG, which only CAD programs read; save it as DXF there"),
+        (bytes(range(256)), "is not a DXF drawing: "),
+    ],
+    ids=["empty", "a DWG", "noise"],
+)
+def test_what_is_no_drawing_is_one_sentence(path, data, message):
+    path.write_bytes(data)
+    with pytest.raises(FormatError) as told:
+        formats.read(path)
+    assert message in str(told.value)
+    assert "NoneType" not in str(told.value) and "attribute" not in str(told.value)

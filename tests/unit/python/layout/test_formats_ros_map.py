@@ -2,12 +2,13 @@
 """Maps of map_server become floors: askew, noisy, black on white or the other way."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 from scipy import ndimage
 
-from warehouse_layout import formats
+from warehouse_layout import formats, placement
 from warehouse_layout.formats import FormatError
 
 RESOLUTION = 0.05
@@ -60,6 +61,12 @@ def write_map(folder, grey, plain=False, **told):
     return path
 
 
+def read(path, **options):
+    """The layout, and what is no mere note."""
+    file, told = formats.read(path, **options)
+    return file, [one for one in told if not isinstance(one, formats.Note)]
+
+
 EXPECTED = [
     "##############",
     "#.....#......#",
@@ -76,7 +83,7 @@ EXPECTED = [
 
 @pytest.mark.parametrize("plain", [False, True])
 def test_a_clean_map(tmp_path, plain):
-    file, told = formats.read(write_map(tmp_path, picture(), plain))
+    file, told = read(write_map(tmp_path, picture(), plain))
     assert told == []
     assert similar(file.floor) >= 0.97
 
@@ -120,8 +127,8 @@ def test_an_angle_given_and_a_yaw(tmp_path):
     assert told[0] == "turned by -10.00 degrees" and similar(file.floor) > 0.9
     # With the yaw in the file the map lies along the axes already.
     path = write_map(tmp_path, picture(10.0), origin=f"[0, 0, {math.radians(-10)}]")
-    file, told = formats.read(path)
-    assert told == [] and similar(file.floor) > 0.9
+    file, told = read(path)
+    assert not any("turned" in one for one in told) and similar(file.floor) > 0.9
 
 
 def test_negate_png_and_spacing(tmp_path):
@@ -138,8 +145,9 @@ def test_a_thousand_cells_square(tmp_path):
     grey = np.full((1000, 1000), 254, np.uint8)
     grey[[0, -1]] = grey[:, [0, -1]] = 0
     path = write_map(tmp_path, grey, resolution=0.5)
-    file, told = formats.read(path, spacing=0.5)
-    assert file.shape == (1000, 1000) and told == []
+    file, told = read(path, spacing=0.5)
+    assert file.shape == (1000, 1000)
+    assert told == ["poses of the map are moved by (-0.25, -0.25) m, to the middle of cells"]
     assert (file.floor == "#").sum() == 3996
 
 
@@ -150,8 +158,9 @@ def test_a_thousand_cells_square(tmp_path):
         ({"resolution": ".nan"}, "resolution is nan; a number from"),
         ({"resolution": "fine"}, "resolution is 'fine'"),
         ({"origin": "[1, 2]"}, "origin is .*; x, y .m. and yaw .rad. were expected"),
+        ({"origin": "[1, 2, .nan]"}, "write nan as the yaw of a map that is not turned: make it 0"),
         ({"image": "none.pgm"}, "none.pgm: No such file"),
-        ({"image": "map.yaml"}, "a PGM .* or PNG was expected"),
+        ({"image": "map.yaml"}, "a PGM .*, BMP or PNG was expected"),
         ({"image": "[1"}, r"map.yaml:\d: is not YAML"),
         ({"mode": "grey"}, "mode is 'grey'; trinary"),
         ({"free_thresh": 0.0}, "no pixel is free"),
@@ -210,3 +219,99 @@ def test_how_sure_the_angle_of_a_small_picture_is(tmp_path, pixels):
         assert "--angle sets it" in told[0]
         off = (float(words[2]) + degrees + 45) % 90 - 45
         assert abs(off) <= float(words[7].rstrip(":")) <= math.degrees(1.6 / pixels)
+
+
+# --- pixels, as map_server reads them
+
+
+def server(path, occupied=0.65, free=0.196, mode="trinary", negate=False):
+    """What map_server publishes, pixel by pixel, as image_loader.cpp has it."""
+    from PIL import Image
+
+    picture = Image.open(path)
+    deep = {"L": "L", "P": "RGB", "RGB": "RGB", "RGBA": "RGBA", "LA": "RGBA"}[picture.mode]
+    pixels = np.asarray(picture.convert(deep)).reshape(picture.size[1], picture.size[0], -1)
+    out = np.zeros(pixels.shape[:2], int)
+    for at in np.ndindex(out.shape):
+        channels = pixels[at].tolist()
+        alpha = channels[3] / 255 if len(channels) == 4 else 1.0
+        used = channels if mode == "trinary" or len(channels) < 4 else channels[:3]
+        average = sum(used) / len(used)
+        average = 255 - average if negate else average
+        if mode == "raw":
+            out[at] = round(average) if round(average) <= 100 else -1
+            continue
+        chance = (255 - average) / 255
+        if chance > occupied:
+            out[at] = 100
+        elif chance < free:
+            out[at] = 0
+        elif mode == "trinary" or alpha < 1:
+            out[at] = -1
+        else:
+            out[at] = int(99 * (chance - free) / (occupied - free))
+    return out
+
+
+@pytest.mark.parametrize("mode", ["trinary", "scale", "raw"])
+@pytest.mark.parametrize("negate", [False, True])
+@pytest.mark.parametrize("kind", ["L png", "RGB bmp", "RGBA png", "L bmp"])
+def test_pixels_are_read_as_map_server_does(tmp_path, mode, negate, kind):
+    from PIL import Image
+
+    from warehouse_layout.formats import images, ros_map
+
+    colours, suffix = kind.split()
+    shape = (16, 16) if colours == "L" else (16, 16, len(colours))
+    grey = np.random.default_rng(4).integers(0, 256, shape).astype(np.uint8)
+    grey.flat[:8] = [0, 100, 101, 205, 206, 254, 255, 89]
+    path = tmp_path / f"m.{suffix}"
+    Image.fromarray(grey, colours).save(path)
+    found = ros_map.occupancy(images.read(path), mode, negate, ros_map.Thresholds(0.65, 0.25))
+    assert (found == server(path, 0.65, 0.25, mode, negate)).all()
+
+
+def test_what_was_never_seen_is_no_floor_whatever_the_thresholds(tmp_path):
+    usual, _ = formats.read(write_map(tmp_path, picture()))
+    file, told = formats.read(write_map(tmp_path, picture(), free_thresh=0.25))
+    assert (file.floor == usual.floor).all()
+    unseen = int((picture() == 205).sum())
+    assert told[0].startswith(f"205 of a picture in 0, 205 and 254 is unknown: {unseen:,} pixels")
+    free, walls = int((picture() == 254).sum()), int((picture() == 0).sum())
+    assert told[-1] == (
+        f"of {340 * 260:,} pixels {free:,} are free, {walls:,} occupied, {unseen:,} unknown"
+    )
+    # Other greys beside them: the thresholds say what they are.
+    grey = picture()
+    grey[100, 100] = 230
+    file, _ = formats.read(write_map(tmp_path, grey, free_thresh=0.25))
+    assert (file.floor == ".").sum() > 1.5 * (usual.floor == ".").sum()
+
+
+def test_a_raw_map(tmp_path):
+    raw = np.select([picture() == 0, picture() == 254], [100, 0], 255).astype(np.uint8)
+    file, _ = formats.read(write_map(tmp_path, raw, mode="raw"))
+    assert similar(file.floor) >= 0.97
+
+
+def test_poses_of_a_map_hold(tmp_path):
+    """The pillar of the room is where the map has it."""
+    for origin in ((-3.0, -2.0), (7.0, 11.0), (-3.3, 5.2)):
+        path = write_map(tmp_path, picture(), origin=f"[{origin[0]}, {origin[1]}, 0]")
+        file, told = read(path)
+        dx, dy = 0.0, 0.0
+        for text in told:
+            dx, dy = map(float, re.search(r"moved by \((\S+), (\S+)\) m", text).groups())
+        # The pillar's middle in the picture: 3.5 m right of its centre, 1.5 m below.
+        pillar = np.add(origin, (17.0 / 2 + 3.5 + dx, 13.0 / 2 - 1.5 + dy))
+        column, row = np.round((pillar - file.at) / file.spacing).astype(int)
+        assert file.floor[row, column] == "#" and file.floor[row, column - 2] == "."
+        assert max(abs(dx), abs(dy)) <= 0.5
+        assert placement.origin(file) == file.at and not placement.place(file).units.size
+
+
+def test_a_picture_of_another_computer_is_found_beside_the_map(tmp_path):
+    for name in ("/home/them/maps/m.pgm", "C:\\\\maps\\\\m.pgm"):
+        file, told = formats.read(write_map(tmp_path, picture(), image=f'"{name}"'))
+        plain = name.replace("\\\\", "\\")
+        assert told[0] == f"{plain} is not here: m.pgm beside map.yaml was read"

@@ -68,7 +68,7 @@ def test_no_street_is_a_fault():
 def test_a_blind_alley_is_named_with_its_cells():
     (fault,) = faults("....", "....", "#.##", "#.##")
     assert "can't pass each other" in fault.text
-    assert set(fault.cells) == {(1, 0), (1, 1), (1, 2)}
+    assert set(fault.cells) == {(1, 0), (1, 1)}  # those to be closed
     assert "[1, 0]" in fault.text
 
 
@@ -187,3 +187,55 @@ def test_parking_that_no_robot_reaches_is_told():
     lines[2] = lines[6] = "  ######.........."
     (fault,) = file_check.faults(lf.parse("\n".join(lines)))
     assert "parking" in fault.text and (2, 5) in fault.cells
+
+
+POCKET = (
+    ".......",
+    ".sss.s.",
+    ".sss.s.",
+    ".......",
+    "###..##",
+    "###..##",
+)
+
+
+def test_streets_without_an_errand_are_named_to_be_closed():
+    # Two cells deep, two wide: fine. One wide: loads that meet there can't pass each other.
+    more = "storage_units: 4\nrobots: 1\n"
+    assert faults(*POCKET, more=more) == []
+    narrow = [line.replace("###..##", "###.###") for line in POCKET]
+    (fault,) = faults(*narrow, more=more)
+    assert fault.cells == ((3, 0), (3, 1))
+    assert fault.text.endswith(
+        "no storage place or station is served from there: draw 'x' in these"
+    )
+    closed = [line.replace("###.###", "###x###") for line in narrow]
+    assert faults(*closed, more=more) == []
+    # A storage place is served from there: closing it is no way out.
+    narrow[-1] = "###s###"
+    (fault,) = faults(*narrow, more=more)
+    assert "join them into a ring" in fault.text
+
+
+def test_stations_without_room_are_told_quickly_on_a_large_floor():
+    """Streets a cell wide between blocks: every lane would cut others off."""
+    floor = np.full((199, 401), "#")
+    floor[::3, :] = floor[:, ::3] = "."
+    services = [(column, row) for row in range(99, 120, 6) for column in range(100, 280, 12)]
+    told = "".join(
+        f"  S{i}: {{name: S{i}, kind: pick, service: [{x}, {y}]}}\n"
+        for i, (x, y) in enumerate(services)
+    )
+    lines = ["".join(line) for line in floor[::-1]]
+    began = time.monotonic()
+    found = faults(*lines, stations=told, more="storage_units: 0\n")
+    assert time.monotonic() - began < 30
+    assert sum("has no room for a lane: a lane enters" in one.text for one in found) == 60
+
+
+def test_what_has_no_room_is_told_in_english():
+    (fault, *_) = faults(
+        ".....", ".....", "###A#", more="storage_units: 0\n",
+        stations="  A: {name: pick1, kind: pick, queue: [[3, 1]]}\n",
+    )  # fmt: skip
+    assert "has no room for an exit" in fault.text

@@ -2,6 +2,7 @@
 """The program layout, run as a person runs it: sentences, exit codes, files."""
 
 import os
+import re
 import signal
 import struct
 import subprocess
@@ -59,7 +60,28 @@ def test_check_tells_that_a_fleet_can_work_there(run, good):
     assert done.stdout == (
         f"{good}: a fleet can work on it: 2 robots, 3 storage units, 0 picking stations,"
         " 0 replenishment stations on 15 x 5 cells of 1 m\n"
+        f"{good}: no order can be picked: there is no picking station\n"
     )
+
+
+def test_check_refuses_a_floor_without_work(run, good):
+    good.write_text(GOOD.replace("storage_units: 3", "storage_units: 0").replace("robots: 2", ""))
+    done = run("check", good)
+    assert done.returncode == 1
+    assert done.stdout == (
+        f"{good}: there are no robots: draw parking 'p', and say how many in robots\n"
+        f"{good}: there are no storage units: draw places 's', and say how many in storage_units\n"
+    )
+
+
+def test_a_plan_has_the_scale_of_a_ruler(run, good, tmp_path):
+    run("draw", good, "--out", "plan.svg")
+    (ratio,) = re.findall(r"1 : (\d+) on", (tmp_path / "plan.svg").read_text())
+    assert ratio == "100"
+    assert run("new", "medium", "--out", "m.layout.yaml").returncode == 0
+    run("draw", "m.layout.yaml", "--out", "plan.svg")
+    (ratio,) = re.findall(r"1 : (\d+) on", (tmp_path / "plan.svg").read_text())
+    assert ratio in ("100", "200", "500")
 
 
 def test_check_tells_each_fault_with_its_cells(run, good):

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from paths import ROOT
 
+from warehouse_layout import file_check, layout_file
 from warehouse_layout.layout_file import LayoutFileError
 from warehouse_operations import runs, simulation, sweep
 from warehouse_operations.locks import InUseError
@@ -142,3 +143,17 @@ def test_a_second_run_into_a_folder_leaves_the_first_alone(tmp_path):
     first.join()
     assert runs.read(tmp_path).kpis["robots"] == 3
     assert InUseError in simulation.ERRORS
+
+
+def test_ideal_robots_work_where_the_check_says_so(tmp_path):
+    text = Path(NORTH).read_text(encoding="utf-8").replace("{stock: north.csv}", "40")
+    path = tmp_path / "fine.layout.yaml"
+    path.write_text(text.replace("spacing: 1.2", "spacing: 0.45"), encoding="utf-8")
+    (fault,) = file_check.faults(layout_file.read(path))
+    assert "Write 'spacing: 1.0', or simulate without physics: ideal robots work" in fault.text
+    described = Description(size="", layout=str(path), physics=False, seconds=1800)
+    assert simulation.remarks(described) == [f"{path}: {fault.text}"]
+    run, _ = simulate(described, tmp_path / "out")
+    assert run.kpis["items_picked"] > 50
+    with pytest.raises(LayoutFileError, match="ideal robots work there as it is"):
+        open_operations(Description(size="", layout=str(path), physics=True))

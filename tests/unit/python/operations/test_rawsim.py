@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from instance_file import write_hall_instance, write_instance
 
-from warehouse_operations import Operations, simulation
+from warehouse_operations import Operations, rawsim_policies, simulation
+from warehouse_operations.policies import Policies, PolicyError
 from warehouse_operations.rawsim import InstanceError, read_instance
 from warehouse_operations.rawsim_settings import read_settings
 from warehouse_operations.simulation import Description, open_operations, simulate
@@ -187,3 +188,39 @@ def test_halls_buffers_and_winding_queues(tmp_path):
     lanes = {(s.name[:-1], len(s.cells), s.service) for s in read_instance(path).plan.stations}
     assert lanes == {("pick", 16, 12), ("replenish", 16, 12)}
     assert with_physics(path, seed=1, minutes=15)["item_score"] > 0.9
+
+
+XCONF = """<?xml version="1.0" encoding="utf-8"?>
+<ControlConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+  <PathPlanningConfig xsi:type="FARPathPlanningConfiguration"/>
+  <TaskAllocationConfig xsi:type="BalancedTaskAllocationConfiguration">
+    <OutputPodOrderType>WorkAmountSameTier</OutputPodOrderType>
+  </TaskAllocationConfig>
+  <StationActivationConfig xsi:type="ActivateAllStationActivationConfiguration"/>
+  <ItemStorageConfig xsi:type="ReactiveItemStorageConfiguration"/>
+  <PodStorageConfig xsi:type="FixedPodStorageConfiguration"/>
+  <RepositioningConfig xsi:type="DummyRepositioningConfiguration"/>
+  <OrderBatchingConfig xsi:type="DefaultOrderBatchingConfiguration">
+    <OrderSelectionRule>FCFS</OrderSelectionRule>
+  </OrderBatchingConfig>
+  <MethodManagementConfig xsi:type="NoChangeMethodManagementConfiguration"/>
+</ControlConfiguration>
+"""
+
+
+def test_policies_of_a_controller_are_taken_and_others_named(tmp_path):
+    path = tmp_path / "one.xconf"
+    path.write_text(XCONF)
+    assert Policies.read(path).given == {
+        "robots": "balanced",
+        "storage": "fixed",
+        "orders": "first come",
+        "units": "most work",
+    }
+    assert rawsim_policies.remarks(path) == [
+        f"{path}: ItemStorageConfig Reactive is not followed",
+        f"{path}: PathPlanningConfig FAR is not followed",
+    ]
+    path.write_text("<Instance/>")
+    with pytest.raises(PolicyError, match="<Instance>; <ControlConfiguration> was expected"):
+        Policies.read(path)

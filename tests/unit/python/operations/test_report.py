@@ -253,7 +253,8 @@ def test_intervals_and_differences_are_students():
     assert comparison.difference(*comparison.grouped([a[0], b[0]]), "item_score") is None
     lines = list(report.verdicts(comparison.grouped([a[0], b[0]])))
     assert lines == [
-        "orders: b: +10.0 % pieces an hour against orders: a (too few runs to tell it from chance)"
+        "orders: b: +10.0 % pieces an hour against orders: a"
+        " (1 run: chance can't be told apart; 3 seeds or more can)"
     ]
 
 

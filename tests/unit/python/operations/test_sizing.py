@@ -23,7 +23,7 @@ from warehouse_operations import comparison, order_mix, warm_up
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.demand import make_demand
 from warehouse_operations.order_file import DemandError
-from warehouse_operations.sizing import point, prices, sites
+from warehouse_operations.sizing import point, prices, sites, table
 from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.point import SERIES, Record
 from warehouse_operations.sizing.search import Search
@@ -33,7 +33,7 @@ from warehouse_operations.sizing.verdict import RISK, Verdict, difference
 from warehouse_operations.sizing.wish import ImpossibleError, Wish, WishError
 
 NODE = ROOT / "src" / "warehouse_operations" / "nodes" / "size"
-COMMON = ("--orders-per-hour", 120, "--hours", 1, "--seeds", 2, "--late", "20%", "--robots", 6)
+COMMON = ("--orders-per-hour", 120, "--hours", 1, "--seeds", 3, "--late", "20%", "--robots", 6)
 
 
 def size(*arguments, **options):
@@ -103,15 +103,17 @@ class Capacity(Executor):
         rng = np.random.default_rng((wanted.seed, 7))
         capacity = min(10 * wanted.robots, 250 * wanted.stations) * (0.9 if wanted.physics else 1)
         done = min(rate, capacity) / 60 * (1 + 0.001 * rng.standard_normal())
-        series = dict.fromkeys(SERIES, [1.0] * wanted.minutes)
+        minutes = wanted.run_in + wanted.minutes
+        series = dict.fromkeys(SERIES, [1.0] * minutes)
         series |= {
-            "arrived": [rate / 60] * wanted.minutes,
-            "completed": [done] * wanted.minutes,
-            "late": [0.0] * wanted.minutes,
+            "arrived": [rate / 60] * minutes,
+            "completed": [done] * minutes,
+            "in_time": [done] * minutes,
+            "missed": [max(rate / 60 - done, 0.0)] * minutes,
         }
         future = Future()
         head = (wanted.robots, wanted.stations, wanted.seed, wanted.physics)
-        future.set_result(Record(*head, series, 1, 400.0, [], 0.1))
+        future.set_result(Record(*head, series, [], 0.1))
         return future
 
 
@@ -132,7 +134,7 @@ def test_a_study_answers_a_known_capacity_with_few_shifts(tmp_path):
 
     # Simulated robots do a tenth less; a few more are tried.
     assert study.check(40, 2, 1.0) == 44 and list(study.checks) == [(40, 2), (42, 2), (44, 2)]
-    assert Answer(study, study.verdicts[40, 2], study.checks[44, 2]).limit == "streets"
+    assert Answer(study, study.verdicts[40, 2], study.checks[44, 2]).limit == "the streets"
 
     # Points of the curve are there to be looked at: they change no answer.
     before = dict(study.verdicts)
@@ -150,19 +152,35 @@ def test_a_study_answers_a_known_capacity_with_few_shifts(tmp_path):
 
 def test_what_prices_choose():
     frontier = {3: None, 4: 58, 5: 21, 6: 20}
-    assert choose(frontier, None, 100) == (58, 4)
+    assert choose(frontier, None, 100, 2) == (58, 4)
     dear = prices.Prices(robot=20_000, station=10_000, hour=1.0)
-    assert choose(frontier, dear, 100) == (21, 5)
+    assert choose(frontier, dear, 100, 2) == (21, 5)
     assert dear.per_hour(21, 5, 0) == pytest.approx((21 * 20_000 + 50_000) / 20_000 + 5)
+
+
+def test_a_piece_pays_for_replenishing_stations_and_their_people(tmp_path):
+    study = Study(wish(), Store(tmp_path), Capacity())
+    assert study.wish.replenishing == 2
+    verdict = study.judge(40, 2)
+    money = prices.Prices(robot=20_000, station=40_000, unit=100, hour=30.0, hours=10_000)
+    bought = 40 * 20_000 + 4 * 40_000 + 100 * 100
+    hourly = bought / 10_000 + 4 * 30.0
+    pieces = verdict.estimate("pieces_per_hour").mean
+    assert float(table.cost_of(study, money, verdict)) == pytest.approx(hourly / pieces, rel=1e-3)
 
 
 # --- statistics
 
 
-def record(seed, missed, minutes=60, robots=5):
+def record(seed, missed, piles_up=0.0, minutes=60, robots=5):
     series = dict.fromkeys(SERIES, [0.0] * minutes)
-    series |= {"arrived": [10.0] * minutes, "completed": [10.0 * (1 - missed)] * minutes}
-    return Record(robots, 1, seed, False, series, 1, 360.0, [], 1.0)
+    series |= {
+        "arrived": [10.0] * minutes,
+        "completed": [10.0 * (1 - piles_up)] * minutes,
+        "in_time": [10.0 * (1 - missed)] * minutes,
+        "missed": [10.0 * missed] * minutes,
+    }
+    return Record(robots, 1, seed, False, series, [], 1.0)
 
 
 def test_a_verdict_is_students():
@@ -173,18 +191,22 @@ def test_a_verdict_is_students():
     assert verdict.limit(RISK, 1) == pytest.approx(expected) and expected < 0.01
     assert verdict.met and verdict.decided and verdict.word == "met"
     two_sided = stats.t.interval(0.95, 4, np.mean(values), error)
-    half = verdict.estimate("missed").half
+    half = verdict.estimate("late").half
     assert half == pytest.approx((two_sided[1] - two_sided[0]) / 2)
     # As many, wider apart: their mean is the same, and nothing is sure.
     wide = [0.001, 0.009, 0.0, 0.01, 0.005]
     unsure = Verdict(5, 1, tuple(record(i, v) for i, v in enumerate(wide)), 0.01, 5)
     assert unsure.word == "undecided" and not unsure.decided
-    # Too few are never enough to be sure of it, but enough to give up.
-    assert not Verdict(5, 1, (record(1, 0.0), record(2, 0.0)), 0.01, 5).met
-    assert Verdict(5, 1, (record(1, 0.3), record(2, 0.31)), 0.01, 5).fails
+    # Too few are never enough to be sure of it, but three are enough to give up.
+    few = tuple(record(i, v) for i, v in enumerate((0.3, 0.31, 0.3)))
+    assert not Verdict(5, 1, (record(1, 0.0),) * 3, 0.01, 5).met
+    assert Verdict(5, 1, few, 0.01, 5).fails and not Verdict(5, 1, few[:2], 0.01, 5).fails
+    # Where none is late yet, but orders pile up, all will be.
+    grows = Verdict(5, 1, tuple(record(i, 0.0, 0.1 + v) for i, v in enumerate(wide)), 0.01, 5)
+    assert grows.fails and not grows.met
     # Seed by seed, what all have in common drops out.
     shifted = tuple(record(i, v + 0.1) for i, v in enumerate(wide))
-    more = difference(unsure, Verdict(4, 1, shifted, 0.01, 5), "missed")
+    more = difference(unsure, Verdict(4, 1, shifted, 0.01, 5), "late")
     assert more.mean == pytest.approx(0.1) and more.half < 1e-6
 
 
@@ -283,17 +305,40 @@ def test_a_wish_that_can_not_be_met_by_its_bound():
         wish(orders_per_hour=1000, lines=1.9, pieces=1.0).least_stations()
     assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked for"
     assert wish(orders_per_hour=1000, lines=1.4, pieces=1.0).least_stations() == 4
-    stocked = replace(generator.of_request(Request(4, 24, 9, 2), "full"), stock="s.csv")
-    with pytest.raises(WishError, match="stock s.csv is not taken; items: a count was expected"):
-        Wish(stocked, 100)
     with pytest.raises(WishError, match="items is 0; there is nothing to pick"):
         Wish(generator.of_request(Request(4, 24, 0, 2), "bare"), 100)
+
+
+OWN = "reference,sku,quantity,at,due\n" + "".join(
+    f"A{i},bolt-m{i % 9},1,{60 * i},{60 * i + 1800}\n" for i in range(60)
+)
+
+
+def test_a_stock_and_skus_of_ones_own_are_sized(tmp_path):
+    (tmp_path / "orders.csv").write_text(OWN)
+    rows = "".join(f"bolt-m{i % 9},20,{i + 1}\n" for i in range(18))
+    (tmp_path / "stock.csv").write_text(f"sku,quantity,storage_unit\n{rows}")
+    drawn = layout_choice.chosen("small")
+    layout_file.write(replace(drawn, stock="stock.csv"), tmp_path / "own.layout.yaml")
+    for file in (layout_file.read(tmp_path / "own.layout.yaml"), drawn):
+        wanted = Wish(file, 60, orders_file=str(tmp_path / "orders.csv"), hours=0.25)
+        (one,) = wanted.points(3, 1, [1])
+        record = point.simulate(replace(one, run_in=5))
+        assert sum(record.series["completed"]) > 5
+    # What the stock lacks is named once, in whichever number of lines it is asked for.
+    (tmp_path / "orders.csv").write_text(OWN.replace("bolt-m8", "nut"))
+    wanted = Wish(
+        layout_file.read(tmp_path / "own.layout.yaml"), 60, orders_file=str(tmp_path / "orders.csv")
+    )
+    with pytest.raises(DemandError) as told:
+        point.simulate(wanted.points(3, 1, [1])[0])
+    assert str(told.value).count("sku 'nut' is unknown") == 1 and "\n" not in str(told.value)
 
 
 def test_a_point_is_the_shift_that_simulate_would_run():
     file = layout_choice.chosen("small")
     orders = order_mix.text_of(150, 1.5, 1.0)
-    wanted = point.Point(3, 1, 4, False, layout_file.text_of(file), orders, 30)
+    wanted = point.Point(3, 1, 4, False, layout_file.text_of(file), orders, 10, 20)
     first, again = point.simulate(wanted), point.simulate(wanted)
     assert first.series == again.series
     with sites.open_shift(file, robots=3, stations=1, orders=orders, seed=4, physics=False) as ops:
@@ -307,6 +352,24 @@ def test_a_point_is_the_shift_that_simulate_would_run():
     assert sum(first.series["completed"]) == figures["orders_completed"]
     assert sum(first.series["metres"]) == pytest.approx(figures["distance_m"], abs=0.1)
     assert first.series["open"][-1] == sum(first.series["arrived"]) - figures["orders_completed"]
+
+
+def test_an_order_that_is_not_due_at_the_end_is_judged_by_what_becomes_of_it():
+    file = layout_choice.chosen("small")
+    orders = order_mix.text_of(150, 1.5, 1.0)
+    point_of = lambda minutes: point.Point(  # noqa: E731
+        4, 1, 4, False, layout_file.text_of(file), orders, 20, minutes
+    )
+    short = point.simulate(point_of(20)).series
+    longer = point.simulate(point_of(60)).series
+    # Orders in process at the end: all of those minutes have come to their end in both.
+    assert short["open"][-1] > 0
+    for name in point.FATES:
+        assert short[name] == longer[name][: len(short[name])]
+    came, over = (sum(map(sum, map(short.get, names))) for names in (("arrived",), point.FATES))
+    assert over == came
+    verdict = Verdict(4, 1, (point.simulate(point_of(20)),), 0.01, 5, 20)
+    assert verdict.figures[0]["late"] == 0
 
 
 # --- the program

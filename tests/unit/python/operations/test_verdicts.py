@@ -66,21 +66,56 @@ def test_each_figure_has_a_verdict_corrected_for_all():
     assert "p < 1e-6" in text and "95 %: +" in text and "effect +" in text
 
 
+def test_corrected_p_and_interval_say_the_same():
+    rng = np.random.default_rng(2)
+    checked = set()
+    for _ in range(200):
+        found = [
+            comparison.difference_of(
+                dict(enumerate(rng.normal(10, 1, 5))), dict(enumerate(rng.normal(10 + d, 1, 5)))
+            )
+            for d in (0.0, 1.5, 3.0)
+        ]
+        corrected = comparison.holm([one.p_value for one in found])
+        for one, p_value in zip(found, corrected):
+            now = one.corrected(p_value)
+            assert now.significant == (abs(now.estimate.mean) > now.estimate.half)
+            checked.add((one.significant, now.significant))
+    # Some are significant alone, and no more among others: their interval reaches 0, too.
+    assert {(True, True), (True, False), (False, False)} <= checked
+    # Nothing else is corrected with it: Student's own.
+    alone = found[0].corrected(found[0].p_value)
+    assert alone.estimate.half == pytest.approx(found[0].estimate.half)
+
+
+def test_two_seeds_have_no_interval_and_no_significance():
+    first = [run("a", seed, 10.0, 12.0, 13.0) for seed in (1, 2)]
+    other = [run("b", seed, 17.8, 12.0, 13.0) for seed in (1, 2)]
+    found = comparison.grouped([*first, *other])
+    assert verdicts.verdicts(found) == []
+    assert np.isnan(found[0].estimate("item_throughput_per_hour").half)
+    told = list(report.verdicts(found))
+    assert told == [
+        "orders: b: +0.0 % pieces an hour against orders: a"
+        " (2 runs: chance can't be told apart; 3 seeds or more can)"
+    ]
+
+
 def test_equal_shifts_do_not_differ(tmp_path):
     instance = write_instance(tmp_path / "small.xinst", bots=3, picking=1, replenishing=1, rows=3)
     made = []
     for name in ("pile-on", {"name": "pile-on"}):
-        for seed in (1, 2):
+        for seed in (1, 2, 3):
             described = Description(
                 instance=str(instance),
-                seconds=1200,
+                seconds=600,
                 physics=False,
                 seed=seed,
                 policies={"orders": name},
             )
             made.append(simulate(described, tmp_path / f"{len(made)}")[0])
     first, second = (
-        comparison.Group(name, tuple(made[i : i + 2])) for i, name in ((0, "a"), (2, "b"))
+        comparison.Group(name, tuple(made[i : i + 3])) for i, name in ((0, "a"), (3, "b"))
     )
     told = verdicts.verdicts([first, second])
     assert len(told) == 3 and all(one.p_value == 1 and not one.difference.effect for one in told)

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -11,7 +12,8 @@ import pytest
 from asgi import request
 from paths import ROOT
 
-from warehouse_layout import generator, layout_file
+from warehouse_layout import generator, layout_choice, layout_file
+from warehouse_layout.layout_file import LayoutFileError
 from warehouse_layout.request import PRESETS
 from warehouse_operations import runs, sweep
 from warehouse_operations.runs import Run
@@ -95,7 +97,9 @@ def test_scenarios_are_compared(compared):
     mean = sum(each["item_throughput_per_hour"] for each in kpis) / 2
     assert pieces["cells"][0]["mean"] == pytest.approx(mean)
     assert pieces["cells"][0]["count"] == 2 and "verdict" not in pieces["cells"][0]
-    assert pieces["cells"][1]["difference"]["mean"] < 0
+    # Two runs have no interval, and tell no difference from chance.
+    assert "difference" not in pieces["cells"][1] and pieces["cells"][0]["half"] is None
+    assert pieces["cells"][1]["mean"] < mean and len(told["limits"]) == 2
     shown = one.scenarios()["scenarios"][0]
     assert shown["summary"]["figures"]["pieces"]["mean"] == pytest.approx(mean)
     assert shown["site"] == {"name": "small", "robots": 4, "stations": 2}
@@ -179,7 +183,7 @@ def test_a_run_ends_with_its_server(tmp_path):
 def test_an_error_of_a_run_is_told_in_its_words(tmp_path):
     workshop = Workshop(tmp_path)
     workshop.open()
-    rows = "reference,sku,quantity\nA-1,no-such-sku,1\n"
+    rows = "reference,sku,quantity\nA-1,sku-999999,1\n"
     name = workshop.add_orders("monday.csv", rows)["name"]
     assert workshop.add_orders("monday.csv", rows)["name"] == name
     assert workshop.add_orders("monday.csv", rows + "A-2,b,1\n")["name"] == "monday-2.csv"
@@ -187,8 +191,33 @@ def test_an_error_of_a_run_is_told_in_its_words(tmp_path):
     workshop.run("a")
     until(lambda: states(workshop, "a")[0] == "failed", "the run fails")
     text = workshop.scenarios()["scenarios"][0]["runs"][0]["text"]
-    assert text.startswith("orders/monday.csv:2: ") and "no-such-sku" in text
+    assert text.startswith("orders/monday.csv:2: ") and "sku-999999" in text
     assert not (tmp_path / "a" / "seed-1").exists()
+    workshop.close()
+
+
+def test_a_layout_with_its_stock_is_taken(tmp_path):
+    workshop = Workshop(tmp_path)
+    workshop.open()
+    text = layout_file.text_of(layout_choice.chosen("small"))
+    text = re.sub(r"items: \d+", "items: {stock: own.csv}", text)
+    with pytest.raises(LayoutFileError, match="the stock own.csv is not here yet"):
+        workshop.add_layout("own.layout.yaml", text)
+    with pytest.raises(LayoutFileError, match="the name of a CSV file was expected"):
+        workshop.add_layout("own.layout.yaml", text.replace("own.csv", "../own.csv"))
+    with pytest.raises(LayoutFileError, match="own.csv:2: column quantity"):
+        workshop.add_stock("own.csv", "sku,quantity,storage_unit\nbolt,x,1\n")
+    rows = "sku,quantity,storage_unit\nbolt,20,1\nnut,20,2\n"
+    assert workshop.add_stock("own.csv", rows)["name"] == "own.csv"
+    assert workshop.add_stock("own.csv", rows)["name"] == "own.csv"
+    with pytest.raises(ScenarioError, match="own.csv is there already and says something else"):
+        workshop.add_stock("own.csv", rows + "nail,2,3\n")
+    name = workshop.add_layout("own.layout.yaml", text)["name"]
+    orders = workshop.add_orders("o.csv", "reference,sku,quantity\nA,bolt,2\nB,nut,1\n")["name"]
+    workshop.create("a", SHORT | {"layout": name, "orders": orders, "minutes": 5, "seeds": 1})
+    workshop.run("a")
+    until(lambda: states(workshop, "a")[0] == "done", "the run ends")
+    assert runs.read(tmp_path / "a" / "seed-1").kpis["items_picked"] == 3
     workshop.close()
 
 
@@ -248,13 +277,13 @@ def test_no_way_leads_out_of_the_folder(workshop, tmp_path):
     assert (outside / "scenario.yaml").exists()
 
 
-def test_layouts_are_kept_and_must_name_no_files(workshop):
+def test_layouts_are_kept_and_must_name_no_files_elsewhere(workshop):
     assert workshop.add_layout("north.layout.yaml", SMALL) == {"name": "north.layout.yaml"}
     workshop.create("north", SHORT | {"layout": "north.layout.yaml"})
     assert workshop.scenarios()["scenarios"][0]["site"]["name"] == "own"
     stock = SMALL.replace("items: 96", "items: {stock: /etc/passwd}")
     for text, reason in (
-        (stock, "items: a stock file can't be taken"),
+        (stock, "items: stock is ./etc/passwd.; the name of a CSV file"),
         (SMALL + "building: /etc/passwd\n", "building: the name of a world"),
         ("layout: 1\n", "x.layout.yaml"),
     ):
@@ -312,20 +341,29 @@ def run(seed, pieces, robots=10, wall_s=5.0):
     return Run(None, kpis, data)
 
 
-def test_differences_are_told_where_intervals_are_apart():
+def test_differences_are_told_where_they_are_above_chance():
     first = [run(seed, [10] * 30) for seed in (1, 2, 3)]
-    more = [run(seed, [12] * 30) for seed in (1, 2, 3)]
+    more = [run(seed, [12 + 0.01 * seed] * 30) for seed in (1, 2, 3)]
     wild = [run(seed, [pieces] * 30) for seed, pieces in ((1, 5), (2, 12), (3, 15))]
     told = figures.comparison({"first": first, "more": more, "wild": wild, "again": first})
     row = {one["key"]: one["cells"] for one in told["rows"]}
     verdicts = [cell["verdict"] for cell in row["pieces"][1:]]
     assert verdicts == ["better", "no difference shown", "no difference shown"]
-    assert row["pieces"][1]["relative"] == pytest.approx(0.2)
+    assert row["pieces"][1]["relative"] == pytest.approx(0.202)
     assert row["metres"][1]["verdict"] == "better" and row["waiting"][1]["mean"] == 50
+    # The interval of a difference leaves out 0 where it is shown, and nowhere else.
+    for cell in (one for cells in row.values() for one in cells[1:]):
+        difference = cell.get("difference")
+        if difference and difference["half"] is not None and difference["mean"]:
+            is_apart = abs(difference["mean"]) > difference["half"]
+            assert is_apart == (cell["verdict"] != "no difference shown"), cell
+    assert told["limits"][0] == {"what": "the orders and the stock", "when": ""}
     turned = figures.comparison({"more": more, "first": first})
     assert turned["rows"][0]["cells"][1]["verdict"] == "worse"
-    alone = figures.comparison({"first": first[:1], "more": more[:1]})["rows"][0]["cells"]
-    assert "verdict" not in alone[1] and alone[0]["half"] is None
+    for count in (1, 2):
+        few = figures.comparison({"first": first[:count], "more": more[:count]})
+        alone = few["rows"][0]["cells"]
+        assert "verdict" not in alone[1] and alone[0]["half"] is None
 
 
 def test_figures_come_after_the_warm_up():

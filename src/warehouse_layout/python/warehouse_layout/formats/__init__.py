@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes layouts in the formats of others, told apart by the names of files.
+"""Reads and writes layouts in the formats of others, told apart by what files hold.
+
+Where that does not tell, the end of the name does; what is written goes by the name.
 
     told = formats.convert(Path("hall.dxf"), Path("hall.layout.yaml"))
     for sentence in told:                          # what could not be carried over
         print(sentence)
 
-In: .layout.yaml, .sdf, .world, .xinst, .xlayo, .map, map.yaml, .lif.json, .dxf.
+In: .layout.yaml, .sdf, .world, .xinst, .xlayo, .map, map.yaml, .lif.json, .dxf, .xml (openTCS),
+.csv, .xlsx.
 Out: .layout.yaml, .sdf, .map, .lif.json, .svg, .png.
 """
 
@@ -16,10 +19,11 @@ from pathlib import Path
 from typing import Any
 
 from warehouse_layout import layout_file as lf
-from warehouse_layout.formats.common import FormatError, within_limits
+from warehouse_layout.formats import detect
+from warehouse_layout.formats.common import FormatError, Note, within_limits
 from warehouse_layout.layout_file import LayoutFile
 
-__all__ = ["FormatError", "convert", "read", "write"]
+__all__ = ["FormatError", "Note", "convert", "read", "write"]
 
 LAYOUT = lf.SUFFIX
 # By the end of a file's name, the longest first: the module that reads it, and that which writes.
@@ -34,10 +38,17 @@ READERS = {
     ".sdf": "from_world",
     ".map": "formats.grid_map",
     ".dxf": "formats.dxf",
+    ".lif": "formats.lif",
+    ".json": "formats.lif",
+    ".xml": "formats.opentcs",
+    ".xlsx": "formats.grid_table",
+    ".csv": "formats.grid_table",
+    ".tsv": "formats.grid_table",
 }
 WRITERS = {
     LAYOUT: "layout_file",
     ".lif.json": "formats.lif_writer",
+    ".lif": "formats.lif_writer",
     ".sdf": "world_export",
     ".map": "formats.grid_map",
     ".svg": "draw",
@@ -72,11 +83,16 @@ def read(
     about z to lie along the axes (by default as their walls are). Raises FormatError.
     """
     path = Path(path)
-    module = _module(path, READERS, "read")
+    held = detect.module_of(path)
+    module = _imported(path, held) if held else _module(path, READERS, "read")
+    kind = module.__name__.rpartition(".")[2]
     options: dict[str, Any] = {}
-    if module.__name__.endswith((".dxf", ".ros_map")):
-        options = {"spacing": spacing, "angle": angle}
-        options |= {"layers": layers} if path.suffix.lower() == ".dxf" else {}
+    if kind in ("dxf", "ros_map", "grid_table"):
+        options["spacing"] = spacing
+    if kind in ("dxf", "ros_map"):
+        options["angle"] = angle
+    if kind == "dxf":
+        options["layers"] = layers
     file, told = _checked(path, lambda: _with_told(module.read(path, **options)))
     if module is lf:
         return file, told
@@ -111,10 +127,16 @@ def _checked(path: Path, action: Callable[[], Any]) -> Any:
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from error
 
 
+def _imported(path: Path, module: str) -> Any:
+    return _checked(path, lambda: importlib.import_module(f"warehouse_layout.{module}"))
+
+
 def _module(path: Path, modules: dict[str, str], verb: str) -> Any:
     name = Path(path).name.lower()
     for suffix, module in modules.items():
         if name.endswith(suffix):
-            return _checked(path, lambda: importlib.import_module(f"warehouse_layout.{module}"))  # noqa: B023
+            return _imported(path, module)
+    if verb == "read" and not Path(path).exists():
+        raise FormatError(f"{path}: No such file or directory")
     known = ", ".join(modules)
     raise FormatError(f"{path}: no format that can be {verb}: known are {known}")

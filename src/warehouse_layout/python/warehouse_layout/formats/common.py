@@ -24,6 +24,10 @@ class FormatError(ValueError):
     """Says what can't be read or written, with the file and the place in it."""
 
 
+class Note(str):
+    """A sentence about how a file was read, which is no loss."""
+
+
 def text_of(path: PathName) -> str:
     """Returns the text of a file in UTF-8. Raises FormatError."""
     try:
@@ -114,8 +118,13 @@ def trimmed(file: LayoutFile) -> LayoutFile:
     def moved(cell: Cell) -> Cell:
         return cell[0] - left, cell[1] - first
 
+    at = file.at and (
+        round(file.at[0] + left * file.spacing, 6),
+        round(file.at[1] + first * file.spacing, 6),
+    )
     return replace(
         file,
+        at=at,
         floor=file.floor[first : rows[-1] + 1, left : columns[-1] + 1],
         stations=tuple(replace(s, service=moved(s.service)) for s in file.stations),
         robots=tuple(map(moved, file.robots)) if isinstance(file.robots, tuple) else file.robots,

@@ -16,6 +16,8 @@ from warehouse_layout.formats.common import FormatError, PathName, check_spacing
 from warehouse_layout.formats.dxf_shapes import Drawing
 from warehouse_layout.layout_file import LayoutFile
 
+MOST_NAMED = 20  # layers that a sentence names, at most
+
 
 def read(
     path: PathName,
@@ -32,10 +34,7 @@ def read(
     spacing = check_spacing(path, spacing)
     drawing = dxf_shapes.read(path, dxf_layers.read(layers))
     if not drawing.shapes:
-        raise FormatError(
-            f"{path}: no layer is named as one of ours: {', '.join(dxf_layers.NAMES)}; map your"
-            " own with --layers FILE"
-        )
+        raise FormatError(f"{path}: {_unnamed(drawing)}")
     angle = _angle(drawing) if angle is None else angle
     if angle:
         drawing.told.append(f"turned by {math.degrees(angle):.2f} degrees")
@@ -44,6 +43,18 @@ def read(
         ]
         drawing.texts = [(straight.turned(at, angle), text) for at, text in drawing.texts]
     return dxf_cells.layout_of(path, drawing, spacing), drawing.told
+
+
+def _unnamed(drawing: Drawing) -> str:
+    """Returns a sentence about a drawing that has no layer of ours, and what to write."""
+    ours = f"no layer is named as one of ours: {', '.join(dxf_layers.NAMES)}"
+    layers = dxf_shapes.by_layer(drawing.unknown)
+    if not layers:
+        return f"{ours}; its model space is empty"
+    shown = [f"'{layer}' ({sorts})" for layer, sorts in list(layers.items())[:MOST_NAMED]]
+    more = [f"{len(layers) - MOST_NAMED} more"] if len(layers) > MOST_NAMED else []
+    there = ", ".join([*shown, *more])
+    return f"{ours}; there are {there}. --layers FILE maps them, with {dxf_layers.proposed(layers)}"
 
 
 def _angle(drawing: Drawing) -> float:

@@ -7,7 +7,7 @@ storage: Regale
 
 import difflib
 import fnmatch
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,12 +22,38 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     "streets": ("streets", "street", "one way", "oneway"),
     "keep_out": ("keep out", "keepout"),
     "belts": ("belts", "belt", "conveyor belts", "conveyors", "conveyor"),
-    "storage": ("storage", "storage units", "storage places", "shelves", "shelf", "pods", "pod"),
+    "storage": (
+        "storage",
+        "storage units",
+        "storage places",
+        "shelves",
+        "shelf",
+        "racks",
+        "rack",
+        "pods",
+        "pod",
+    ),
     "parking": ("parking",),
     "charging": ("charging", "chargers", "charger"),
     "stations": ("stations", "station", "pick", "pick stations"),
     "replenish": ("replenish", "replenishment", "replenishment stations"),
     "robots": ("robots", "robot"),
+}
+
+
+# Words in names of layers, in the languages of drawings, the more particular ones first.
+WORDS: Mapping[str, tuple[str, ...]] = {
+    "charging": ("charg", "lade", "batter"),
+    "parking": ("park",),
+    "replenish": ("replen", "inbound", "wareneingang", "nachschub"),
+    "stations": ("station", "pick", "pack", "arbeitspl", "workpl"),
+    "belts": ("belt", "convey", "forder", "förder", "band"),
+    "storage": ("rack", "shel", "regal", "storage", "pod", "lager", "etag", "estant"),
+    "robots": ("robot", "agv", "amr", "fts"),
+    "keep_out": ("keep", "sperr", "restrict", "danger"),
+    "streets": ("street", "lane", "aisle", "path", "gang", "weg", "flow"),
+    "walls": ("wall", "wand", "mauer", "mur", "col", "pillar", "stutz", "stütz", "saul", "säul"),
+    "floor": ("floor", "boden", "slab", "hall"),
 }
 
 
@@ -44,6 +70,17 @@ class Layers:
             if any(fnmatch.fnmatchcase(plain, _plain(pattern)) for pattern in patterns):
                 return kind
         return ""
+
+
+def proposed(layers: Iterable[str]) -> str:
+    """Returns what a file for --layers could say about layers, by words in their names."""
+    out: dict[str, list[str]] = {}
+    for layer in layers:
+        kind = next((k for k, words in WORDS.items() if any(w in _plain(layer) for w in words)), "")
+        if kind:
+            out.setdefault(kind, []).append(layer)
+    lines = [f"{kind}: [{', '.join(names)}]" for kind, names in out.items()]
+    return "; ".join(f"'{line}'" for line in lines) or "lines like 'walls: A-WALL'"
 
 
 def _plain(name: str) -> str:

@@ -2,7 +2,7 @@
 """Reads the entities of a DXF drawing, by layer, as shapes in metres."""
 
 import logging
-import math
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout.formats import dxf_outlines
 from warehouse_layout.formats.common import FormatError, PathName, plural
 from warehouse_layout.formats.dxf_layers import Layers
+from warehouse_layout.formats.dxf_outlines import PLACES, Shape
 
 MILLIMETRE = 0.001
 SMALL = 2.0  # edge of a hall that was not drawn in millimetres [m]
@@ -20,50 +22,21 @@ FINE = 0.02  # how far a curve's parts may be from it [m]
 DEEP = 8  # blocks within blocks, at most
 MOST_SHAPES = 1_000_000
 FAR = 1e6  # [m] from the origin, at most
-PLACES = ("belts", "storage", "parking", "charging", "stations", "replenish", "robots", "keep_out")
 TEXTS = ("TEXT", "MTEXT")
 NAME_TAGS = ("NAME", "STATION", "ID", "LABEL")
 
 
-@dataclass(frozen=True, eq=False)
-class Shape:
-    """What is drawn on a layer: a line, an outline, or a place."""
-
-    kind: str  # of dxf_layers.NAMES
-    points: np.ndarray  # (n, 2) x y [m]
-    closed: bool = False
-    filled: bool = False  # walls: the inside belongs to it
-    name: str = ""
-
-    @property
-    def size(self) -> np.ndarray:
-        """Edges along x and y of the rectangle about it [m]."""
-        return np.ptp(self.points, axis=0)
-
-    @property
-    def centre(self) -> np.ndarray:
-        """The middle of that rectangle [m]."""
-        return (self.points.min(axis=0) + self.points.max(axis=0)) / 2
-
-    def along(self, step: float) -> np.ndarray:
-        """Returns points (n, 2) [m] along its lines, at most a step [m] apart."""
-        points = self.points
-        if self.closed and len(points) > 1:
-            points = np.concatenate([points, points[:1]])
-        parts = [points[:1]]
-        for a, b in zip(points, points[1:]):
-            count = max(1, math.ceil(math.dist(a, b) / step))
-            parts.append(a + (b - a) * (np.arange(1, count + 1) / count)[:, None])
-        return np.concatenate(parts)
-
-
 @dataclass
 class Drawing:
-    """The shapes of a drawing, the texts on layers of stations, and what was left out."""
+    """The shapes of a drawing, the texts on layers of stations, and what was left out.
+
+    unknown: what lies on layers that mean nothing here: counts of entities, by layer and sort.
+    """
 
     shapes: list[Shape] = field(default_factory=list)
     texts: list[tuple[np.ndarray, str]] = field(default_factory=list)  # where [m], what
     told: list[str] = field(default_factory=list)
+    unknown: Counter[tuple[str, str]] = field(default_factory=Counter)
 
 
 def read(path: PathName, layers: Layers) -> Drawing:
@@ -96,6 +69,7 @@ def _drawing(path: PathName, document: Any, layers: Layers, scale: float) -> Dra
     except Exception as error:  # ezdxf raises whatever its reading of a broken entity led to
         raise FormatError(f"{path}: an entity can't be read: {_sentence(error)}") from error
     out.told += reader.left_out()
+    out.shapes = dxf_outlines.joined(out.shapes)
     return out
 
 
@@ -108,15 +82,27 @@ def _document(path: Path, told: list[str]) -> Any:
     try:
         return ezdxf.readfile(str(path))
     except OSError as error:
-        raise FormatError(f"{path}: {error.strerror or 'is not a DXF drawing'}") from error
+        why = error.strerror or f"is not a DXF drawing: {_begin(path)}"
+        raise FormatError(f"{path}: {why}") from error
     except Exception:  # a flawed file: ezdxf can mend many
         try:
             document, auditor = recover.readfile(str(path))
-        except Exception as error:
+        except ezdxf.DXFError as error:
             raise FormatError(f"{path}: is not a DXF drawing: {_sentence(error)}") from error
+        except Exception as error:  # ezdxf stumbled: its words say nothing about the file
+            raise FormatError(f"{path}: is not a DXF drawing: {_begin(path)}") from error
     faults = len(auditor.errors) + len(auditor.fixes)
     told.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
     return document
+
+
+def _begin(path: Path) -> str:
+    """Returns what a file begins with instead of a drawing's first section."""
+    with open(path, "rb") as file:
+        head = file.read(6)
+    if re.fullmatch(rb"AC10\d\d", head):
+        return "it is a DWG, which only CAD programs read; save it as DXF there"
+    return f"it begins with {head!r}, and has no section of entities" if head else "it is empty"
 
 
 def _sentence(error: Exception) -> str:
@@ -137,7 +123,6 @@ def _scale(document: Any) -> float:
 class _Reader:
     def __init__(self, path: PathName, layers: Layers, scale: float, out: Drawing) -> None:
         self._path, self._layers, self._scale, self._out = path, layers, scale, out
-        self._unknown: Counter[str] = Counter()
         self._unread: Counter[tuple[str, str]] = Counter()
         self._extents: dict[tuple[str, ...], np.ndarray] = {}  # of blocks, about their places
 
@@ -148,7 +133,7 @@ class _Reader:
         if what == "INSERT":
             self._insert(entity, layer, kind, depth)
         elif not kind:
-            self._unknown[layer] += 1
+            self._out.unknown[layer, what] += 1
         elif what in TEXTS:
             self._text(entity)
         else:
@@ -158,8 +143,8 @@ class _Reader:
 
     def left_out(self) -> Iterator[str]:
         """Yields a sentence for each layer and each sort of entity that means nothing here."""
-        for layer, count in self._unknown.items():
-            yield f"layer '{layer}': {_entities(count)} left out; --layers can say what it holds"
+        for layer, sorts in by_layer(self._out.unknown).items():
+            yield f"layer '{layer}': {sorts} left out; --layers can say what it holds"
         for (layer, what), count in self._unread.items():
             yield f"layer '{layer}': {plural(count, what)} left out; it has no shape in the plane"
 
@@ -233,5 +218,9 @@ def _extent(insert: Any) -> np.ndarray:
     return np.array([(x, y), (u, y), (u, v), (x, v)])
 
 
-def _entities(count: int) -> str:
-    return "1 entity" if count == 1 else f"{count} entities"
+def by_layer(counts: Counter[tuple[str, str]]) -> dict[str, str]:
+    """Returns what lies on each layer: `12 LINE, 1 CIRCLE`."""
+    out: dict[str, list[str]] = {}
+    for (layer, sort), count in counts.items():
+        out.setdefault(layer, []).append(f"{count} {sort}")
+    return {layer: ", ".join(texts) for layer, texts in out.items()}

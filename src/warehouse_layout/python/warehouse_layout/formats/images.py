@@ -1,25 +1,36 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads pictures of maps: PGM (P2 and P5) and PNG, as grey values from 0 (black) to 1 (white)."""
+"""Reads pictures of maps, as grey values and transparency: PGM (P2 and P5), PNG, BMP and what else
+Pillow reads."""
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from warehouse_layout.formats.common import FormatError, bytes_of
 
 MOST_PIXELS = 64_000_000
+DEEP = ("I", "F")  # Pillow's modes of more than 8 bits a pixel begin with these
 _TOKEN = re.compile(rb"(?:\s|#[^\n]*\n)*([^\s#]+)")
 
 
-def read(path: Path) -> np.ndarray:
-    """Returns the grey values (h, w) of a picture, row 0 the highest. Raises FormatError."""
+@dataclass(frozen=True, eq=False)
+class Pixels:
+    """A picture, row 0 the highest: grey values (h, w) from 0, black, to 1, white; opacity (h, w)
+    from 0 to 1, None where the picture has none."""
+
+    grey: np.ndarray
+    opacity: np.ndarray | None = None
+
+
+def read(path: Path) -> Pixels:
+    """Returns a picture. Raises FormatError."""
     data = bytes_of(path)
     if data[:2] in (b"P2", b"P5"):
-        return _pgm(path, data)
-    if data[:8] == b"\x89PNG\r\n\x1a\n":
-        return _png(path)
-    raise FormatError(f"{path}: begins with {data[:4]!r}; a PGM (P2, P5) or PNG was expected")
+        return Pixels(_pgm(path, data))
+    return _of_pillow(path, data)
 
 
 def _pgm(path: Path, data: bytes) -> np.ndarray:
@@ -69,16 +80,30 @@ def _check_pixels(path: Path, width: int, height: int) -> None:
         raise FormatError(f"{path}: {width} x {height} pixels; {MOST_PIXELS} at most were expected")
 
 
-def _png(path: Path) -> np.ndarray:
-    from PIL import Image
+def _of_pillow(path: Path, data: bytes) -> Pixels:
+    from PIL import Image, UnidentifiedImageError
 
     try:
         with Image.open(path) as picture:
             _check_pixels(path, *picture.size)
-            colours = np.asarray(picture.convert("RGB"), np.float32)
+            return _pixels(picture)
     except FormatError:
         raise
+    except UnidentifiedImageError as error:
+        if data[:8] == b"\x89PNG\r\n\x1a\n":
+            raise FormatError(f"{path}: the PNG can't be read: {error}") from error
+        raise FormatError(
+            f"{path}: begins with {data[:4]!r}; a PGM (P2, P5), BMP or PNG was expected"
+        ) from error
     # Pillow raises these for what is broken.
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
-        raise FormatError(f"{path}: the PNG can't be read: {error}") from error
-    return colours.mean(axis=2) / 255
+        raise FormatError(f"{path}: the picture can't be read: {error}") from error
+
+
+def _pixels(picture: Any) -> Pixels:
+    if picture.mode.startswith(DEEP):
+        values = np.asarray(picture, np.float32)
+        return Pixels(values / np.float32(65535 if picture.mode.startswith("I") else 1))
+    is_clear = picture.mode in ("RGBA", "LA", "PA") or "transparency" in picture.info
+    colours = np.asarray(picture.convert("RGBA" if is_clear else "RGB"), np.float32) / 255
+    return Pixels(colours[:, :, :3].mean(axis=2), colours[:, :, 3] if is_clear else None)

@@ -77,7 +77,7 @@ def _take_nodes(layout: Fields, reading: _Reading) -> None:
             reading.types |= set(_types(types))
             actions |= {a.text("actionType") for a in types.each("actions", "feasibleActions")}
         words = f"{one.text('nodeName', '')} {one.text('nodeDescription', '')}"
-        kind = _kind(words, "")
+        kind = kind_of(words, "")
         if actions & CHARGING:
             kind = "charging"
         elif actions >= LIFTING and not kind:
@@ -93,7 +93,8 @@ def _types(properties: Fields) -> list[str]:
     return [f"{t.text('manufacturer', '')} {t.text('seriesName', '')}".strip() for t in each]
 
 
-def _kind(words: str, default: str) -> str:
+def kind_of(words: str, default: str) -> str:
+    """Returns what a place is for by the words that name and describe it."""
     lower = words.lower()
     return next((kind for kind, ws in WORDS.items() if any(w in lower for w in ws)), default)
 
@@ -126,7 +127,7 @@ def _take_stations(layout: Fields, reading: _Reading) -> None:
         for node in nodes:
             reading.stations.setdefault(node, []).append(name + height)
         kinds = {reading.graph.nodes[n].kind for n in nodes}
-        kind = _kind(f"{name} {about}", "charging" if "charging" in kinds else "pick")
+        kind = kind_of(f"{name} {about}", "charging" if "charging" in kinds else "pick")
         if kind not in ("pick", "replenish"):
             for node in nodes:
                 reading.graph.nodes[node].kind = kind
@@ -154,4 +155,4 @@ def _unsaid(reading: _Reading) -> list[str]:
     return out
 
 
-__all__ = ["FormatError", "read"]
+__all__ = ["FormatError", "kind_of", "read"]

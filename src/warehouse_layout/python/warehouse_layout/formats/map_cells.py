@@ -14,6 +14,7 @@ from warehouse_layout.formats.common import PathName, check_size
 WALL = 0.8  # of a cell's length that a wall of one pixel goes through it
 MOST = 0.3  # share of a cell that is occupied, which makes it a wall in any case
 SEEN = 0.5  # share of a cell that was seen to be free, of floor
+NEARLY = 0.97  # of the floor that other edges would have
 PHASES = 20  # places of the cells' edges that are tried along an axis, at most
 SAMPLE = 300_000  # free pixels that decide about those
 CHUNK = 1_000_000  # pixels that are placed at a time
@@ -21,12 +22,13 @@ CHUNK = 1_000_000  # pixels that are placed at a time
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A map; row 0 is the lowest."""
+    """A map; row 0 is the lowest. origin: x y [m] of its lower left corner."""
 
     resolution: float  # [m] a pixel
     yaw: float  # by which it is turned about z [rad]
     occupied: np.ndarray  # (h, w) bool
     free: np.ndarray  # (h, w) bool
+    origin: tuple[float, float] = (0.0, 0.0)
 
     def points(self, mask: np.ndarray, every: int = 1) -> Iterator[np.ndarray]:
         """Yields x y (n, 2) [m] of the mask's pixels, in parts; `every`: of so many but one."""
@@ -37,8 +39,11 @@ class Picture:
             yield straight.turned(points, self.yaw)
 
 
-def floor_of(path: PathName, picture: Picture, angle: float, spacing: float) -> np.ndarray:
-    """Returns the floor (h, w) of characters that a picture makes, turned by an angle [rad].
+def floor_of(
+    path: PathName, picture: Picture, angle: float, spacing: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the floor (h, w) of characters that a picture makes, turned by an angle [rad] about
+    the origin of its frame, and x y [m] of the centre of its cell (0, 0) in that frame.
 
     `spacing` is the edge of a cell [m]; the picture has a free pixel. Raises FormatError for a
     floor that is too large; `path` is that of the file.
@@ -56,11 +61,15 @@ class _Cells:
         self._shape = height, width
         check_size(path, "a map", height, width)
 
-    def floor(self) -> np.ndarray:
+    def floor(self) -> tuple[np.ndarray, np.ndarray]:
+        origin = straight.turned(np.array([self._picture.origin]), self._angle)[0]
+        # Centres on the grid of a world, on which robots stop, keep the poses of the map.
         corner = self._low + self._spacing
         if self._parts == 1:
-            corner = self._best_corner()
-        return self._drawn(corner, 1)
+            corner = self._best_corner(
+                corner - (corner + origin + self._spacing / 2) % self._spacing
+            )
+        return self._drawn(corner, 1), corner + origin + self._spacing / 2
 
     def _extent(self) -> tuple[np.ndarray, tuple[int, int]]:
         """Returns the lower corner [m] of what is known, and the cells along x and y."""
@@ -73,8 +82,11 @@ class _Cells:
         width, height = np.ceil((corners.max(axis=0) - low) / self._spacing - 1e-9).astype(int) + 1
         return low, (int(width), int(height))
 
-    def _best_corner(self) -> np.ndarray:
-        """Returns the corner [m] from which cells have most floor: their edges cut few walls."""
+    def _best_corner(self, on_grid: np.ndarray) -> np.ndarray:
+        """Returns the corner [m] from which cells have most floor: their edges cut few walls.
+
+        That is `on_grid` where it has nearly as much.
+        """
         every = int(np.count_nonzero(self._picture.free) // SAMPLE)
         every = max(1, min(every, int(self._in_a_cell / 8)))
         phases = max(1, min(PHASES, round(self._spacing / self._picture.resolution)))
@@ -82,7 +94,8 @@ class _Cells:
         for axis in np.eye(2):
             tried = [corner + self._spacing * i / phases * axis for i in range(phases)]
             corner = max(tried, key=lambda one: self._free_cells(one, every))
-        return corner
+        fine = self._free_cells(on_grid, every) >= NEARLY * self._free_cells(corner, every)
+        return on_grid if fine else corner
 
     def _free_cells(self, corner: np.ndarray, every: int) -> int:
         return np.count_nonzero(self._drawn(corner, every) == lf.FLOOR)

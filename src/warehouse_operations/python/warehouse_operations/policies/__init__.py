@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from warehouse_fleet import charging
+from warehouse_layout.formats.rawsim_xml import InstanceError
+from warehouse_operations import rawsim_policies
 from warehouse_operations.inventory import Bin
 from warehouse_operations.orders import Bundle, Line, Order
 from warehouse_operations.policies import (
@@ -191,7 +193,13 @@ class Policies:
 
     @classmethod
     def read(cls, path: str | Path) -> "Policies":
-        """Returns the policies of a YAML file, beside which their files lie. Raises PolicyError."""
+        """Returns the policies of a YAML file, beside which their files lie, or of a controller of
+        RAWSim-O (.xconf). Raises PolicyError."""
+        if rawsim_policies.is_controller(path):
+            try:
+                return cls(rawsim_policies.read(path)[0], str(path))
+            except InstanceError as error:
+                raise PolicyError(str(error)) from error
         return cls(beside(read_yaml(path, PolicyError), Path(path).parent), str(path))
 
 

@@ -4,7 +4,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from warehouse_operations import limits
 from warehouse_operations.comparison import CONFIDENCE
+from warehouse_operations.limits import Limit
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
 from warehouse_operations.sizing.wish import count, named
@@ -73,15 +75,18 @@ class Answer:
         )
 
     @property
-    def limit(self) -> str:
-        """What limits the answer: stations, replenishing, robots or streets."""
+    def limit(self) -> Limit:
+        """What limits the answer; where nothing does yet, what is nearest to its own limit."""
         verdict = self.measured
         if not self.confirmed or self.robots > self.verdict.robots:
-            return "streets"
+            return Limit.STREETS
+        found = limits.limit(verdict.windows)
+        if found != Limit.ORDERS:
+            return found
         use = {
-            "stations": verdict.estimate("of_bound").mean,
-            "replenishing": verdict.estimate("replenishing").mean,
-            "robots": verdict.estimate("robots_at_work").mean,
+            Limit.STATIONS: verdict.estimate("of_bound").mean,
+            Limit.REPLENISHING: verdict.estimate("replenishing").mean,
+            Limit.ROBOTS: verdict.estimate("robots_at_work").mean,
         }
         return max(use, key=lambda one: use[one])
 
@@ -107,7 +112,7 @@ class Answer:
         more = check.robots - self.verdict.robots
         if not check.met:
             yield (
-                f"Simulated robots miss {percent(check, 'missed')} of the orders with"
+                f"Of simulated robots' orders {percent(check, 'late')} are late with"
                 f" {count(check.robots, 'robot')}: more of them get in each other's way."
             )
         elif more:
@@ -120,10 +125,10 @@ class Answer:
     def _fewer_robots(self) -> Iterator[str]:
         fewer = self.study.verdicts.get((self.verdict.robots - 1, self.stations))
         if fewer:
-            more = difference(self.verdict, fewer, "missed")
+            more = difference(self.verdict, fewer, "late")
             yield (
                 f"With {count(fewer.robots, 'robot')} it is {SHOWN[fewer.word]}:"
-                f" {100 * more.mean:+.2f} ± {100 * more.half:.2f} points of orders missed, seed by"
+                f" {100 * more.mean:+.2f} ± {100 * more.half:.2f} points of late orders, seed by"
                 " seed."
             )
 

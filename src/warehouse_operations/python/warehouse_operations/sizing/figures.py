@@ -37,14 +37,14 @@ def throughput(study: Study, chosen: Chosen) -> Chart:
 
 
 def lateness(study: Study, chosen: Chosen) -> Chart:
-    """Returns the share of missed orders over robots, for each number of stations."""
+    """Returns the share of late orders over robots, for each number of stations."""
     return Chart(
-        f"Throughput alone does not do: {100 * study.wish.late:g} % may be missed",
-        "Orders not done in time [%], over robots",
+        f"Throughput alone does not do: {100 * study.wish.late:g} % may be late",
+        "Late orders [%], over robots",
         lambda drawn: _draw_lateness(drawn, study, chosen),
         HEIGHT,
         MARGINS,
-        note="The axis is cut: where a line leaves it at the top, more are missed.",
+        note="The axis is cut: where a line leaves it at the top, more are late.",
     )
 
 
@@ -97,12 +97,12 @@ def _draw_throughput(drawn: Canvas, study: Study, chosen: Chosen) -> None:
 def _draw_lateness(drawn: Canvas, study: Study, chosen: Chosen) -> None:
     late, ends = 100 * study.wish.late, []
     for i, stations, verdicts in _by_stations(study):
-        _band(drawn, verdicts, "missed", 100.0, i)
-        ends.append((i, _stations(stations), verdicts, "missed", 100.0))
+        _band(drawn, verdicts, "late", 100.0, i)
+        ends.append((i, _stations(stations), verdicts, "late", 100.0))
     top = min(max(10 * late, 5.0), 100.0)
-    drawn.scale(("robots", _most(study, chosen)), ("orders not done in time [%]", top))
+    drawn.scale(("robots", _most(study, chosen)), ("late orders [%]", top))
     _line(drawn, late, f"may be: {late:g} %")
-    _checks(drawn, study, "missed", 100.0)
+    _checks(drawn, study, "late", 100.0)
     _mark(drawn, chosen)
     _label(drawn, ends)
 

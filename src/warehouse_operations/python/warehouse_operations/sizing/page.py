@@ -24,12 +24,12 @@ KNEES = (
     " The upright line is the answer."
 )
 MISSED = (
-    "Missed: of the orders that came after the warm-up, the part that was not completed in time:"
-    " late ones, and those by which the open orders pile up. A point is met if the upper"
-    " 95 % confidence limit of that part is at most what may be late, missed if the lower"
-    " one is above it, else undecided, and then not taken. Up to four times as many shifts as asked"
+    "Late: of the orders that came after the warm-up, the part that was not completed in time; what"
+    " is not due yet at the end of a shift is waited for. A point is met if the upper 95 %"
+    " confidence limit of that part is at most what may be late, missed if the lower one is above"
+    " it or if open orders pile up by more, else undecided, and then not taken. Up to four times as many shifts as asked"
     " for are simulated where it is undecided; each of three looks has a third of the risk"
-    " (Bonferroni). The warm-up ends where MSER-5 has the open orders steady. All points have"
+    " (Bonferroni). The warm-up takes two hours, or until MSER-5 has the open orders steady. All points have"
     " the same seeds: the same orders come at the same moments."
 )
 
@@ -94,7 +94,7 @@ def _rest(study: Study, answer: Answer | None, prices: Prices | None) -> str:
     curves = figures.lateness(study, chosen).html() + f'<p class="note">{KNEES}</p>'
     links = sheets.links(_sheets(study, prices), "points")
     parts = [
-        document.section("How many orders are missed", curves),
+        document.section("How many orders are late", curves),
         document.section("Fewest robots for each number of stations", _frontier(study, prices)),
         document.section("How busy they are", figures.use(study, chosen).html()),
         document.section("All points", _table(study, prices) + links, MISSED),
@@ -133,19 +133,29 @@ def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
     yield f"Decisions: {told}."
     yield (
         f"Shifts of {wish.hours:g} h on {wish.file.title}: {count(wish.units, 'storage unit')},"
-        f" {count(wish.file.items, 'bin')}; all replenishing stations are open, and nothing breaks."
+        f" {_bins(wish)}; all replenishing stations are open, and nothing breaks."
     )
     if prices:
         yield (
             f"Prices: robot {prices.robot:,g}, station {prices.station:,g}, storage unit"
             f" {prices.unit:,g}, used up in {prices.hours:,g} hours; {prices.hour:,g} an hour for"
-            " the person at each open picking station. The answer is the cheapest point that does."
+            f" the person at each open picking station and at {_all(wish.replenishing)}."
+            " The answer is the cheapest point that does."
         )
     else:
         yield (
             "Without prices the answer has the fewest stations, each of which takes a person, and"
             " the fewest robots that do with them."
         )
+
+
+def _bins(wish: Wish) -> str:
+    stock = wish.file.stock
+    return f"the stock of {Path(stock).name}" if stock else count(wish.file.items, "bin")
+
+
+def _all(replenishing: int) -> str:
+    return f"each of {count(replenishing, 'replenishing station')}"
 
 
 def effort(study: Study) -> str:

@@ -1,38 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simulates one shift of a point, and writes down each minute of it."""
+"""Simulates one shift of a point, and writes down each minute of it.
+
+An empty warehouse fills first (the run-in); then come the minutes that count. Afterwards the shift
+goes on until each order that came in them is complete or due: so an order that is not due yet at
+the end of a shift is judged like any other, however short the shift is.
+"""
 
 import time as clock
+from collections import Counter
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from warehouse_layout import layout_file
-from warehouse_operations.kpis import upper_bound
+from warehouse_operations import minute_log, order_mix
 from warehouse_operations.message_enums import OrderEventKind
 from warehouse_operations.operations import Operations
 from warehouse_operations.orders import Order
 from warehouse_operations.sizing import sites
 
 MINUTE = 60.0  # [s]
-# What is written down, each as a count since the last minute, but `open` and `overdue` as they are.
-SERIES = (
-    "arrived",  # orders that came
-    "completed",  # orders
-    "late",  # of these
-    "open",  # orders that are not complete
-    "overdue",  # of these, those that are late already
-    "pieces",
-    "visits",  # units that were at picking stations
-    "picking_s",  # station-seconds that the pickers of open stations worked, on the average
-    "replenishing_s",  # the same of replenishing stations
-    "idle_s",  # robot-seconds without work
-    "queue_s",  # robot-seconds before stations
-    "metres",
-)
+MOST_AFTER = 24 * 60  # minutes for which orders are waited for that are not due yet
+PATIENCE = order_mix.DUE_LATER  # after which an order without a due time is late [s]
+# Of the orders that came in each minute, those completed in time, whenever that was, and those not.
+FATES = ("in_time", "missed")
+SERIES = (*minute_log.SERIES, *FATES)
 
 
 @dataclass(frozen=True)
 class Point:
-    """What decides the outcome of a shift. layout: the text of a layout file."""
+    """What decides the outcome of a shift. layout: the text of a layout file.
+
+    minutes: those that count, after those of the run-in.
+    """
 
     robots: int
     stations: int
@@ -40,6 +39,7 @@ class Point:
     physics: bool
     layout: str
     orders: str
+    run_in: int
     minutes: int
     policies: dict[str, Any] = field(default_factory=dict)
 
@@ -48,8 +48,7 @@ class Point:
 class Record:
     """A shift of a point, minute by minute: a list for each of SERIES.
 
-    bound_per_hour: the most pieces an hour that the open picking stations can do, with as many
-    pieces picked from each unit. faults: sentences, of physics. wall_s: what it took [s].
+    faults: sentences, of physics. wall_s: what it took [s].
     """
 
     robots: int
@@ -57,8 +56,6 @@ class Record:
     seed: int
     physics: bool
     series: dict[str, list[float]]
-    replenishing: int  # open stations
-    bound_per_hour: float
     faults: list[str]
     wall_s: float
 
@@ -80,71 +77,62 @@ def simulate(point: Point) -> Record:
         physics=point.physics,
         policies=point.policies,
     ) as ops:
-        log = _Log(ops)
-        for minute in range(1, point.minutes + 1):
-            ops.step_until(minute * MINUTE)
-            log.minute()
+        fates = _Fates()
+        ops.shift.on_order_event = fates.on_order
+        whole = after = point.run_in + point.minutes
+        ops.step_until(whole * MINUTE)
+        series = {name: values[:whole] for name, values in ops.log.series.items()}
+        faults = _faults(ops)
+        while fates.open_of(point.run_in, whole, ops.time) and after < whole + MOST_AFTER:
+            after += 1
+            ops.step_until(after * MINUTE)
+        series |= fates.series(whole, ops.time)
         return Record(
             point.robots,
             point.stations,
             point.seed,
             point.physics,
-            log.series,
-            len(sites.open_stations(ops, "REPLENISH")),
-            _bound(ops),
-            _faults(ops),
+            series,
+            faults,
             clock.monotonic() - began,
         )
 
 
-class _Log:
-    """Writes down the minutes of a shift."""
+class _Fates:
+    """What became of the orders that came in each minute of a shift."""
 
-    def __init__(self, ops: Operations) -> None:
-        self._ops = ops
-        self.series: dict[str, list[float]] = {name: [] for name in SERIES}
-        self._arrived = 0
-        self._last: dict[str, float] = dict.fromkeys(SERIES, 0.0)
-        ops.shift.on_order_event = self._on_order
+    def __init__(self) -> None:
+        self._open: dict[int, Order] = {}  # by id
+        self._in_time: Counter[int] = Counter()  # by minute
+        self._late: Counter[int] = Counter()
 
-    def _on_order(self, _: Order, kind: OrderEventKind, *__: object) -> None:
-        self._arrived += kind == OrderEventKind.RECEIVED
+    def on_order(self, order: Order, kind: OrderEventKind, *_: object) -> None:
+        """Takes in an event of an order; see Shift.on_order_event."""
+        minute = int(order.created // MINUTE)
+        if kind == OrderEventKind.RECEIVED:
+            self._open[order.order_id] = order
+        elif kind == OrderEventKind.COMPLETED:
+            del self._open[order.order_id]
+            (self._in_time if order.completed <= _due(order) else self._late)[minute] += 1
 
-    def minute(self) -> None:
-        """Adds a minute that is over to each series."""
-        shift = self._ops.shift
-        totals = self._totals()
-        for name, total in totals.items():
-            self.series[name].append(round(float(total - self._last[name]), 3))
-        self._last = totals
-        self.series["open"].append(len(shift.orders))
-        overdue = sum(bool(one.due) and one.due < shift.now for one in shift.orders.values())
-        self.series["overdue"].append(overdue)
+    def open_of(self, begin: int, end: int, now: float) -> bool:
+        """Returns whether any order that came from a minute to another may still be in time."""
+        return any(
+            begin <= order.created // MINUTE < end and now <= _due(order)
+            for order in self._open.values()
+        )
 
-    def _totals(self) -> dict[str, float]:
-        ops, tally = self._ops, self._ops.shift.tally
-        activities = ops.fleet.activities()
-        return {
-            "arrived": self._arrived,
-            "completed": tally.orders_completed,
-            "late": tally.late_orders,
-            "pieces": tally.items_picked,
-            "visits": tally.pick_visits,
-            "picking_s": sum(one.busy_s / one.pickers for one in sites.open_stations(ops, "PICK")),
-            "replenishing_s": sum(one.busy_s for one in sites.open_stations(ops, "REPLENISH")),
-            "idle_s": activities["idle"],
-            "queue_s": activities["queue"],
-            "metres": ops.fleet.distance_m,
-        }
+    def series(self, minutes: int, now: float) -> dict[str, list[float]]:
+        """Returns how many orders of each minute were in time, and how many late by now [s]."""
+        late = self._late + Counter(
+            int(order.created // MINUTE) for order in self._open.values() if now > _due(order)
+        )
+        counts = dict(zip(FATES, (self._in_time, late)))
+        return {name: [float(of[i]) for i in range(minutes)] for name, of in counts.items()}
 
 
-def _bound(ops: Operations) -> float:
-    shift, site = ops.shift, ops.site
-    pile_on = shift.tally.items_picked / max(shift.tally.pick_visits, 1)
-    return sum(
-        upper_bound(pile_on, shift.settings.of(one.name), site.kinematics, site.plan.spacing)
-        for one in sites.open_stations(ops, "PICK")
-    )
+def _due(order: Order) -> float:
+    return order.due or order.created + PATIENCE
 
 
 def _faults(ops: Operations) -> list[str]:

@@ -2,9 +2,9 @@
 """What robots, stations and units cost, for the cost of a piece.
 
     robot: 25000      # one of them [money]
-    station: 40000
+    station: 40000    # a picking or a replenishing one
     unit: 150         # a storage unit
-    hour: 28          # of a person at a picking station
+    hour: 28          # of a person at a station
     hours: 20000      # in which what is bought is used up: 5 years of two shifts, if left out
 
 Each may be left out: it costs nothing then.
@@ -31,7 +31,7 @@ class Prices:
     hours: float = 20_000.0
 
     def per_hour(self, robots: int, stations: int, units: int) -> float:
-        """Returns what so many of each cost an hour."""
+        """Returns what so many of each cost an hour; stations: picking and replenishing ones."""
         bought = self.robot * robots + self.station * stations + self.unit * units
         return bought / self.hours + self.hour * stations
 

@@ -22,7 +22,7 @@ class Shown:
     def __call__(self, study: "Study", point: Point, record: Record) -> None:
         """Shows a shift, and what was simulated so far."""
         kind = " with physics" if point.physics else ""
-        in_time = 1 - figures_of(record, point.minutes // 4)["missed"]
+        in_time = 1 - figures_of(record, point.run_in)["late"]
         text = (
             f"{count(point.stations, 'station')}, {count(point.robots, 'robot')},"
             f" seed {point.seed}{kind}:"

@@ -9,7 +9,6 @@ from warehouse_layout.layout_file import LayoutFile
 from warehouse_operations import layout_site
 from warehouse_operations.operations import Operations
 from warehouse_operations.site import Site
-from warehouse_operations.stations import WorkStation
 
 if TYPE_CHECKING:
     from kiva_plugin_cpp import World
@@ -50,11 +49,6 @@ def open_shift(
 def picking_stations(file: LayoutFile) -> list[str]:
     """Returns the names of the picking stations, in the order in which they are opened."""
     return [one.name for one in file.stations if one.kind != "replenish"]
-
-
-def open_stations(ops: Operations, kind: str) -> list[WorkStation]:
-    """Returns the open stations of a kind, PICK or REPLENISH."""
-    return [one for one in ops.shift.stations if one.is_open and one.kind == kind]
 
 
 def _world(file: LayoutFile, robots: int, seed: int) -> "World":

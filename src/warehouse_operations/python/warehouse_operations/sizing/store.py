@@ -8,22 +8,23 @@ from pathlib import Path
 
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
-VERSION = 1  # of what is kept; another one is simulated again
+VERSION = 2  # of what is kept; another one is simulated again
 
 
 class Store:
-    """The shifts in a folder. orders_file: the CSV file of the orders, whose content counts."""
+    """The shifts in a folder. files: those of orders and stock, whose content counts; or ""."""
 
-    def __init__(self, folder: Path, orders_file: str = "") -> None:
+    def __init__(self, folder: Path, *files: str) -> None:
         self._folder = folder
-        self._orders = Path(orders_file).read_bytes() if orders_file else b""
+        self._files = b"".join(Path(one).read_bytes() for one in files if one)
 
     def get(self, point: Point) -> Record | None:
         """Returns the Record of a Point; None if there is none, or none that can be read."""
         try:
             text = self._path(point).read_text(encoding="utf-8")
             record = Record(**json.loads(text))
-            complete = all(len(record.series[name]) == point.minutes for name in SERIES)
+            whole = point.run_in + point.minutes
+            complete = all(len(record.series[name]) == whole for name in SERIES)
         except (OSError, ValueError, TypeError, KeyError):
             return None
         return record if complete else None
@@ -37,7 +38,7 @@ class Store:
         unfinished.replace(path)
 
     def _path(self, point: Point) -> Path:
-        decisive = json.dumps([VERSION, asdict(point)], sort_keys=True).encode() + self._orders
+        decisive = json.dumps([VERSION, asdict(point)], sort_keys=True).encode() + self._files
         key = hashlib.sha256(decisive).hexdigest()[:16]
         kind = "physics" if point.physics else "ideal"
         name = f"{point.stations}-stations-{point.robots}-robots-{kind}-seed-{point.seed}-{key}"

@@ -11,7 +11,7 @@ from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.search import Search
 from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
-from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
+from warehouse_operations.sizing.wish import RUN_IN, ImpossibleError, Wish, count, named
 
 STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
 CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3  # of the fewest robots, and shifts each, to draw
@@ -101,7 +101,7 @@ class Study:
         records: Sequence[Record],
     ) -> Verdict:
         """Returns the Verdict on these shifts, and adds it to those that were found."""
-        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds)
+        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN)
         known = found.get((robots, stations))
         if known is None or len(known.records) < len(records):
             found[robots, stations] = verdict
@@ -126,7 +126,7 @@ class Study:
     def _keep(self, point: Point, record: Record) -> None:
         self.store.put(point, record)
         self.shifts += 1
-        self.simulated_h += point.minutes / 60
+        self.simulated_h += (point.run_in + point.minutes) / 60
         self.wall_s += record.wall_s
         self.on_shift(self, point, record)
 
@@ -136,19 +136,22 @@ class Study:
         pieces = verdict.estimate("pieces_per_hour").mean
         return (
             f"{count(verdict.robots, 'robot')} and {named(wish.stations)} pick {pieces:,.0f} pieces"
-            f" an hour where {wish.pieces_per_hour:,.0f} are asked for, and miss"
-            f" {100 * verdict.estimate('missed').mean:.1f} % of the orders;"
-            f" {100 * wish.late:g} % may be late"
+            f" an hour where {wish.pieces_per_hour:,.0f} are asked for, and"
+            f" {100 * verdict.estimate('late').mean:.1f} % of the orders are late;"
+            f" {100 * wish.late:g} % may be"
         )
 
 
-def choose(frontier: dict[int, int | None], prices: Prices | None, units: int) -> tuple[int, int]:
-    """Returns the (robots, stations) of a frontier that are wanted.
+def choose(
+    frontier: dict[int, int | None], prices: Prices | None, units: int, replenishing: int
+) -> tuple[int, int]:
+    """Returns the (robots, picking stations) of a frontier that are wanted.
 
+    units, replenishing: storage units and replenishing stations, the same at all points.
     With prices the cheapest; without, the fewest stations, each of which takes a person, and as
     few robots as they do with.
     """
     able = [(robots, stations) for stations, robots in frontier.items() if robots]
     if prices is None:
         return min(able, key=lambda one: (one[1], one[0]))
-    return min(able, key=lambda one: prices.per_hour(one[0], one[1], units))
+    return min(able, key=lambda one: prices.per_hour(one[0], one[1] + replenishing, units))

@@ -14,7 +14,6 @@ from warehouse_operations.sizing.verdict import Verdict
 FIGURES: tuple[tuple[str, str, float, int], ...] = (
     ("orders_per_hour", "orders/h", 1, 1),
     ("pieces_per_hour", "pieces/h", 1, 0),
-    ("missed", "missed %", 100, 2),
     ("late", "late %", 100, 2),
     ("open_orders", "open orders", 1, 0),
     ("picking", "stations at work %", 100, 1),
@@ -25,7 +24,7 @@ FIGURES: tuple[tuple[str, str, float, int], ...] = (
     ("pile_on", "pieces a unit", 1, 2),
     ("metres_per_piece", "m a piece", 1, 1),
 )
-SHORT = ("orders_per_hour", "missed", "late", "picking", "robots_at_work")
+SHORT = ("orders_per_hour", "late", "picking", "robots_at_work")
 HEAD = ("stations", "robots", "by", "verdict", "shifts", "warm-up min")
 
 
@@ -100,7 +99,8 @@ def cost_of(study: Study, prices: Prices | None, verdict: Verdict) -> str:
     """Returns what a piece costs at a point as text; empty without prices."""
     if not prices:
         return ""
-    hourly = prices.per_hour(verdict.robots, verdict.stations, study.wish.units)
+    stations = verdict.stations + study.wish.replenishing
+    hourly = prices.per_hour(verdict.robots, stations, study.wish.units)
     return f"{hourly / max(verdict.estimate('pieces_per_hour').mean, 1e-9):.4f}"
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges a point by its shifts: is the wish met, and how sure is that?
 
-An order that comes is met if it is completed in time. Those that are late, and those by which the
-open orders pile up, are missed: of the orders that came after the warm-up, the part that was not
-completed in time. A point meets a wish if the upper confidence limit of the mean part that is
-missed, by Student's t over seeds, is at most the share that may be late.
+Of the orders that came after the warm-up, the part counts that was late; orders that were not due
+yet when the shift was over are waited for. A point meets a wish if the upper confidence limit of
+the mean part, by Student's t over seeds, is at most the share that may be late, and if the open
+orders do not pile up: orders of which few are late today may all be late tomorrow.
 """
 
 import math
@@ -15,11 +15,12 @@ from functools import cached_property
 import numpy as np
 from scipy import special
 
-from warehouse_operations.comparison import CONFIDENCE, Estimate
-from warehouse_operations.sizing.point import Record
+from warehouse_operations.comparison import CONFIDENCE, LEAST, Estimate
+from warehouse_operations.limits import Window, windows_of
+from warehouse_operations.sizing.point import SERIES, Record
 from warehouse_operations.warm_up import mser5
 
-FIRST = 2  # shifts after which a point that is far off is given up
+FIRST = LEAST  # shifts after which a point that is far off is given up
 MORE = (1, 2, 4)  # times the seeds of a wish, at which a point is judged
 RISK = (1 - CONFIDENCE) / len(MORE)  # of one look: each has its part (Bonferroni)
 
@@ -33,13 +34,14 @@ def looks(seeds: int) -> list[int]:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A point's shifts, and what they say. late: the share that may be late."""
+    """A point's shifts, and what they say. late: the share that may be late; run_in [min]."""
 
     robots: int
     stations: int
     records: tuple[Record, ...]
     late: float
     seeds: int
+    run_in: int = 0
 
     @property
     def decided(self) -> bool:
@@ -56,12 +58,20 @@ class Verdict:
         """Whether the wish is met with CONFIDENCE."""
         if len(self.records) < self.seeds:
             return False
-        return self.limit(RISK, 1) <= self.late
+        return self.limit(RISK, 1) <= self.late and not self.piles_up
 
     @cached_property
     def fails(self) -> bool:
         """Whether the wish is missed with CONFIDENCE."""
-        return len(self.records) >= FIRST and self.limit(1 - CONFIDENCE, -1) > self.late
+        if len(self.records) < FIRST:
+            return False
+        return self.limit(1 - CONFIDENCE, -1) > self.late or self.piles_up
+
+    @cached_property
+    def piles_up(self) -> bool:
+        """Whether more orders come than are completed, by more than may be late, with the
+        confidence of a look."""
+        return self._limit("growth", RISK, -1) > self.late
 
     def at_work(self) -> float:
         """Returns how many of the robots were at work, on the average."""
@@ -75,11 +85,14 @@ class Verdict:
         return "undecided" if len(self.records) >= self.seeds else "drawn"
 
     def limit(self, risk: float, side: int, shifts: int = 0) -> float:
-        """Returns the upper (side 1) or lower (-1) limit of the mean part that is missed.
+        """Returns the upper (side 1) or lower (-1) limit of the mean part that is late.
 
         shifts: so many would there be, with the same mean and deviation; 0: those there are.
         """
-        values = np.array([one["missed"] for one in self.figures])
+        return self._limit("late", risk, side, shifts)
+
+    def _limit(self, name: str, risk: float, side: int, shifts: int = 0) -> float:
+        values = np.array([one[name] for one in self.figures])
         if len(values) < 2:
             return math.inf * side
         count = shifts or len(values)
@@ -88,18 +101,28 @@ class Verdict:
 
     @property
     def at_most(self) -> float:
-        """The part of the orders that is missed at most, with CONFIDENCE."""
+        """The part of the orders that is late at most, with CONFIDENCE."""
         return max(self.limit(RISK, 1), 0.0)
 
     @cached_property
     def warm_up(self) -> int:
-        """The first minutes that are left out: until the open orders are steady."""
-        return mser5([one.series["open"] for one in self.records])
+        """The first minutes that are left out: the run-in, and until the open orders are steady."""
+        return max(self.run_in, mser5([one.series["open"] for one in self.records]))
 
     @cached_property
     def figures(self) -> list[Figures]:
         """The figures of each shift after the warm-up."""
         return [figures_of(one, self.warm_up) for one in self.records]
+
+    @cached_property
+    def windows(self) -> list[Window]:
+        """The Windows of all its shifts after the warm-up, summed."""
+        each = [one.series for one in self.records]
+        series = {
+            name: np.sum([one[name] for one in each], axis=0)[self.warm_up :].tolist()
+            for name in SERIES
+        }
+        return windows_of(series, series["missed"])
 
     def estimate(self, name: str) -> Estimate:
         """Returns the Estimate of one of the figures."""
@@ -112,19 +135,17 @@ def figures_of(record: Record, warm_up: int) -> Figures:
     total = {name: float(values.sum()) for name, values in series.items()}
     seconds = 60.0 * len(series["open"])
     hours, robot_s = seconds / 3600, seconds * record.robots
-    overdue = float(series["overdue"][-1])
-    done = total["completed"] - total["late"]
     pieces = total["pieces"] / hours
     return {
-        "missed": 1 - done / max(total["arrived"], 1.0),
-        "late": (total["late"] + overdue) / max(total["completed"] + overdue, 1.0),
+        "late": total["missed"] / max(total["missed"] + total["in_time"], 1.0),
+        "growth": 1 - total["completed"] / max(total["arrived"], 1.0),
         "orders_per_hour": total["completed"] / hours,
         "pieces_per_hour": pieces,
         "open_orders": float(series["open"].mean()),
         "pile_on": total["pieces"] / max(total["visits"], 1.0),
         "picking": total["picking_s"] / (seconds * record.stations),
-        "replenishing": total["replenishing_s"] / max(seconds * record.replenishing, 1.0),
-        "of_bound": pieces / record.bound_per_hour if record.bound_per_hour else 0.0,
+        "replenishing": total["replenishing_s"] / max(total["open_replenishing_s"], 1.0),
+        "of_bound": total["pieces"] / max(total["bound"], 1.0),
         "robots_at_work": 1 - (total["idle_s"] + total["queue_s"]) / robot_s,
         "robots_idle": total["idle_s"] / robot_s,
         "robots_queue": total["queue_s"] / robot_s,

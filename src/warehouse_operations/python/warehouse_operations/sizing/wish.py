@@ -19,6 +19,7 @@ from warehouse_operations.sizing.point import Point
 
 LINES, PIECES = 1.55, 1.05  # of an order, of a line: those of simulate's own orders
 AT_WORK = 2  # robots a unit that may be on its way to stations: another one is on its way back
+RUN_IN = 120  # minutes in which an empty warehouse fills: as long as orders have until they are due
 MANY = 1e6  # pieces from a unit: a bound on all that picking could reach
 
 
@@ -35,7 +36,8 @@ class Wish:
     """So many orders an hour on a floor, of which a share `late` may be late.
 
     lines, pieces: means, of an order and of a line. orders_file: a CSV file whose orders come
-    instead. hours: of each shift. seeds: shifts of a point, at least. Raises WishError.
+    instead. hours: of each shift, after its run-in. seeds: shifts of a point, at least. Raises
+    WishError.
     """
 
     file: LayoutFile
@@ -49,22 +51,28 @@ class Wish:
     most_robots: int = 0  # 0: as many as could be of use, and there is room for
 
     def __post_init__(self) -> None:
-        if self.file.stock:
-            raise WishError(
-                f"{self.file.title}: stock {self.file.stock} is not taken; items: a count was"
-                " expected, whose stock is drawn by each seed"
-            )
-        if faults := file_check.faults(self.file):
+        faults = [one for one in file_check.faults(self.file) if not one.is_of_bodies]
+        if faults:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
             raise WishError(f"{self.file.title}: there is no picking station")
-        if not self.file.items:
+        if not self.file.items and not self.file.stock:
             raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
 
     @cached_property
     def stations(self) -> list[str]:
         """The names of the picking stations, in the order in which they are opened."""
         return sites.picking_stations(self.file)
+
+    @property
+    def stock_file(self) -> str:
+        """The path of the layout's stock, wherever a shift is simulated; "" without."""
+        return str(self.file.beside_file(self.file.stock).absolute()) if self.file.stock else ""
+
+    @property
+    def replenishing(self) -> int:
+        """How many replenishing stations there are; all of them are open."""
+        return len(self.file.stations) - len(self.stations)
 
     @cached_property
     def units(self) -> int:
@@ -110,8 +118,7 @@ class Wish:
 
     def robots(self, stations: int) -> int:
         """Returns the most robots that are tried with so many open picking stations."""
-        replenishing = len(self.file.stations) - len(self.stations)
-        useful = AT_WORK * UNITS_MOST * (stations + replenishing)
+        useful = AT_WORK * UNITS_MOST * (stations + self.replenishing)
         return min(self.most_robots or self.room, self.room, useful)
 
     @cached_property
@@ -125,7 +132,7 @@ class Wish:
         self, robots: int, stations: int, seeds: Sequence[int], physics_hours: float = 0.0
     ) -> list[Point]:
         """Returns the Point of each seed; physics_hours: of simulated robots, 0: ideal ones."""
-        file = replace(self.file, robots=robots, name="")
+        file = replace(self.file, robots=robots, name="", stock=self.stock_file)
         return [
             Point(
                 robots,
@@ -134,6 +141,7 @@ class Wish:
                 bool(physics_hours),
                 layout_file.text_of(file),
                 self.orders,
+                RUN_IN,
                 math.ceil(60 * (physics_hours or self.hours)),
                 dict(self.file.policies),
             )

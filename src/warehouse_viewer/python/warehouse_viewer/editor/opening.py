@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 from warehouse_layout import layout_file
 from warehouse_layout.layout_file import SUFFIX, LayoutFile, LayoutFileError
 
-COMPANIONS = (".pgm", ".png", ".csv")  # of files that name them: never what is opened itself
+COMPANIONS = (".pgm", ".png", ".bmp", ".csv")  # of files that name them; a grid stands alone
 
 
 def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
@@ -36,7 +36,7 @@ def opened(files: Mapping[str, str]) -> tuple[LayoutFile, list[str]]:
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [_put(Path(folder), name, content) for name, content in files.items()]
-        wanted = [path for path in paths if path.suffix.lower() not in COMPANIONS]
+        wanted = [path for path in paths if path.suffix.lower() not in COMPANIONS] or paths
         if len(wanted) != 1:
             names = ", ".join(path.name for path in paths) or "nothing"
             raise LayoutFileError(f"one file to open was expected, not {names}")

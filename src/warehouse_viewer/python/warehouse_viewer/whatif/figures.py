@@ -2,9 +2,9 @@
 """The figures of scenarios: means with 95 % confidence intervals, and how they differ.
 
 What is told by the minute is told after the warm-up (MSER-5), the same minutes for all that are
-compared. A difference is told where two intervals do not overlap, or where it is above chance seed
-by seed, for the same seed draws by the same numbers; all that are told together are corrected
-together (Holm).
+compared. A difference is told where it is above chance seed by seed, for the same seed draws by the
+same numbers; all that are told together are corrected together (Holm), and so are their intervals.
+Fewer than three runs have no interval, and differ by nothing that is shown.
 """
 
 import math
@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from warehouse_operations import limits
 from warehouse_operations.comparison import (
-    CONFIDENCE,
     Difference,
     Estimate,
     Group,
@@ -75,8 +75,15 @@ def summary(runs: Sequence[Run]) -> dict[str, Any]:
     by_seed = _by_seed(group, warm_up([group]))
     return {
         "warm_up": _minutes([group]),
+        "limit": _limit(runs),
         "figures": {one.key: _estimate(by_seed, one.key) for one in FIGURES},
     }
+
+
+def _limit(runs: Sequence[Run]) -> dict[str, str]:
+    """Returns what limits a scenario, and from when to when; "" for all the time."""
+    parts = limits.windows(runs)
+    return {"what": str(limits.limit(parts)), "when": limits.when(parts)}
 
 
 def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
@@ -96,10 +103,14 @@ def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
         cells: list[dict[str, Any]] = [_estimate(by_seed, one.key) for by_seed in figures]
         for i in range(1, len(cells)):
             if difference := told.get((one.key, i)):
-                apart = are_apart(cells[0], cells[i])
-                cells[i].update(_told(difference, corrected[one.key, i], one, apart))
+                cells[i].update(_told(difference.corrected(corrected[one.key, i]), one))
         rows.append(_shown(one) | {"cells": cells})
-    return {"names": list(scenarios), "warm_up": _minutes(groups), "rows": rows}
+    return {
+        "names": list(scenarios),
+        "warm_up": _minutes(groups),
+        "limits": [_limit(runs) for runs in scenarios.values()],
+        "rows": rows,
+    }
 
 
 def _shown(one: Figure) -> dict[str, Any]:
@@ -132,21 +143,14 @@ def _difference(
     return difference_of(a, b)
 
 
-def are_apart(first: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """Returns whether the intervals of two estimates do not overlap."""
-    if first["half"] is None or other["half"] is None:
-        return False
-    return bool(abs(first["mean"] - other["mean"]) > first["half"] + other["half"])
-
-
-def _told(difference: Difference, p_value: float, figure: Figure, apart: bool) -> dict[str, Any]:
+def _told(difference: Difference, figure: Figure) -> dict[str, Any]:
     estimate = difference.estimate
     return {
         "difference": {"mean": estimate.mean, "half": _finite(estimate.half)},
         "relative": _finite(difference.relative),
-        "p": p_value,
+        "p": difference.p_value,
         "paired": difference.paired,
-        "verdict": _verdict(estimate.mean, apart or p_value < 1 - CONFIDENCE, figure.better),
+        "verdict": _verdict(estimate.mean, difference.significant, figure.better),
     }
 
 

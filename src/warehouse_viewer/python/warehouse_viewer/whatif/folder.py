@@ -11,8 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from warehouse_layout import layout_choice, layout_file
+from warehouse_layout import layout_choice, layout_file, stock_file
 from warehouse_layout.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.request import LIMITS
+from warehouse_layout.stock_file import StockFileError
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.demand import make_demand
 from warehouse_operations.order_file import DemandError, read_csv
@@ -116,8 +118,31 @@ class Folder:
 
     def add_layout(self, name: str, text: str) -> str:
         """Keeps the text of a layout file; returns its name here. Raises LayoutFileError."""
-        _check_layout(layout_file.parse(text, name))
+        file = layout_file.parse(text, name)
+        _check_layout(file)
+        if file.stock and not (self.path / LAYOUTS / file.stock).is_file():
+            raise LayoutFileError(
+                f"{name}: items: the stock {file.stock} is not here yet: open both files together"
+            )
         return self._add(LAYOUTS, name, SUFFIX, text)
+
+    def add_stock(self, name: str, text: str) -> str:
+        """Keeps the text of a stock file beside the layouts, by which they name it. Raises
+        LayoutFileError, and ScenarioError where another one has its name."""
+        with tempfile.TemporaryDirectory() as made:
+            file = Path(made, "stock.csv")
+            file.write_text(text, "utf-8")
+            try:
+                stock_file.read(file, LIMITS["shelves"])
+            except StockFileError as error:
+                raise LayoutFileError(str(error).replace(str(file), name)) from error
+        kept = self.path / LAYOUTS / name
+        if is_file_name(name, ".csv") and kept.exists() and kept.read_text("utf-8") != text:
+            raise ScenarioError(
+                f"{name} is there already and says something else; another name was expected, in"
+                " the layout too"
+            )
+        return self._add(LAYOUTS, name, ".csv", text)
 
     def add_orders(self, name: str, text: str) -> str:
         """Keeps the text of a file of orders; returns its name here. Raises DemandError."""
@@ -198,8 +223,11 @@ def _check_floor(description: Description) -> None:
 
 
 def _check_layout(file: layout_file.LayoutFile) -> None:
-    """Raises LayoutFileError for a layout that names files, which were not sent with it."""
-    if file.stock:
-        raise LayoutFileError(f"{file.path}: items: a stock file can't be taken here")
+    """Raises LayoutFileError for a layout that names files elsewhere."""
+    if file.stock and not is_file_name(file.stock, ".csv"):
+        raise LayoutFileError(
+            f"{file.path}: items: stock is {file.stock!r}; the name of a CSV file was expected,"
+            " which is opened together with the layout"
+        )
     if not all(char.isalnum() or char in "_-" for char in file.building):
         raise LayoutFileError(f"{file.path}: building: the name of a world was expected")

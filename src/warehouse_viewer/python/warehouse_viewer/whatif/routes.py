@@ -51,6 +51,7 @@ def routes(workshop: Workshop) -> list[Route]:
         Route(f"{PAGE}/scenarios", _asking(work, work.create, "name", "settings"), methods=posts),
         Route(f"{PAGE}/estimate", _asking(work, work.estimate, "settings"), methods=posts),
         Route(f"{PAGE}/layouts", _asking(work, work.add_layout, "name", "text"), methods=posts),
+        Route(f"{PAGE}/stock", _asking(work, work.add_stock, "name", "text"), methods=posts),
         Route(f"{PAGE}/orders", _asking(work, work.add_orders, "name", "text"), methods=posts),
         Route(one, _asking(work, work.change, "settings"), methods=["PUT"]),
         Route(one, _asking(work, work.delete), methods=["DELETE"]),

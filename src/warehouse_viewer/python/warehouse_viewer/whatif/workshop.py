@@ -231,6 +231,11 @@ class Workshop:
         with self._lock:
             return {"name": self.folder.add_layout(name, text)}
 
+    def add_stock(self, name: str, text: str) -> Told:
+        """Keeps the stock of a layout."""
+        with self._lock:
+            return {"name": self.folder.add_stock(name, text)}
+
     def add_orders(self, name: str, text: str) -> Told:
         """Keeps a file of orders for scenarios."""
         with self._lock:

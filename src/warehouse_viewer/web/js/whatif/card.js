@@ -3,7 +3,7 @@
 
 import { make } from '../dom.js';
 import { pathOf } from './server.js';
-import { BADGES, describe, duration, interval, plural } from './words.js';
+import { BADGES, describe, duration, interval, limitOf, plural } from './words.js';
 
 const FIGURES = [['pieces', 'pieces an hour', 0, ''], ['share', 'of what stations can', 0, ' %'], ['late', 'orders late', 1, ' %'], ['waiting', 'robots wait', 0, ' %']];
 const REASONS = { failed: 'failed', cut: 'cut off when the server ended', cancelled: 'cancelled' };
@@ -63,7 +63,8 @@ export class Card {
     this.figures.hidden = !summary;
     if (!summary) return;
     this.figures.replaceChildren(...FIGURES.map(([key, words, digits, unit]) => (
-      make('div', {}, make('b', { className: 'number', textContent: interval(summary.figures[key], digits) + unit }), make('span', { className: 'dim', textContent: words })))));
+      make('div', {}, make('b', { className: 'number', textContent: interval(summary.figures[key], digits) + unit }), make('span', { className: 'dim', textContent: words })))),
+    make('div', { className: 'limit' }, make('span', { className: 'dim', textContent: `limited by ${limitOf(summary.limit)}` })));
   }
 
   showProgress({ state, runs, left }) {

@@ -4,7 +4,7 @@
 import { $, make, on } from '../dom.js';
 import { queryOf } from './server.js';
 import { chartOf, draw, unitOf } from './whiskers.js';
-import { differences, interval, number, plural } from './words.js';
+import { differences, interval, limitOf, number, plural } from './words.js';
 
 const SIGNS = { better: '▲', worse: '▼', different: '◆' };
 
@@ -57,9 +57,10 @@ export class Comparison {
     const differs = differences(this.scenarios, defaults)
       .map(([what, texts]) => make('tr', {}, rowHead(what), ...texts.map((text) => make('td', { textContent: text }))));
     const figures = rows.map((row) => make('tr', {}, rowHead(row.title, row.unit), ...row.cells.map((cell, i) => cellOf(row, cell, i))));
+    const limit = make('tr', {}, rowHead('What limits it'), ...this.told.limits.map((one) => make('td', { textContent: limitOf(one) })));
     $('table').replaceChildren(make('thead', {}, head),
       make('tbody', {}, title('What differs', names.length), ...(differs.length ? differs : [nothing(names.length)])),
-      make('tbody', {}, title('What came of it', names.length), ...figures));
+      make('tbody', {}, title('What came of it', names.length), ...figures, limit));
   }
 
   header(name, i) {
@@ -71,10 +72,10 @@ export class Comparison {
   showNotes() {
     const { warm_up: warmUp, rows } = this.told;
     const counts = [...new Set(rows[0].cells.map(({ count }) => count))];
-    const few = Math.min(...counts) < 2 ? ' One run alone says nothing about chance: give each scenario several repetitions.' : '';
+    const few = Math.min(...counts) < 3 ? ' Fewer than three runs have no interval and say nothing about chance: give each scenario three repetitions or more.' : '';
     const after = rows.filter(({ note }) => note !== 'the whole shift').map(({ title: text }) => text.toLowerCase()).join('; ');
-    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.told.names[0]}: the intervals do not overlap,`
-      + ` or the difference seed by seed is above chance (p < 0.05, corrected for all differences in the table).${few}`
+    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.told.names[0]}: the difference seed by seed is above chance`
+      + ` (p < 0.05, corrected for all differences in the table; its interval is, too).${few}`
       + ` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
   }
 }

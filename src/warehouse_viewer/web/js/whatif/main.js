@@ -32,7 +32,7 @@ class Page {
     on($('new'), 'click', () => this.form.open(about.defaults, { taken: this.names }));
     on($('two'), 'click', () => this.showIntro(true));
     for (const button of document.querySelectorAll('[data-upload]')) on(button, 'click', () => this.openFile(button.dataset.upload));
-    on($('upload'), 'change', () => this.attempt(() => this.upload($('upload').files[0])));
+    on($('upload'), 'change', () => this.attempt(() => this.upload($('upload').files)));
     on(document, 'visibilitychange', () => document.hidden || this.look());
     this.look();
   }
@@ -208,17 +208,21 @@ class Page {
   // --- files
   openFile(kind) {
     this.kind = kind;
-    $('upload').accept = kind === 'layouts' ? '.yaml' : '.csv';
+    $('upload').accept = kind === 'layouts' ? '.yaml,.csv' : '.csv';
+    $('upload').multiple = kind === 'layouts'; // a layout, and the stock that it names
     $('upload').value = '';
     $('upload').click();
   }
 
-  /** Sends a file to the server, and chooses it where it was asked for. */
-  async upload(file) {
+  /** Sends files to the server, stock before layouts, and chooses what was asked for. */
+  async upload(files) {
     try {
-      if (file.size > MOST_FILE) throw new Error(`${file.name}: a file of up to 5 MB was expected`);
-      const { name } = await ask('POST', `/${this.kind}`, { name: file.name, text: await file.text() });
-      await this.takeFile(this.kind, name);
+      for (const file of [...files].sort((a, b) => a.name.endsWith('.yaml') - b.name.endsWith('.yaml'))) {
+        if (file.size > MOST_FILE) throw new Error(`${file.name}: a file of up to 5 MB was expected`);
+        const isStock = this.kind === 'layouts' && file.name.endsWith('.csv');
+        const { name } = await ask('POST', isStock ? '/stock' : `/${this.kind}`, { name: file.name, text: await file.text() });
+        if (!isStock) await this.takeFile(this.kind, name);
+      }
     } catch (error) {
       if (!this.form.dialog.open) throw error;
       this.form.say(error.message, 'refused');

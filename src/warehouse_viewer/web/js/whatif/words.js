@@ -33,6 +33,9 @@ export function number(value, digits = 0) {
   return value.toLocaleString('en', { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace('-', '−');
 }
 
+/** What limits a scenario, and when: 'the picking stations, 3:20 to 5:20'. */
+export const limitOf = ({ what, when }) => (when ? `${what}, ${when}` : what);
+
 /** A mean with half its interval: '1,405 ± 12'. */
 export function interval({ mean, half }, digits = 0) {
   return half === null ? number(mean, digits) : `${number(mean, digits)} ± ${number(half, digits)}`;
