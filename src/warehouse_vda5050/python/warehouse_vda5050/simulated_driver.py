@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated robot as a Driver: commands become messages, messages become reports."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -23,6 +24,7 @@ FAILURES = {
     FailureKind.LASER_BLIND: (ErrorType.LASER, ErrorLevel.FATAL, "the laser is blind"),
     FailureKind.WHEEL_SLIPS: (ErrorType.WHEELS, ErrorLevel.WARNING, "the wheels slip"),
 }
+SETTLING = 1.0  # until the world tells a mode that was set [s, wall]
 LOST = Error(
     ErrorType.LOST.value,
     ErrorLevel.FATAL,
@@ -103,6 +105,7 @@ class SimulatedDriver(Driver):
         self.refusal = self.silence = ""
         self._world, self._sheet = world, sheet or Factsheet()
         self._taken_from = world.taken_before(kiva_id)  # the mode that it goes back to
+        self._gave_back: tuple[int, float] | None = None  # the mode, and when it counts no more
         self._stopped = False
         self._charged_enough = False  # it was told to stop, and stands there still
 
@@ -162,10 +165,16 @@ class SimulatedDriver(Driver):
             localized=not seen.lost,
             heard=not seen.failures & 1 << FailureKind.RADIO_LOST,
             battery=Battery(100.0 * seen.charge, charging),
-            mode=self._mode(seen.mode),
+            mode=self._mode(self._told_mode(seen)),
             errors=_errors(seen),
             silent=self.silence,
         )
+
+    def _told_mode(self, seen: Sighting) -> int:
+        """The mode that the world tells, or will tell in a moment."""
+        if self._gave_back and time.monotonic() < self._gave_back[1]:
+            return self._gave_back[0]
+        return seen.mode
 
     def _mode(self, mode: int) -> OperatingMode:
         # MANUAL by an order from here is AUTOMATIC to whom the order came from.
@@ -180,10 +189,10 @@ class SimulatedDriver(Driver):
     def take(self) -> str:
         """Makes the robot MANUAL for the coordinator, if there is one."""
         assert self.sighting
-        before = self.sighting.mode
+        before = self._told_mode(self.sighting)
         reason = self._world.set_mode(self.kiva_id, Mode.MANUAL)
         if not reason:
-            self._taken_from = before
+            self._taken_from, self._gave_back = before, None
             self._world.note_taken(self.kiva_id, before)
         return reason
 
@@ -199,6 +208,7 @@ class SimulatedDriver(Driver):
             return
         if seen and seen.mode == Mode.MANUAL:
             self._world.set_mode(self.kiva_id, before)
+            self._gave_back = before, time.monotonic() + SETTLING
         self._world.note_taken(self.kiva_id, None)
 
     def charge(self, on: bool) -> str:

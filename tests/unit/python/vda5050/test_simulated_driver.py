@@ -151,3 +151,18 @@ def test_a_person_who_takes_a_robot_keeps_it():
     driver.sighting = replace(PARKED, mode=Mode.MANUAL)
     vehicle.update(0.0)
     assert vehicle.state().mode is OperatingMode.MANUAL
+
+
+def test_a_robot_that_is_taken_again_at_once_goes_back_to_what_it_was():
+    """The world tells the mode some moments after it was set."""
+    world = World()
+    driver, _ = begun(world)
+    driver.sighting = PARKED
+    driver.take()
+    driver.sighting = replace(PARKED, mode=Mode.MANUAL)
+    driver.give_back()
+    assert world.mode == Mode.AUTOMATIC
+    assert driver.report().mode is OperatingMode.AUTOMATIC
+    driver.take()
+    driver.give_back()
+    assert world.mode == Mode.AUTOMATIC
