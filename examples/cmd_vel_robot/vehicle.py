@@ -18,12 +18,12 @@ from driver import CmdVelDriver
 from host import Host
 from path_follower import Limits
 
-from warehouse_vda5050.arguments import own_broker, read_arguments
+from warehouse_vda5050.arguments import home, own_broker, read_arguments
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.mqtt.loop import MqttLoop
 from warehouse_vda5050.mqtt.vehicle_link import VehicleLink
 from warehouse_vda5050.topics import Identity
-from warehouse_vda5050.vehicle import Vehicle
+from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
 PERIOD = 0.05  # between two looks at what the robot tells [s, wall]
 
@@ -48,8 +48,13 @@ def serve(stack: contextlib.ExitStack) -> None:
         str(rospy.get_param("~manufacturer", "example")), str(rospy.get_param("~serial", 1))
     )
     rospy.loginfo(f"vehicle {who.manufacturer}/{who.serial} at {address}")
-    vehicle = Vehicle(driver, grid())
-    link = VehicleLink(vehicle, who, arguments.codec, arguments.topics, broker, rospy.loginfo)
+    settings = VehicleSettings(
+        begins_at_zero=arguments.codec.version.startswith("3"),
+        logs=home() / "vda5050_logs",
+        name=f"{who.manufacturer}-{who.serial}",
+    )
+    vehicle = Vehicle(driver, grid(), settings)
+    link = VehicleLink(vehicle, who, arguments.codec, arguments.topics, broker)
     loop = MqttLoop()
     loop.add(link.link)
     while not rospy.is_shutdown():

@@ -4,7 +4,18 @@
 from collections.abc import Callable
 from functools import partial
 
-from reference import apis, commands, events, http, launching, messages, numbers, policies, topics
+from reference import (
+    apis,
+    commands,
+    events,
+    http,
+    launching,
+    messages,
+    numbers,
+    policies,
+    topics,
+    vda5050,
+)
 
 PAGES: dict[str, Callable[[], str]] = {
     "messages.md": partial(messages.written, "Messages"),
@@ -15,6 +26,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "launch.md": launching.launches,
     "parameters.md": launching.parameters,
     "http.md": http.written,
+    "vda5050-fields.md": vda5050.written,
     "commands.md": commands.written,
     "policies.md": policies.written,
     "realism-parameters.md": numbers.realism,

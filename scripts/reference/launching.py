@@ -13,6 +13,7 @@ SETTINGS = ROOT / "src/kiva_plugin_cpp/src/ros/settings.h"
 DEFAULTS = {"layout.SEED": "1", "SECONDS": "3600.0"}  # that have names in the code
 # What launch files do not tell of parameters of Python nodes.
 MEANINGS = {
+    "~taken": "kept by the node for its next run: the former mode of each robot that an order has",
     "~rate": "requests a second that each address may send",
     "~history": "simulated seconds that can be looked at again; 0: none",
     "~deadline": "until which a step of the demonstration has to come true [s]",

@@ -8,6 +8,8 @@ import rospy
 import rostest
 from node_test import call, latched, wait_until
 
+from std_srvs.srv import Empty
+
 from warehouse_msgs.msg import CoordinatorState, Vda5050
 from warehouse_msgs.srv import Fail
 from warehouse_vda5050.codec import codec_for
@@ -56,6 +58,14 @@ class Vehicles(unittest.TestCase):
             return {error.type for error in self.master.states[ROBOT].errors}
 
         self.master.until(lambda: "motorError" in types(), 30, "the error")
+
+    def test_4_the_connection_has_unexpectedly_ended_where_the_world_tells_nothing(self):
+        """Also of a world that has ended, which tells as little as one that is paused."""
+        rospy.ServiceProxy("/gazebo/pause_physics", Empty)()
+        self.master.until(lambda: not any(self.master.online.values()), 10, "all the wills")
+        self.assertIn("robotSilent", {error.type for error in self.master.states[ROBOT].errors})
+        rospy.ServiceProxy("/gazebo/unpause_physics", Empty)()
+        self.master.until(lambda: all(self.master.online.values()), 30, "the robots")
 
 
 if __name__ == "__main__":

@@ -472,6 +472,58 @@ TEST_F(ExecutionTest, OneThatWasPushedKeepsItsRoomBetweenTwoAttempts) {
   EXPECT_EQ(execution_.holder(cell(5, 4)), -1);
 }
 
+TEST_F(ExecutionTest, OneThatIsStillAskewAfterAnAttemptIsNotAskedAgainAtOnce) {
+  const int robot = add(4, 3);
+  observe();
+  robots_[robot].yaw = 0.3;
+  std::size_t sent = 0;
+  for (int i = 0; i < 80; ++i) {
+    now_ += kTick;
+    observe();
+    for (const Message& message : release()) {
+      robots_[robot].id = message.id;  // it is there, it says, and its path is over
+      ++sent;
+    }
+  }
+  EXPECT_GE(sent, 2u);
+  EXPECT_LE(sent, 5u);
+}
+
+/// Load and half of the room of one that passes in the middle of the next cell.
+TEST_F(ExecutionTest, ALoadThatStandsAskewKeepsOthersFromItsCorners) {
+  const int robot = add(4, 3);
+  reports_[robot].is_loaded = true;
+  reports_[robot].is_controlled = false;
+  robots_[robot].yaw = M_PI / 4;
+  observe();
+  EXPECT_EQ(execution_.holder(cell(5, 3)), kNobody);  // there is room to pass it
+  robots_[robot].x = 4.06;  // its corner is beyond the edge of a load in the next cell
+  now_ += kTick;
+  observe();
+  now_ += kTick;
+  observe();  // it stands
+  EXPECT_EQ(execution_.holder(cell(5, 3)), robot);
+  EXPECT_EQ(execution_.holder(cell(3, 3)), kNobody);
+}
+
+TEST_F(ExecutionTest, OneThatJumpsOffItsPathHoldsWhereItIs) {
+  const int robot = add(1, 1), other = add(5, 5);
+  observe();
+  plan({straight(6), straight(0)});
+  for (int i = 0; i < 8; ++i) tick();
+  ASSERT_TRUE(robots_[robot].is_active);
+  robots_[robot].x = 4.2;
+  robots_[robot].y = 4;
+  observe();
+  EXPECT_EQ(execution_.holder(cell(4, 4)), robot);
+  EXPECT_EQ(execution_.holder(cell(5, 4)), robot);
+  EXPECT_EQ(execution_.holder(cell(5, 5)), other);
+  robots_[robot].y = 3;
+  observe();
+  EXPECT_EQ(execution_.holder(cell(4, 4)), kNobody);
+  EXPECT_EQ(execution_.holder(cell(4, 3)), robot);
+}
+
 TEST_F(ExecutionTest, OneThatIsTakenAwayKeepsItsPathUntilThatIsOver) {
   const int robot = add(1, 1);
   observe();

@@ -56,6 +56,7 @@ struct Step {
 /// How a robot that was pushed comes back to the middle of a cell.
 struct Recovery {
   double since = -1;          ///< [s]; -1: there is nothing to come back from
+  double ended = -1e9;        ///< when an attempt ended that the robot had accepted [s]
   std::vector<Cell> refused;  ///< where it can't begin a path
 };
 

@@ -147,6 +147,8 @@ class Execution {
   void renew(int robot);
   void keepAround(int robot);
   void cover(int robot);
+  bool isOffItsPath(int robot) const;
+  double reachOf(int robot) const;
   void vacate(int robot);
   void withdraw(int robot);
   void measure(int robot, double elapsed);

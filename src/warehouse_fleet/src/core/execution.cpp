@@ -203,6 +203,7 @@ void Execution::finish(int robot) {
   } else if (course.isAccepted()) {
     course.recovery.refused.clear();
   }
+  if (course.is_astray && !course.isRefused()) course.recovery.ended = now_;
   if (at == course.cells.back()) pass(robot, course.points(), 0);
   const bool was_withdrawn = course.isWithdrawn();
   vacate(robot);

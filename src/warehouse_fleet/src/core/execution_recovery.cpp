@@ -14,7 +14,9 @@ namespace {
 constexpr double kOnGrid = 0.001;  // where a robot takes itself to stand on a grid point [m]
 constexpr int kRefuges = 1;        // cells around a robot in which it may come back to the grid
 constexpr double kFindsBack = 30;  // time in which one that was pushed does [s]
+constexpr double kAgain = 2;       // between attempts that ended where they began [s]
 constexpr double kReach = 0.43;    // of a robot with its load, from its centre along x and y [m]
+constexpr double kPassing = 0.07;  // of that which may reach into a cell where others pass [m]
 constexpr double kHalf = 0.4;      // of the length and the width of a load [m]
 constexpr double kSweep = 0.58;    // around a load that turns, with a little room [m]
 constexpr double kRoom = 1.2;      // that one takes which turns and drives back to the grid [m]
@@ -35,8 +37,8 @@ void Execution::occupy(int robot) {
   cover(robot);
 }
 
-/// Has a robot that was pushed off the middle of its cell hold all that it stands on, until it is
-/// back.
+/// Has a robot that was pushed off the middle of its cell, or off its path, hold all that it stands
+/// on, until it is back.
 void Execution::keepAround(int robot) {
   Course& course = courses_[robot];
   const bool rests = !course.isActive() && reports_[robot].status == RobotStatus::kIdle;
@@ -47,7 +49,20 @@ void Execution::keepAround(int robot) {
     course.is_astray = true;
   }
   vacate(robot);
-  if (course.is_astray) cover(robot);
+  if (course.is_astray || isOffItsPath(robot)) cover(robot);
+}
+
+bool Execution::isOffItsPath(int robot) const {
+  const Cell at = frame_.cellAt(reports_[robot].x, reports_[robot].y);
+  return at != kNowhere && holders_.holder(at) != robot;
+}
+
+/// Returns how far a robot reaches from its centre along x and y with its load, which may stand
+/// askew [m].
+double Execution::reachOf(int robot) const {
+  const double yaw = reports_[robot].yaw;
+  const double corner = kHalf * (std::abs(std::cos(yaw)) + std::abs(std::sin(yaw)));
+  return std::max(kReach, corner - kPassing);
 }
 
 void Execution::cover(int robot) {
@@ -55,7 +70,7 @@ void Execution::cover(int robot) {
   const Report& report = reports_[robot];
   const bool is_trying = course.recovery.since >= 0 && !isLost(robot);  // between attempts, too
   const bool is_coming_back = course.is_astray && (course.isActive() || is_trying);
-  const double reach = (is_coming_back ? kRoom : kReach) * motion_.spacing;
+  const double reach = (is_coming_back ? kRoom : reachOf(robot)) * motion_.spacing;
   const double ahead = 0.7 * motion_.spacing;
   const double speed = std::hypot(report.vx, report.vy);
   const double dx = speed > kStandstill ? ahead * report.vx / speed : 0;
@@ -83,6 +98,7 @@ void Execution::recentre(int robot) {
   Course& course = courses_[robot];
   if (course.isAccepted() || course.isRefused() || isLost(robot)) return;
   if (course.isActive() && now_ - course.sent <= kUnanswered) return;
+  if (!course.isActive() && now_ - course.recovery.ended <= kAgain) return;
   if (course.recovery.since < 0) course.recovery.since = now_;
   if (!course.isActive()) {
     const Cell back = refuge(robot);

@@ -31,7 +31,8 @@ class BrokerArguments:
 def read_arguments(parameter: Callable[[str, Any], Any]) -> BrokerArguments:
     """Returns what the private parameters of a node tell; `parameter` is rospy.get_param. Raises
     ValueError."""
-    codec = codec_for(str(parameter("~version", DEFAULT_VERSION)))
+    strict = bool(parameter("~strict", False))
+    codec = codec_for(str(parameter("~version", DEFAULT_VERSION)), strict)
     return BrokerArguments(
         str(parameter("~broker", "localhost:1883")),
         str(parameter("~tls", "")),
@@ -64,5 +65,10 @@ def own_broker(
 
 def port_file() -> pathlib.Path:
     """Returns the file that holds the port of the broker that was started here."""
-    home = os.environ.get("ROS_HOME") or pathlib.Path.home() / ".ros"
-    return pathlib.Path(home, "warehouse", "vda5050_port")
+    return home() / "vda5050_port"
+
+
+def home() -> pathlib.Path:
+    """Returns the folder for files of this system in ROS's own."""
+    ros = os.environ.get("ROS_HOME") or pathlib.Path.home() / ".ros"
+    return pathlib.Path(ros, "warehouse")

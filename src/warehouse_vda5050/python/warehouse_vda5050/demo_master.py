@@ -112,12 +112,17 @@ class DemoMaster:
             who for who, state in self.states.items() if self.online.get(who) and state.position
         ]
 
-    def wait_for_vehicles(self, seconds: float = 60.0) -> list[Identity]:
-        """Returns the vehicles that are there. Raises TripError if there is none."""
-        self.until(lambda: any(self.online.values()), seconds, "a vehicle")
+    def wait_for_vehicles(self, count: int = 1, seconds: float = 60.0) -> list[Identity]:
+        """Returns the vehicles that are there, `count` at least. Raises TripError if there are
+        fewer."""
+        self.until(lambda: sum(self.online.values()) >= count, seconds, f"{count} vehicles")
         for who in [who for who, online in self.online.items() if online]:
             self.ask_for_state(who)
-        return self.until(self.known, seconds, "the state of a vehicle")
+        return self.until(
+            lambda: len(known := self.known()) >= count and known,
+            seconds,
+            f"the states of {count} vehicles",
+        )
 
     def _send(self, who: Identity, kind: Kind, message: Any) -> None:
         headers = self._headers.setdefault(who, Headers(who, self._codec.version))

@@ -14,7 +14,8 @@ import abc
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from warehouse_vda5050.model import Battery, Error, Factsheet, OperatingMode
+from warehouse_vda5050.errors import Error
+from warehouse_vda5050.model import Battery, Factsheet, OperatingMode
 
 Point = tuple[float, float]  # [m] in the frame of the map
 
@@ -27,7 +28,8 @@ class Report:
     for none. reached: how many points of that path its centre has come to; the first is where it
     began. moving: it drives or turns. refusal: why its last command was refused or broke off, ''
     if it was not; it holds until the next command. blocked: something is in its way. heard: its
-    radio reaches us; of a robot that is not heard all else is as it was heard last.
+    radio reaches us; of a robot that is not heard all else is as it was heard last. silent: why
+    nothing is heard of it although its radio works, such as a program that ended, '' if it is.
     """
 
     x: float
@@ -49,6 +51,12 @@ class Report:
     battery: Battery = Battery()
     mode: OperatingMode = OperatingMode.AUTOMATIC
     errors: tuple[Error, ...] = ()  # what is broken
+    silent: str = ""
+
+    @property
+    def answers(self) -> bool:
+        """Whether the robot itself tells what stands here."""
+        return self.heard and not self.silent
 
     @property
     def speed(self) -> float:
@@ -96,6 +104,11 @@ class Driver(abc.ABC):
 
     def give_back(self) -> None:  # noqa: B027 robots that nothing else commands need none
         """Gives the robot back to whom commands it else: the order is over."""
+
+    def is_taken(self) -> bool:
+        """Returns whether an earlier run of this program took the robot and did not give it
+        back."""
+        return False
 
     def charge(self, on: bool) -> str:
         """Begins or ends charging where the robot stands. Returns why not, or ''."""

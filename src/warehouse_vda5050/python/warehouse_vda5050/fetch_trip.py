@@ -35,7 +35,7 @@ class FetchTrip:
         """Drives the trip. Raises TripError."""
         master = self._master
         warehouse = wait_for_warehouse()
-        vehicles = master.wait_for_vehicles()
+        vehicles = master.wait_for_vehicles(len(warehouse.kivas))
         print(f"{len(vehicles)} vehicles at the broker", flush=True)
         grid = grid_of(read_map())
         robots = {k.kiva_id: grid.cell_at(k.pose.x, k.pose.y) for k in warehouse.kivas}

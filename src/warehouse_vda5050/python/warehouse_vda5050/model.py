@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from warehouse_vda5050.errors import Error
+
 MAP_ID = "warehouse"  # the one map that robots of this project know
 
 
@@ -57,32 +59,6 @@ class OperatingMode(StrEnum):
     TEACHIN = "TEACHIN"
 
 
-class ErrorLevel(StrEnum):
-    """WARNING: the vehicle goes on. FATAL: a person has to come."""
-
-    WARNING = "WARNING"
-    FATAL = "FATAL"
-
-
-class ErrorType(StrEnum):
-    """The kinds of errors that 2.1 names, and those of robots of this project."""
-
-    VALIDATION = "validationError"
-    ORDER = "orderError"
-    ORDER_UPDATE = "orderUpdateError"
-    NO_ROUTE = "noRouteError"
-    NO_ORDER_TO_CANCEL = "noOrderToCancel"
-    ORDER_ACTION = "orderActionError"  # an action of an order failed
-    INSTANT_ACTION = "instantActionError"  # an instant action cannot be carried out
-    UNKNOWN_FIELD = "unknownField"  # told, and otherwise ignored
-    LOST = "localizationError"
-    MOTOR = "motorError"
-    LIFT = "liftError"
-    LASER = "laserError"
-    BATTERY = "batteryEmpty"
-    WHEELS = "wheelSlip"
-
-
 @dataclass(frozen=True)
 class Header:
     """Stands before each message; headerId and timestamp are of the sender's topic."""
@@ -113,6 +89,7 @@ class Action:
     blocking: BlockingType = BlockingType.HARD
     parameters: tuple[tuple[str, Any], ...] = ()
     description: str = ""
+    retriable: bool = False  # 3.0 alone has it
 
     def parameter(self, key: str, default: Any = None) -> Any:
         """Returns the value of a parameter, as it was sent."""
@@ -125,7 +102,8 @@ InstantAction = Action
 
 @dataclass(frozen=True)
 class Node:
-    """A point of an order; `position` is None where its id says where it is."""
+    """A point of an order; `position` is None where its id says where it is. `demands` are optional
+    fields with their values, as field_rules names them: allowedDeviationXY …"""
 
     id: str
     sequence: int
@@ -133,11 +111,13 @@ class Node:
     position: Position | None = None
     actions: tuple[Action, ...] = ()
     description: str = ""
+    demands: tuple[tuple[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
 class Edge:
-    """The way between two nodes, straight; what else was asked for stands in `unsupported`."""
+    """The way between two nodes, straight. `demands` are optional fields with their values, as
+    field_rules names them: maxSpeed, trajectory …"""
 
     id: str
     sequence: int
@@ -145,8 +125,7 @@ class Edge:
     start: str = ""  # node ids; 3.0 has none
     end: str = ""
     actions: tuple[Action, ...] = ()
-    max_speed: float | None = None  # [m/s]
-    unsupported: tuple[str, ...] = ()  # fields that this project has no room for: trajectory …
+    demands: tuple[tuple[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -159,6 +138,7 @@ class Order:
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...] = ()
     header: Header = Header()
+    zone_set: str = ""
 
     @property
     def base(self) -> tuple[Node, ...]:
@@ -202,17 +182,6 @@ class ActionState:
     status: ActionStatus
     result: str = ""
     instant: bool = False
-
-
-@dataclass(frozen=True)
-class Error:
-    """What is wrong with a message or a vehicle; references are (key, value): orderId, nodeId …"""
-
-    type: str
-    level: ErrorLevel = ErrorLevel.WARNING
-    description: str = ""
-    hint: str = ""
-    references: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -305,6 +274,8 @@ class SupportedAction:
     description: str = ""
     parameters: tuple[tuple[str, str, bool, str], ...] = ()
     blocking: tuple[BlockingType, ...] = (BlockingType.NONE,)
+    can_pause: bool = False
+    can_cancel: bool = False
 
 
 @dataclass(frozen=True)
@@ -324,6 +295,10 @@ class Factsheet:
     max_deceleration: float = 1.0
     lift_time: float = 2.2
     load_size: tuple[float, float] = (0.8, 0.8)
+    load_type: str = "unit"
+    height_loaded: float = 1.9
+    precision: float = 0.005  # how near to a node's position it comes
+    heading_precision: float = 0.02  # [rad]
     localization: tuple[str, ...] = ("GRID",)
     navigation: tuple[str, ...] = ("VIRTUAL_LINE_GUIDED",)
     actions: tuple[SupportedAction, ...] = ()

@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated robot as a Driver: commands become messages, messages become reports."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from warehouse_fleet.message_enums import FailureKind, Mode, State, Status
 from warehouse_vda5050.driver import Driver, Point, Report
-from warehouse_vda5050.model import (
-    Battery,
-    Error,
-    ErrorLevel,
-    ErrorType,
-    Factsheet,
-    OperatingMode,
-)
+from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType
+from warehouse_vda5050.model import Battery, Factsheet, OperatingMode
 
 MODES = {
     Mode.AUTOMATIC: OperatingMode.AUTOMATIC,
@@ -29,6 +24,7 @@ FAILURES = {
     FailureKind.LASER_BLIND: (ErrorType.LASER, ErrorLevel.FATAL, "the laser is blind"),
     FailureKind.WHEEL_SLIPS: (ErrorType.WHEELS, ErrorLevel.WARNING, "the wheels slip"),
 }
+SETTLING = 1.0  # until the world tells a mode that was set [s, wall]
 LOST = Error(
     ErrorType.LOST.value,
     ErrorLevel.FATAL,
@@ -89,16 +85,27 @@ class World(Protocol):
         """Returns the number of the storage unit that stands there [m], 0 without one."""
         ...
 
+    def note_taken(self, kiva_id: int, before: int | None) -> None:
+        """Keeps beyond the end of this program that a robot was taken, and its mode before; None:
+        it was given back."""
+        ...
+
+    def taken_before(self, kiva_id: int) -> int | None:
+        """Returns the mode before of a robot that was taken and not given back, else None."""
+        ...
+
 
 class SimulatedDriver(Driver):
-    """One robot of the running warehouse. `sighting` and `refusal` are set from outside."""
+    """One robot of the running warehouse. `sighting`, `refusal` and `silence`, which says why the
+    world tells nothing, are set from outside."""
 
     def __init__(self, kiva_id: int, world: World, sheet: Factsheet | None = None) -> None:
         self.kiva_id = kiva_id
         self.sighting: Sighting | None = None
-        self.refusal = ""
+        self.refusal = self.silence = ""
         self._world, self._sheet = world, sheet or Factsheet()
-        self._taken_from: int | None = None  # the mode that it goes back to
+        self._taken_from = world.taken_before(kiva_id)  # the mode that it goes back to
+        self._gave_back: tuple[int, float] | None = None  # the mode, and when it counts no more
         self._stopped = False
         self._charged_enough = False  # it was told to stop, and stands there still
 
@@ -158,9 +165,16 @@ class SimulatedDriver(Driver):
             localized=not seen.lost,
             heard=not seen.failures & 1 << FailureKind.RADIO_LOST,
             battery=Battery(100.0 * seen.charge, charging),
-            mode=self._mode(seen.mode),
+            mode=self._mode(self._told_mode(seen)),
             errors=_errors(seen),
+            silent=self.silence,
         )
+
+    def _told_mode(self, seen: Sighting) -> int:
+        """The mode that the world tells, or will tell in a moment."""
+        if self._gave_back and time.monotonic() < self._gave_back[1]:
+            return self._gave_back[0]
+        return seen.mode
 
     def _mode(self, mode: int) -> OperatingMode:
         # MANUAL by an order from here is AUTOMATIC to whom the order came from.
@@ -175,18 +189,27 @@ class SimulatedDriver(Driver):
     def take(self) -> str:
         """Makes the robot MANUAL for the coordinator, if there is one."""
         assert self.sighting
-        before = self.sighting.mode
+        before = self._told_mode(self.sighting)
         reason = self._world.set_mode(self.kiva_id, Mode.MANUAL)
         if not reason:
-            self._taken_from = before
+            self._taken_from, self._gave_back = before, None
+            self._world.note_taken(self.kiva_id, before)
         return reason
+
+    def is_taken(self) -> bool:
+        """Returns whether an earlier run took the robot, and ended without a word."""
+        return self._taken_from is not None
 
     def give_back(self) -> None:
         """Makes the robot what it was, unless it was put out of service meanwhile."""
         before, self._taken_from = self._taken_from, None
         seen = self.sighting
-        if before is not None and seen and seen.mode == Mode.MANUAL:
+        if before is None:
+            return
+        if seen and seen.mode == Mode.MANUAL:
             self._world.set_mode(self.kiva_id, before)
+            self._gave_back = before, time.monotonic() + SETTLING
+        self._world.note_taken(self.kiva_id, None)
 
     def charge(self, on: bool) -> str:
         """Tells of charging, or no more of it until the robot has left the charger. The charger in

@@ -8,8 +8,9 @@ from typing import Any
 import rospy
 
 from warehouse_msgs.msg import Vda5050
+from warehouse_vda5050.errors import Error
 from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
-from warehouse_vda5050.model import ConnectionState, Error
+from warehouse_vda5050.model import ConnectionState
 from warehouse_vda5050.vehicles import Vehicles
 
 PERIOD = 0.5  # between two looks at what has changed [s, wall]
@@ -54,7 +55,7 @@ def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
         message.manufacturer.append(link.identity.manufacturer)
         message.serial.append(link.identity.serial)
         message.order.append(order.id if order and not vehicle.is_free else "")
-        message.errors.append(_text(vehicle.told_errors()))
+        message.errors.append(_text(vehicle.complaints.all()))
         message.driven.append(vehicle.is_taken)
     return message
 

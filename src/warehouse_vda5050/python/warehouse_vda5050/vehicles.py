@@ -3,8 +3,8 @@
 
 import random
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.grid import Grid
@@ -19,7 +19,7 @@ from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
 @dataclass(frozen=True)
 class SiteSettings:
-    """What all vehicles share; `moving` and `visualization` as in VehicleSettings."""
+    """What all vehicles share; `moving`, `visualization` and `logs` as in VehicleSettings."""
 
     manufacturer: str
     codec: Codec
@@ -27,18 +27,17 @@ class SiteSettings:
     broker: BrokerSettings
     moving: float = 1.0
     visualization: float = 1.0
+    logs: Path | None = None
 
 
 class Vehicles:
-    """The vehicles of one warehouse by their robots' numbers. `tell` writes lines for a person."""
+    """The vehicles of one warehouse by their robots' numbers."""
 
-    def __init__(
-        self, world: World, settings: SiteSettings, tell: Callable[[str], None] = print
-    ) -> None:
+    def __init__(self, world: World, settings: SiteSettings) -> None:
         self.loop = MqttLoop()
         self.links: dict[int, VehicleLink] = {}
         self._drivers: dict[int, SimulatedDriver] = {}
-        self._world, self._settings, self._tell = world, settings, tell
+        self._world, self._settings = world, settings
         self._grid: Grid | None = None
         # No path has the number of one of an earlier run.
         self._first_path = random.randrange(1, 1 << 31)
@@ -52,8 +51,14 @@ class Vehicles:
         for link in self.links.values():
             link.vehicle.set_grid(grid)
 
-    def update(self, sightings: dict[int, Sighting], refusals: list[tuple[int, str]]) -> None:
-        """Takes in what the world tells, and lets all vehicles go on."""
+    def update(
+        self,
+        sightings: dict[int, Sighting],
+        refusals: list[tuple[int, str]],
+        silence: str = "",
+    ) -> None:
+        """Takes in what the world tells, and lets all vehicles go on. silence: why it tells nothing
+        any more, '' if it does."""
         for kiva_id in self.links.keys() - sightings.keys():
             self._remove(kiva_id)
         for kiva_id, text in refusals:
@@ -65,8 +70,8 @@ class Vehicles:
                 self._add(kiva_id, self._grid)
             if kiva_id in self.links:
                 driver, link = self._drivers[kiva_id], self.links[kiva_id]
-                is_new = driver.sighting != sighting
-                driver.sighting = sighting
+                is_new = (driver.sighting, driver.silence) != (sighting, silence)
+                driver.sighting, driver.silence = sighting, silence
                 if is_new or not link.rests(now):
                     link.tick(now)
 
@@ -80,12 +85,13 @@ class Vehicles:
                 moving=settings.moving,
                 visualization=settings.visualization,
                 first_path=self._first_path,
+                begins_at_zero=settings.codec.version.startswith("3"),
+                logs=settings.logs,
+                name=f"{settings.manufacturer}-{kiva_id}",
             ),
         )
         identity = Identity(settings.manufacturer, str(kiva_id))
-        link = VehicleLink(
-            vehicle, identity, settings.codec, settings.topics, settings.broker, self._tell
-        )
+        link = VehicleLink(vehicle, identity, settings.codec, settings.topics, settings.broker)
         self._drivers[kiva_id], self.links[kiva_id] = driver, link
         self.loop.add(link.link)
 

@@ -5,7 +5,7 @@ import contextlib
 
 import rospy
 
-from warehouse_vda5050.arguments import BrokerArguments, own_broker, read_arguments
+from warehouse_vda5050.arguments import BrokerArguments, home, own_broker, read_arguments
 from warehouse_vda5050.telling import BrokerTopic, vehicles_message
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
@@ -28,10 +28,11 @@ class VehiclesNode:
             broker,
             float(rospy.get_param("~interval", 1.0)),
             float(rospy.get_param("~visualization", 1.0)),
+            home() / "vda5050_logs",
         )
         rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
         self._world = WorldLink()
-        self._vehicles = Vehicles(self._world, settings, rospy.loginfo)
+        self._vehicles = Vehicles(self._world, settings)
         self._topic = BrokerTopic()
 
     def stop(self, *_: object) -> None:
@@ -51,4 +52,4 @@ class VehiclesNode:
         world = self._world
         if world.read_floor() and world.grid:
             self._vehicles.set_grid(world.grid)
-        self._vehicles.update(world.sightings(), world.take_refusals())
+        self._vehicles.update(world.sightings(), world.take_refusals(), world.silence)

@@ -3,6 +3,7 @@
 
 import contextlib
 import threading
+import time
 from collections import deque
 from collections.abc import Sequence
 from typing import Any
@@ -32,6 +33,7 @@ from warehouse_vda5050.simulated_driver import Sighting
 
 SET_MODE = "warehouse/set_robot_mode"
 WAIT = 10.0  # for the scenery of the floor [s]
+SILENT = 3.0  # the world has ended, or is paused, if it tells nothing for so long [s, wall]
 TOWED = 0.02  # an idle lost robot that moves so far was moved by others [m]
 
 
@@ -40,6 +42,7 @@ class WorldLink:
 
     def __init__(self) -> None:
         self._fleet: Any = None
+        self._heard_at = time.monotonic()
         self._people: frozenset[int] = frozenset()
         self._units: Any = None
         self._objects: Any = None
@@ -53,16 +56,20 @@ class WorldLink:
         self._topics = {
             topic: rospy.Publisher(topic, COMMANDS[topic], queue_size=1000) for topic in topics
         }
+        self._taken: dict[str, int] = rospy.get_param("~taken", {})  # by an earlier run
         self._mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
         follow = rospy.Subscriber
         follow("warehouse/events", Event, self._on_event, queue_size=10000)
         follow("warehouse/people", People, self._on_people, queue_size=1)
         follow("warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
         follow("warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1)
-        follow("warehouse/fleet", FleetState, self._keep, "_fleet", queue_size=1)
+        follow("warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
+
+    def _on_fleet(self, message: FleetState) -> None:
+        self._fleet, self._heard_at = message, time.monotonic()
 
     def _on_people(self, message: People) -> None:
         self._people = frozenset(message.stopped)
@@ -80,6 +87,12 @@ class WorldLink:
                 self._lost.pop(int(number), None)
 
     # What the world tells.
+
+    @property
+    def silence(self) -> str:
+        """Why nothing is heard of the robots, '' as long as the world tells of them."""
+        silent = time.monotonic() - self._heard_at
+        return f"the world has told nothing for {SILENT:g} s" if silent > SILENT else ""
 
     def take_refusals(self) -> list[tuple[int, str]]:
         """Returns (robot, reason) of each refusal since the last call."""
@@ -183,6 +196,19 @@ class WorldLink:
         except (rospy.ServiceException, rospy.ROSException, OSError):
             return ""  # it ends just now
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
+
+    def note_taken(self, kiva_id: int, before: int | None) -> None:
+        """Keeps as a parameter of this node, which outlives it, what mode a robot had before it was
+        taken; None: it was given back."""
+        with contextlib.suppress(KeyError, OSError, rospy.ROSException):
+            if before is None:
+                rospy.delete_param(f"~taken/kiva{kiva_id}")
+            else:
+                rospy.set_param(f"~taken/kiva{kiva_id}", int(before))
+
+    def taken_before(self, kiva_id: int) -> int | None:
+        """Returns what note_taken() kept."""
+        return self._taken.get(f"kiva{kiva_id}")
 
 
 def _chargers(told: Any) -> frozenset[tuple[int, int]]:

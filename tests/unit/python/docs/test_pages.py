@@ -23,6 +23,7 @@ GENERATED = {
     "http",
     "commands",
     "policies",
+    "vda5050-fields",
     "realism-parameters",
     "plugins",
     "changelog",

@@ -77,6 +77,9 @@ class GridRobot(Driver):
     def give_back(self):
         self.taken = False
 
+    def is_taken(self):
+        return self.taken
+
     def report(self):
         moving = self.busy and not self.lifting and not self.stopped
         told = Report(
@@ -138,6 +141,15 @@ class Bench:
         self.now = 0.0
         self.states = []
         self.tick()
+
+    @classmethod
+    def of(cls, robot, **settings):
+        """Returns the bench of a program that begins beside a robot which is there already."""
+        bench = cls(robot.cell, **settings)
+        bench.robot = robot
+        bench.vehicle = Vehicle(robot, GRID, VehicleSettings(first_path=1000, **settings))
+        bench.tick()
+        return bench
 
     def tick(self, count=1):
         """Goes on by some seconds; returns the newest state."""

@@ -7,6 +7,7 @@ import pytest
 
 from warehouse_fleet.message_enums import FailureKind, Status
 from warehouse_fleet.message_enums import State as Does
+from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Follow, Lift, Other, Stop
 from warehouse_vda5050.master.frame import Frame
@@ -18,8 +19,6 @@ from warehouse_vda5050.model import (
     ActionStatus,
     AgvPosition,
     ConnectionState,
-    Error,
-    ErrorLevel,
     Header,
     InstantActions,
     Load,

@@ -156,6 +156,32 @@ def test_lost_radio_lets_the_will_fire_and_comes_back(site):
     site.until(connection_is(site, ConnectionState.ONLINE))
 
 
+def test_the_connection_between_vehicle_and_broker_has_unexpectedly_ended(site):
+    """6.14, CONNECTIONBROKEN: also of a robot that a dead or paused world tells nothing of."""
+    site.until(connection_is(site, ConnectionState.ONLINE))
+    site.send(Kind.ORDER, order("o", row(0, 9)))
+    site.until(lambda: (s := site.last(Kind.STATE)) and s.order_id == "o")
+    site.robots[0].extra = {"silent": "the world has told nothing for 3 s"}
+    site.until(connection_is(site, ConnectionState.CONNECTIONBROKEN), steps=False)
+    (error,) = site.last(Kind.STATE).errors
+    assert error.type == "robotSilent" and error.level.value == "FATAL"
+    assert "the world has told nothing" in error.description
+    site.robots[0].extra = {}
+    site.until(connection_is(site, ConnectionState.ONLINE))
+    site.until(lambda: is_over(site.last(Kind.STATE)) and not site.last(Kind.STATE).errors)
+    assert site.last(Kind.STATE).last_node == "c9_0"
+
+
+def test_what_is_removed_from_the_broker_is_no_message(site):
+    """MQTT 3.1.1, 3.3.1.3: a payload of no bytes removes what was retained."""
+    site.until(connection_is(site, ConnectionState.ONLINE))
+    for kind in (Kind.ORDER, Kind.INSTANT_ACTIONS):
+        site.send(kind, b"", retain=True)
+    site.send(Kind.ORDER, order("o", row(0, 1)), retain=False)
+    site.until(lambda: (s := site.last(Kind.STATE)) and s.order_id == "o")
+    assert not any(s.errors for _, kind, s, _ in site.told if kind is Kind.STATE)
+
+
 def test_broker_killed_in_mid_order(site):
     site.send(Kind.ORDER, order("o", row(0, 9), released=6))
     site.until(lambda: site.robots[0].cell[0] >= 2)

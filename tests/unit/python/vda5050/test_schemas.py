@@ -10,13 +10,13 @@ from grid_robot import Bench, drop, order, pick, row
 from official_schemas import VALIDATORS, faults
 
 from warehouse_vda5050.codec import codec_for
+from warehouse_vda5050.errors import Error
 from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import (
     Action,
     Battery,
     Connection,
     ConnectionState,
-    Error,
     InstantActions,
     Visualization,
 )

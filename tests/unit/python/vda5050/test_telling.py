@@ -4,11 +4,12 @@
 from grid_robot import GRID
 
 from warehouse_msgs.msg import Vda5050
+from warehouse_vda5050.errors import Error
 from warehouse_vda5050.master.commands import Follow
 from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import SILENT
-from warehouse_vda5050.model import AgvPosition, ConnectionState, Error, State
+from warehouse_vda5050.model import AgvPosition, ConnectionState, State
 from warehouse_vda5050.telling import masters_message
 from warehouse_vda5050.topics import Identity
 

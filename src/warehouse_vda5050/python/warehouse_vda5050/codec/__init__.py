@@ -18,11 +18,13 @@ class VersionError(ValueError):
     """A version that is not spoken here; the message says which are."""
 
 
-def codec_for(version: str = DEFAULT_VERSION) -> Codec:
-    """Returns the codec of a version. Raises VersionError."""
+def codec_for(version: str = DEFAULT_VERSION, strict: bool = False) -> Codec:
+    """Returns the codec of a version, which accepts common deviations unless it is strict. Raises
+    VersionError."""
     if version not in VERSIONS:
         raise VersionError(f"version is {version!r}; one of {', '.join(VERSIONS)} was expected")
-    return CodecV3(version) if version.startswith("3") else CodecV2(version)
+    kind = CodecV3 if version.startswith("3") else CodecV2
+    return kind(version, strict)
 
 
 __all__ = ["DEFAULT_VERSION", "VERSIONS", "Codec", "Decoded", "VersionError", "codec_for"]

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from warehouse_vda5050.model import Header, Message
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
-from warehouse_vda5050.validation.fields import Fields
+from warehouse_vda5050.validation.fields import REQUIRED, Fields
 from warehouse_vda5050.validation.wire import MAX_BYTES, parse
 
 
@@ -20,10 +20,11 @@ class Decoded(NamedTuple):
 
 
 class Codec(abc.ABC):
-    """One version of VDA 5050."""
+    """One version of VDA 5050. `strict`: whether what peers in the field are known to leave out or
+    to name otherwise is refused."""
 
-    def __init__(self, version: str) -> None:
-        self.version = version
+    def __init__(self, version: str, strict: bool = False) -> None:
+        self.version, self.strict = version, strict
 
     def encode(self, message: Message) -> bytes:
         """Returns the JSON of a message; its header goes in as it is."""
@@ -32,7 +33,7 @@ class Codec(abc.ABC):
 
     def decode(self, kind: Kind, payload: bytes, max_bytes: int = MAX_BYTES) -> Decoded:
         """Returns the message that a payload is. Raises MessageError, whatever the payload is."""
-        fields = Fields(self.of_json(kind, parse(payload, max_bytes)))
+        fields = Fields(self.of_json(kind, parse(payload, max_bytes)), strict=self.strict)
         message = self.read(kind, fields)
         return Decoded(message, tuple(fields.unread))
 
@@ -49,13 +50,15 @@ class Codec(abc.ABC):
         """Returns the message that an object stands for. Raises MessageError."""
 
     def read_header(self, fields: Fields) -> Header:
-        """Returns the header; what is missing is 0 or ''. Raises MessageError (another version)."""
+        """Returns the header; what is missing is 0 or '', or an error if it is strict. Raises
+        MessageError (another version)."""
+        number, text = (REQUIRED, REQUIRED) if self.strict else (0, "")
         header = Header(
-            fields.natural("headerId", 0),
-            fields.text("timestamp", ""),
-            fields.text("version", ""),
-            fields.text("manufacturer", ""),
-            fields.text("serialNumber", ""),
+            fields.natural("headerId", number),
+            fields.text("timestamp", text),
+            fields.text("version", text),
+            fields.text("manufacturer", text),
+            fields.text("serialNumber", text),
         )
         ours, theirs = self.version.split(".")[0], header.version.lstrip("vV").split(".")[0]
         if theirs and theirs != ours:

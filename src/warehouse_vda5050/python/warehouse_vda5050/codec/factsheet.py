@@ -4,7 +4,7 @@
 from typing import Any
 
 from warehouse_vda5050.codec.base import header_json
-from warehouse_vda5050.model import Factsheet, Header, SupportedAction
+from warehouse_vda5050.model import BlockingType, Factsheet, Header, SupportedAction
 from warehouse_vda5050.validation.fields import Fields
 
 
@@ -74,7 +74,7 @@ def _limits_json(sheet: Factsheet) -> dict[str, Any]:
 def _action_json(action: SupportedAction) -> dict[str, Any]:
     return {
         "actionType": action.type,
-        "actionDescription": action.description,
+        "actionDescription": _described(action),
         "actionScopes": list(action.scopes),
         "actionParameters": [
             {"key": key, "valueDataType": kind, "isOptional": optional, "description": text}
@@ -82,6 +82,11 @@ def _action_json(action: SupportedAction) -> dict[str, Any]:
         ],
         # No blockingTypes: there is no value that fits the published schema of 2.1.0.
     }
+
+
+def _described(action: SupportedAction) -> str:
+    types = ", ".join(one.value for one in action.blocking if one is not BlockingType.SINGLE)
+    return f"{action.description}; blocking types: {types}"
 
 
 def _outline_json(sheet: Factsheet) -> dict[str, Any]:
@@ -94,7 +99,7 @@ def _loads_json(sheet: Factsheet) -> dict[str, Any]:
     length, width = sheet.load_size
     unit = {
         "setName": "unit",
-        "loadType": "unit",
+        "loadType": sheet.load_type,
         "loadDimensions": {"length": length, "width": width},
         "maxWeight": sheet.max_load_mass,
         "pickTime": sheet.lift_time,

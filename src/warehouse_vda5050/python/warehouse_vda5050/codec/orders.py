@@ -4,6 +4,7 @@
 from typing import Any
 
 from warehouse_vda5050.codec.base import header_json, without_nothing
+from warehouse_vda5050.field_rules import ACTION, EDGE, NODE, ORDER, POSITION, demands, shown
 from warehouse_vda5050.model import (
     Action,
     BlockingType,
@@ -17,44 +18,52 @@ from warehouse_vda5050.model import (
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.fields import Fields
 
-# What an edge may ask for that a robot on a grid cannot grant.
-UNSUPPORTED = ("trajectory", "corridor")
+NODE_DEMANDS, EDGE_DEMANDS = demands(POSITION), demands(EDGE)
 
 
 def read_order(fields: Fields, header: Header) -> Order:
     """Returns an order. Raises MessageError."""
-    fields.skip("zoneSetId", "orderDescription")
+    fields.skip(*shown(ORDER))
     order = Order(
         fields.text("orderId"),
         fields.natural("orderUpdateId"),
         tuple(_read_node(node) for node in fields.objects("nodes")),
         tuple(_read_edge(edge) for edge in fields.objects("edges", ())),
         header,
+        fields.text("zoneSetId", ""),
     )
     fields.close()
     return order
 
 
 def _read_node(fields: Fields) -> Node:
+    place = fields.object("nodePosition") or fields.lenient_object("position")
     node = Node(
         fields.text("nodeId"),
         fields.natural("sequenceId"),
         fields.flag("released"),
-        read_position(fields.object("nodePosition") or fields.object("position")),
+        read_position(place),
         tuple(read_action(action) for action in fields.objects("actions", ())),
         fields.text("nodeDescription", ""),
+        _read_demands(place, NODE_DEMANDS) if place else (),
     )
-    fields.skip("position", "nodeDescriptor")
+    fields.skip("position", *shown(NODE))
     fields.close()
     return node
+
+
+def _read_demands(fields: Fields, names: dict[str, str]) -> tuple[tuple[str, Any], ...]:
+    """Returns the optional fields that are there, with their values. Raises MessageError."""
+    present = [name for name in names if fields.has(name)]
+    fields.skip(*names)
+    return tuple((name, getattr(fields, names[name])(name)) for name in present)
 
 
 def read_position(fields: Fields | None) -> Position | None:
     """Returns a position; None stands for none. Raises MessageError."""
     if fields is None:
         return None
-    fields.skip("allowedDeviationXY", "allowedDeviationXy", "allowedDeviationTheta")
-    fields.skip("mapDescription")
+    fields.skip(*shown(POSITION), *NODE_DEMANDS)
     position = Position(
         fields.number("x"),
         fields.number("y"),
@@ -66,9 +75,7 @@ def read_position(fields: Fields | None) -> Position | None:
 
 
 def _read_edge(fields: Fields) -> Edge:
-    fields.skip("edgeDescription", "edgeDescriptor", "orientationType", "rotationAllowed")
-    fields.skip("maxRotationSpeed", "length", "reachOrientationBeforeEntering", "maxHeight")
-    fields.skip("minHeight", "orientation", "direction", *UNSUPPORTED)
+    fields.skip(*shown(EDGE))
     edge = Edge(
         fields.text("edgeId"),
         fields.natural("sequenceId"),
@@ -76,8 +83,7 @@ def _read_edge(fields: Fields) -> Edge:
         fields.text("startNodeId", ""),
         fields.text("endNodeId", ""),
         tuple(read_action(action) for action in fields.objects("actions", ())),
-        fields.number("maxSpeed", None),
-        tuple(key for key in UNSUPPORTED if fields.has(key)),
+        _read_demands(fields, EDGE_DEMANDS),
     )
     fields.close()
     return edge
@@ -88,13 +94,20 @@ def read_action(fields: Fields, blocking: BlockingType = BlockingType.HARD) -> A
     action = Action(
         fields.text("actionType"),
         fields.text("actionId"),
-        enum_of(fields, "blockingType", BlockingType, blocking),
+        _read_blocking(fields, blocking),
         tuple(_read_parameter(item) for item in fields.objects("actionParameters", ())),
         fields.text("actionDescription", ""),
+        fields.flag("retriable", False),
     )
-    fields.skip("actionDescriptor", "retriable")
+    fields.skip(*shown(ACTION))
     fields.close()
     return action
+
+
+def _read_blocking(fields: Fields, default: BlockingType) -> BlockingType:
+    if fields.strict and not fields.has("blockingType"):
+        fields.text("blockingType")
+    return enum_of(fields, "blockingType", BlockingType, default)
 
 
 def _read_parameter(fields: Fields) -> tuple[str, Any]:
@@ -109,7 +122,7 @@ def enum_of(fields: Fields, key: str, kind: Any, default: Any) -> Any:
     if name is None:
         return default
     try:
-        return kind(name.upper())
+        return kind(name if fields.strict else name.upper())
     except ValueError:
         names = ", ".join(member.value for member in kind)
         raise MessageError(
@@ -120,7 +133,7 @@ def enum_of(fields: Fields, key: str, kind: Any, default: Any) -> Any:
 def read_instant_actions(fields: Fields, header: Header) -> InstantActions:
     """Returns instant actions, under either of the names that peers send. Raises MessageError."""
     key = "actions" if fields.has("actions") else "instantActions"
-    if not fields.has(key):
+    if not fields.has(key) or (fields.strict and key != "actions"):
         raise MessageError("actions is missing; a list was expected")
     fields.skip("actions", "instantActions")
     actions = [read_action(item, BlockingType.NONE) for item in fields.objects(key)]
@@ -134,6 +147,7 @@ def order_json(order: Order) -> dict[str, Any]:
         **header_json(order.header),
         "orderId": order.id,
         "orderUpdateId": order.update,
+        **without_nothing(zoneSetId=order.zone_set),
         "nodes": [_node_json(node) for node in order.nodes],
         "edges": [_edge_json(edge) for edge in order.edges],
     }
@@ -146,7 +160,7 @@ def _node_json(node: Node) -> dict[str, Any]:
         "released": node.released,
         **without_nothing(
             nodeDescription=node.description,
-            nodePosition=node.position and position_json(node.position),
+            nodePosition=node.position and {**position_json(node.position), **dict(node.demands)},
         ),
         "actions": [action_json(action) for action in node.actions],
     }
@@ -165,7 +179,7 @@ def _edge_json(edge: Edge) -> dict[str, Any]:
         "released": edge.released,
         "startNodeId": edge.start,
         "endNodeId": edge.end,
-        **without_nothing(maxSpeed=edge.max_speed),
+        **dict(edge.demands),
         "actions": [action_json(action) for action in edge.actions],
     }
 
@@ -178,6 +192,7 @@ def action_json(action: Action) -> dict[str, Any]:
         **without_nothing(actionDescription=action.description),
         "blockingType": action.blocking.value,
         "actionParameters": [{"key": k, "value": v} for k, v in action.parameters],
+        **({"retriable": True} if action.retriable else {}),
     }
 
 

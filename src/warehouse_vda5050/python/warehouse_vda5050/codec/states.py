@@ -5,6 +5,7 @@ from typing import Any
 
 from warehouse_vda5050.codec.base import header_json, without_nothing
 from warehouse_vda5050.codec.orders import enum_of, position_json, read_position
+from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.model import (
     ActionState,
     ActionStatus,
@@ -13,8 +14,6 @@ from warehouse_vda5050.model import (
     Connection,
     ConnectionState,
     EdgeState,
-    Error,
-    ErrorLevel,
     Header,
     Load,
     NodeState,

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""VDA 5050 3.0.0, as a renaming of 2.1.0: what it adds beyond new names is not made use of.
+"""VDA 5050 3.0.0: other names than 2.1.0, and error types that tell more.
 
-Names are those of the schemas published with the specification. Zones, corridors that are asked
-for, shared paths and RETRIABLE actions are refused or ignored as their counterparts in 2.1.0 are.
+Names are those of the schemas published with the specification. Zones, corridors, shared paths and
+retriable actions are refused (field_rules).
 """
 
+import re
+from dataclasses import replace
 from typing import Any
 
 from warehouse_vda5050.codec.v2 import CodecV2
-from warehouse_vda5050.model import ActionState, Message, State
+from warehouse_vda5050.errors import LEVELS, Error, former_type, precise_type
+from warehouse_vda5050.model import ActionState, Factsheet, Message, State
 from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.validation.fields import Fields
 
 # Of 2.1.0 and of 3.0.0, in whatever object of a message of that kind.
 DESCRIPTIONS = {
@@ -23,6 +27,7 @@ NAMES: dict[Kind, dict[str, str]] = {
         "maxSpeed": "maximumSpeed",
         "maxHeight": "maximumMobileRobotHeight",
         "minHeight": "minimumLoadHandlingDeviceHeight",
+        "maxRotationSpeed": "maximumRotationSpeed",
     },
     Kind.INSTANT_ACTIONS: DESCRIPTIONS,
     Kind.STATE: {
@@ -76,6 +81,8 @@ NEAREST: dict[str, dict[str, str]] = {
     "errorLevel": {"URGENT": "WARNING", "CRITICAL": "FATAL"},
     "actionStatus": {"RETRIABLE": "FAILED"},
 }
+# Errors name fields of orders.
+FIELD = re.compile(rf"\b({'|'.join(NAMES[Kind.ORDER])})\b")
 KINDS = {"State": Kind.STATE, "Order": Kind.ORDER, "InstantActions": Kind.INSTANT_ACTIONS}
 KINDS |= {"Connection": Kind.CONNECTION, "Visualization": Kind.VISUALIZATION}
 KINDS |= {"Factsheet": Kind.FACTSHEET}
@@ -90,10 +97,15 @@ class CodecV3(CodecV2):
         value = _renamed(super().to_json(message), NAMES[kind], VALUES)
         if isinstance(message, State):
             _part_actions(value, message.actions)
+            for told, error in zip(value["errors"], message.errors):
+                _tell_error(told, error)
         for edge in value.get("edges", ()):
             edge.pop("startNodeId", None), edge.pop("endNodeId", None)
-        for action in value.get("protocolFeatures", {}).get("mobileRobotActions", ()):
-            action["pauseAllowed"] = action["cancelAllowed"] = "true"
+        if isinstance(message, Factsheet):
+            told_actions = value["protocolFeatures"]["mobileRobotActions"]
+            for told, action in zip(told_actions, message.actions):
+                told["blockingTypes"] = [one.value for one in action.blocking]
+                told["pauseAllowed"], told["cancelAllowed"] = action.can_pause, action.can_cancel
         return value
 
     def of_json(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
@@ -110,6 +122,13 @@ class CodecV3(CodecV2):
             value["actionStates"] = [*(told if isinstance(told, list) else ()), *marked]
         return value
 
+    def read(self, kind: Kind, fields: Fields) -> Any:
+        """Returns the message that an object stands for. Raises MessageError."""
+        message = super().read(kind, fields)
+        if isinstance(message, State):
+            return replace(message, errors=tuple(_former(error) for error in message.errors))
+        return message
+
 
 def _renamed(value: Any, names: dict[str, str], values: dict[str, dict[str, str]]) -> Any:
     """Returns JSON with other names of fields, and other words in those named in `values`."""
@@ -125,6 +144,24 @@ def _word(key: str, item: Any, names: dict[str, str], values: dict[str, dict[str
     if words and isinstance(item, str):
         return words.get(item, item)
     return item if key == "actionParameters" else _renamed(item, names, values)
+
+
+def _tell_error(told: dict[str, Any], error: Error) -> None:
+    """Gives an error the type and level that 3.0 has for it, and fields their names there."""
+    names = NAMES[Kind.ORDER]
+    told["errorType"] = precise_type(error)
+    told["errorLevel"] = LEVELS.get(told["errorType"], told["errorLevel"])
+    if "errorDescription" in told:
+        told["errorDescription"] = FIELD.sub(lambda m: names[m[1]], told["errorDescription"])
+    for reference in told["errorReferences"]:
+        if reference["referenceKey"] == "field":
+            name = reference["referenceValue"]
+            reference["referenceValue"] = names.get(name, name)
+
+
+def _former(error: Error) -> Error:
+    type, precise = former_type(error.type)
+    return replace(error, type=type, precise=precise)
 
 
 def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:

@@ -3,8 +3,9 @@
 
 from dataclasses import dataclass, field
 
+from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
-from warehouse_vda5050.model import ConnectionState, ErrorLevel, OperatingMode, State
+from warehouse_vda5050.model import ConnectionState, OperatingMode, State
 
 SILENT = 45.0  # [s] without a state: vehicles tell one each 30 s at the latest
 TAKES_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)

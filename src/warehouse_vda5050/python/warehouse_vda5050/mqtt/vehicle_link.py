@@ -2,13 +2,13 @@
 """A vehicle at a broker: its own connection with its will, its messages in and out."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from warehouse_vda5050.codec import Codec
+from warehouse_vda5050.errors import ErrorType
 from warehouse_vda5050.headers import Headers
-from warehouse_vda5050.model import Connection, ConnectionState, ErrorType, Message
+from warehouse_vda5050.model import Connection, ConnectionState, Message
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import TO_VEHICLE, Identity, Kind, Topics
@@ -21,8 +21,7 @@ REST = 1.0  # at most between two ticks of a vehicle that rests [s]
 class VehicleLink:
     """Carries messages between one Vehicle and its broker.
 
-    `link` is to be added to an MqttLoop; tick() is called between its poll()s. `tell` writes lines
-    for a person.
+    `link` is to be added to an MqttLoop; tick() is called between its poll()s.
     """
 
     def __init__(
@@ -32,10 +31,9 @@ class VehicleLink:
         codec: Codec,
         topics: Topics,
         broker: BrokerSettings,
-        tell: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self.vehicle, self.identity = vehicle, identity
-        self._codec, self._topics, self._tell = codec, topics, tell
+        self._codec, self._topics = codec, topics
         self._headers = Headers(identity, codec.version)
         self._online = self._connection(ConnectionState.ONLINE)
         self._now = -math.inf
@@ -54,15 +52,19 @@ class VehicleLink:
         self._now, self._called = now, False
         self.vehicle.update(now)
         report = self.vehicle.report
-        if report is not None and not report.heard:
+        if report is not None and not report.answers:
             if self.link.wanted:
-                self.link.cut()
+                self._cut(report.silent)
         elif not self.link.closed:
             self.link.restore()
         if self.link.connected:
             self._send_news(now)
-        for reason, lines in self.vehicle.take_logs():
-            self._tell(f"{self.identity.serial}: log for {reason!r}: " + "; ".join(lines))
+
+    def _cut(self, silent: str) -> None:
+        """Ends the connection as a lost radio does; of a robot that is silent, a state says so."""
+        if silent and self.link.connected:
+            self._send(Kind.STATE, self.vehicle.state())
+        self.link.cut()
 
     def _send_news(self, now: float) -> None:
         state = self.vehicle.take_state(now)
@@ -102,6 +104,8 @@ class VehicleLink:
         self.vehicle.request_factsheet()
 
     def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
+        if not payload:
+            return  # what the broker kept for a topic is removed this way
         self._called = True
         try:
             _, kind = self._topics.parse(topic)
@@ -114,11 +118,10 @@ class VehicleLink:
             refer = (("topic", topic.rpartition("/")[2]), *error.error.references)
             self.vehicle.note(replace(error.error, references=refer))
             return
-        self.vehicle.note_unknown(unknown)
         if kind is Kind.ORDER:
-            self.vehicle.on_order(message, self._now)
+            self.vehicle.on_order(message, self._now, unknown)
         else:
-            self.vehicle.on_instant_actions(message, self._now)
+            self.vehicle.on_instant_actions(message, self._now, unknown)
 
     def _check_address(self, message: Any) -> None:
         told = (message.header.manufacturer, message.header.serial)

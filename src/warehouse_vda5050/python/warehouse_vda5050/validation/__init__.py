@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks what came over the wire before anything acts upon it."""
 
-from warehouse_vda5050.model import Error, ErrorType
+from warehouse_vda5050.errors import Error, ErrorType, Predefined
 
 
 class MessageError(ValueError):
@@ -12,7 +12,8 @@ class MessageError(ValueError):
         description: str,
         type: str = ErrorType.VALIDATION.value,
         references: tuple[tuple[str, str], ...] = (),
-        hint: str = "",
+        precise: Predefined | None = None,
     ) -> None:
         super().__init__(description)
-        self.error = Error(type, description=description[:500], hint=hint, references=references)
+        text = description[:500]
+        self.error = Error(type, description=text, references=references, precise=precise)

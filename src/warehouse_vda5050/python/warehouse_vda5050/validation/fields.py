@@ -15,16 +15,22 @@ REQUIRED: Any = object()
 class Fields:
     """An object of a message. `path` is where it stands, for errors: nodes[2].nodePosition.
 
-    A default of REQUIRED makes a missing field an error; null counts as missing. Raises
-    MessageError.
+    A default of REQUIRED makes a missing field an error; null counts as missing. `strict`: whether
+    deviations that peers in the field are known for are errors. Raises MessageError.
     """
 
-    def __init__(self, value: Any, path: str = "", unread: list[str] | None = None) -> None:
+    def __init__(
+        self,
+        value: Any,
+        path: str = "",
+        unread: list[str] | None = None,
+        strict: bool = False,
+    ) -> None:
         if not isinstance(value, dict):
             raise MessageError(
                 f"{path or 'the message'} is {_named(value)}; an object was expected"
             )
-        self._value, self._path = value, path
+        self._value, self._path, self.strict = value, path, strict
         self._read: set[str] = set()
         self._unread = [] if unread is None else unread  # shared with the objects within
 
@@ -69,13 +75,21 @@ class Fields:
     def object(self, key: str) -> Fields | None:
         """Returns an object within this one, None if it is missing."""
         value = self._get(key, None, dict, "an object")
-        return None if value is None else Fields(value, self.path_of(key), self._unread)
+        return (
+            None if value is None else Fields(value, self.path_of(key), self._unread, self.strict)
+        )
+
+    def lenient_object(self, key: str) -> Fields | None:
+        """Returns an object that stands under a name which strict peers don't use."""
+        return None if self.strict else self.object(key)
 
     def objects(self, key: str, default: Any = REQUIRED) -> list[Fields]:
         """Returns the objects of a list."""
         items = self._get(key, default, list, "a list")
         path = self.path_of(key)
-        return [Fields(item, f"{path}[{i}]", self._unread) for i, item in enumerate(items)]
+        return [
+            Fields(item, f"{path}[{i}]", self._unread, self.strict) for i, item in enumerate(items)
+        ]
 
     def skip(self, *keys: str) -> None:
         """Marks fields as known although nothing here makes use of them."""

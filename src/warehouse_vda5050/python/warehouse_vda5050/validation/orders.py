@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether an order can be driven: its form, its places on the floor, its actions."""
+"""Whether an order can be driven: its form, and its places on the floor."""
 
 from collections.abc import Iterator
 
+from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell, Grid, GridError
-from warehouse_vda5050.model import Action, Edge, ErrorType, Node, Order
+from warehouse_vda5050.model import Order
 from warehouse_vda5050.validation import MessageError
 
 MAX_NODES = 1000
-MAX_ACTIONS = 20  # of one node
 
 
 def check_form(order: Order) -> None:
@@ -16,9 +16,12 @@ def check_form(order: Order) -> None:
     refer = (("orderId", order.id[:100]),)
     if not order.id:
         raise MessageError("orderId is empty", references=refer)
-    if not order.nodes or len(order.nodes) > MAX_NODES:
+    count = len(order.nodes)
+    if not 0 < count <= MAX_NODES:
         raise MessageError(
-            f"{len(order.nodes)} nodes; 1 to {MAX_NODES} were expected", references=refer
+            f"{count} nodes; 1 to {MAX_NODES} were expected",
+            references=refer,
+            precise=Predefined.INSUFFICIENT_MEMORY if count else None,
         )
     if len(order.edges) != len(order.nodes) - 1:
         text = f"{len(order.edges)} edges between {len(order.nodes)} nodes; one less was expected"
@@ -61,49 +64,15 @@ def cells_of(order: Order, grid: Grid) -> list[Cell]:
             cell = grid.cell_of(node)
             way = grid.between(cells[-1], cell)[1:] if cells else []
         except GridError as error:
-            raise MessageError(str(error), ErrorType.ORDER.value, refer) from None
+            unreachable = Predefined.NO_ROUTE_TO_TARGET
+            raise MessageError(str(error), ErrorType.ORDER.value, refer, unreachable) from None
         if cells and not way:
             text = f"node {node.id!r} is where the node before it is"
-            raise MessageError(text, ErrorType.ORDER.value, refer)
+            unreachable = Predefined.NO_ROUTE_TO_TARGET
+            raise MessageError(text, ErrorType.ORDER.value, refer, unreachable)
         taken = grid.blocked_among(way)
         if taken:
             text = f"nothing can stand at {grid.node_id(taken)}, on the way to node {node.id!r}"
             raise MessageError(text, ErrorType.NO_ROUTE.value, refer)
         cells.append(cell)
     return cells
-
-
-def check_abilities(order: Order, actions: frozenset[str]) -> None:
-    """Raises MessageError, of type orderError, for what no robot here can do.
-
-    `actions` are the types that may stand at a node.
-    """
-    for node in order.nodes:
-        _check_node(order, node, actions)
-    for edge in order.edges:
-        _check_edge(order, edge)
-
-
-def _check_node(order: Order, node: Node, known: frozenset[str]) -> None:
-    refer = (("orderId", order.id[:100]), ("nodeId", node.id[:100]))
-    if len(node.actions) > MAX_ACTIONS:
-        text = f"{len(node.actions)} actions at node {node.id!r}; at most {MAX_ACTIONS} expected"
-        raise MessageError(text, ErrorType.ORDER.value, refer)
-    for action in node.actions:
-        if action.type not in known:
-            text = f"action {action.type!r} is unknown; one of {', '.join(sorted(known))} expected"
-            raise MessageError(text, ErrorType.ORDER.value, (*refer, _reference(action)))
-
-
-def _check_edge(order: Order, edge: Edge) -> None:
-    refer = (("orderId", order.id[:100]), ("edgeId", edge.id[:100]))
-    if edge.unsupported:
-        text = f"edge {edge.id!r} has {', '.join(edge.unsupported)}; edges here are straight"
-        raise MessageError(text, ErrorType.ORDER.value, refer)
-    if edge.actions:
-        text = f"edge {edge.id!r} has actions; they belong to nodes here"
-        raise MessageError(text, ErrorType.ORDER.value, (*refer, _reference(edge.actions[0])))
-
-
-def _reference(action: Action) -> tuple[str, str]:
-    return "actionId", action.id[:100]

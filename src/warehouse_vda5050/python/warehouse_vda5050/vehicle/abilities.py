@@ -3,13 +3,27 @@
 
 from dataclasses import replace
 
+from warehouse_vda5050.field_rules import TABLE, Use
 from warehouse_vda5050.model import BlockingType, Factsheet, SupportedAction
 
-ANY = (BlockingType.NONE, BlockingType.SOFT, BlockingType.HARD)
-STANDING = (BlockingType.HARD,)
-LOAD = ("loadId", "STRING", True, "the number of the unit; left out: whichever is there")
-STATION = ("stationName", "STRING", True, "told, and not made use of")
-KIND = ("loadType", "STRING", True, "told, and not made use of")
+ANY: tuple[BlockingType, ...] = (*BlockingType,)
+LIFTING = (
+    ("loadId", "STRING", True, "the number of the unit; left out: whichever is there"),
+    ("stationName", "STRING", True, "any; the node says where"),
+    ("stationType", "STRING", True, "any; the node says where"),
+    ("loadType", "STRING", True, "that of loadSets"),
+    ("lhd", "STRING", True, "lift"),
+    ("height", "NUMBER", True, "0"),
+    ("depth", "NUMBER", True, "0"),
+    ("side", "STRING", True, "left empty: it lifts from below"),
+)
+
+
+def _at_node(
+    type: str, text: str, parameters: tuple[tuple[str, str, bool, str], ...] = ()
+) -> SupportedAction:
+    """A lift comes to its end once it has begun, and stands still while the robot is paused."""
+    return SupportedAction(type, ("NODE",), text, parameters, ANY, can_pause=bool(parameters))
 
 
 def _instant(type: str, text: str, *parameters: tuple[str, str, bool, str]) -> SupportedAction:
@@ -17,17 +31,19 @@ def _instant(type: str, text: str, *parameters: tuple[str, str, bool, str]) -> S
 
 
 ACTIONS = (
+    _at_node("pick", "lifts the unit that stands at the node; one lift at a time", LIFTING),
+    _at_node("drop", "puts the unit down at the node; one lift at a time", LIFTING),
     SupportedAction(
-        "pick", ("NODE",), "lifts the unit that stands at the node", (LOAD, STATION, KIND), STANDING
+        "waitForTrigger", ("NODE",), "waits for the instant action trigger", (), ANY, True, True
     ),
-    SupportedAction(
-        "drop", ("NODE",), "puts the unit down at the node", (LOAD, STATION, KIND), STANDING
-    ),
-    SupportedAction("waitForTrigger", ("NODE",), "waits for the instant action trigger", (), ANY),
-    SupportedAction("startCharging", ("NODE", "INSTANT"), "where a charger is", (), STANDING),
-    SupportedAction("stopCharging", ("NODE", "INSTANT"), "of robots that can", (), STANDING),
+    SupportedAction("startCharging", ("NODE", "INSTANT"), "where a charger is", (), ANY),
+    SupportedAction("stopCharging", ("NODE", "INSTANT"), "of robots that can", (), ANY),
     _instant("trigger", "ends waitForTrigger"),
-    _instant("cancelOrder", "stops at the next grid point; a lift comes to its end"),
+    _instant(
+        "cancelOrder",
+        "stops at the next grid point; a lift comes to its end",
+        ("orderId", "STRING", True, "the order that is meant; left out: whichever is under way"),
+    ),
     _instant("startPause", "stops as hard as the robot can"),
     _instant("stopPause", "goes on with what was paused"),
     _instant(
@@ -36,11 +52,16 @@ ACTIONS = (
         ("x", "NUMBER", False, "m"),
         ("y", "NUMBER", False, "m"),
         ("theta", "NUMBER", False, "rad"),
-        ("mapId", "STRING", False, ""),
+        ("mapId", "STRING", False, "that of the floor"),
+        ("lastNodeId", "STRING", True, "any; the position says which"),
     ),
     _instant("stateRequest", "sends a state"),
     _instant("factsheetRequest", "sends this factsheet"),
-    _instant("logReport", "writes down what happened last", ("reason", "STRING", True, "")),
+    _instant(
+        "logReport",
+        "stores what happened last; resultDescription names the file",
+        ("reason", "STRING", True, "written into the report"),
+    ),
 )
 REFUSED = (
     "Refused: nodes off the grid, edges that are not along one axis of it, actions at edges."
@@ -49,6 +70,12 @@ REFUSED = (
 PARAMETERS = (
     ("order.nodes.nodePosition", "SUPPORTED", f"or a nodeId c<column>_<row>. {REFUSED}"),
     ("order.nodes.actions", "SUPPORTED", "pick and drop at the end of what is driven at once"),
+    *(
+        (f"{where}.{rule.name}", "SUPPORTED", f"{rule.use.value}: {rule.text}")
+        for where in ("order.nodes.nodePosition", "order.edges")
+        for rule in TABLE[where]
+        if rule.is_optional and rule.use in (Use.DRIVEN, Use.CHECKED)
+    ),
 )
 
 

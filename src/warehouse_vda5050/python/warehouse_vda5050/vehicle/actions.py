@@ -10,7 +10,6 @@ from warehouse_vda5050.model import Action, ActionState, ActionStatus, BlockingT
 
 # The robot stands for these whatever their blocking type says.
 STANDING = frozenset({"pick", "drop", "startCharging", "stopCharging"})
-AT_NODES = STANDING | {"waitForTrigger"}
 
 
 def holds(action: Action) -> bool:
@@ -26,7 +25,8 @@ def holds_at(node: Node) -> bool:
 class ActionQueue:
     """Actions of one order: told at once, due when their node is passed, begun in that order.
 
-    A HARD or SINGLE action waits until those before it are over, and those after it wait for it.
+    A HARD or SINGLE action waits until those before it are over, and those after it wait for it;
+    so does a lift for a lift.
     """
 
     def __init__(self) -> None:
@@ -68,6 +68,8 @@ class ActionQueue:
             return None
         if holds(action) and not standing:
             return None
+        if action.type in STANDING and any(one.type in STANDING for one in self.running):
+            return None  # the robot has one lift
         self.running.append(self._due.pop(0))
         self._set(action.id, ActionStatus.RUNNING)
         return action

@@ -7,13 +7,16 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from warehouse_vda5050.model import Action, ActionState, ActionStatus, Error, ErrorType
+from warehouse_vda5050.errors import Error, ErrorType
+from warehouse_vda5050.model import MAP_ID, Action, ActionState, ActionStatus
 from warehouse_vda5050.topics import Kind
 
 if TYPE_CHECKING:
     from warehouse_vda5050.vehicle.vehicle import Vehicle
 
-KEPT = 50  # states of instant actions that are over
+Begin = Callable[["Vehicle", Action, float], "str | None"]
+KEPT = 50  # states of instant actions that are over since COPY
+MOST = 1000  # states of all
 COPY = 5.0  # so long after an action the same actionId is a copy, and not another request [s]
 
 
@@ -38,18 +41,19 @@ class InstantDesk:
         known = self._states.get(action.id)
         if known and not (known.status.is_over and now - self._begun[action.id] > COPY):
             return
-        self._trim()
+        self._trim(now)
         self._begun[action.id] = now
         try:
             begin = ACTIONS.get(action.type)
             if begin is None:
                 raise ActionError(f"{action.type!r} is not an instant action of this vehicle")
-            over = begin(self._vehicle, action, now)
+            result = begin(self._vehicle, action, now)
         except ActionError as failure:
             self._set(action, ActionStatus.FAILED, str(failure))
             self._vehicle.note(_error(action, str(failure)))
         else:
-            self._set(action, ActionStatus.FINISHED if over else ActionStatus.RUNNING)
+            over = result is not RUNS
+            self._set(action, ActionStatus.FINISHED if over else ActionStatus.RUNNING, result or "")
 
     def end(self, type: str) -> None:
         """Ends all running actions of a type."""
@@ -66,8 +70,13 @@ class InstantDesk:
         state = ActionState(action.id, action.type, status, result[:500], instant=True)
         self._states[action.id] = state
 
-    def _trim(self) -> None:
-        over = [id for id, state in self._states.items() if state.status.is_over]
+    def _trim(self, now: float) -> None:
+        crowded = len(self._states) >= MOST
+        over = [
+            id
+            for id, state in self._states.items()
+            if state.status.is_over and (crowded or now - self._begun[id] > COPY)
+        ]
         for id in over[: max(0, len(self._states) - KEPT + 1)]:
             del self._states[id], self._begun[id]
 
@@ -80,57 +89,68 @@ def _error(action: Action, text: str) -> Error:
     return Error(kind.value, description=text, references=refer)
 
 
-def _cancel(vehicle: Vehicle, action: Action, now: float) -> bool:
+RUNS = None  # what the beginning of an action returns that is not over at once
+
+
+def _cancel(vehicle: Vehicle, action: Action, now: float) -> str | None:
+    meant, order = str(action.parameter("orderId") or ""), vehicle.order
+    if meant and order and meant != order.id:
+        raise ActionError(f"order {meant[:60]!r} is not the active one, {order.id[:60]!r}")
     if not vehicle.begin_cancel(now):
         raise ActionError("there is no order to cancel")
-    return False
+    return RUNS
 
 
-def _pause(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _pause(vehicle: Vehicle, action: Action, now: float) -> str | None:
     vehicle.set_paused(True)
-    return False  # until it stands
+    return RUNS  # until it stands
 
 
-def _go_on(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _go_on(vehicle: Vehicle, action: Action, now: float) -> str | None:
     vehicle.set_paused(False)
-    return True
+    return ""
 
 
-def _charge(on: bool) -> Callable[[Vehicle, Action, float], bool]:
-    def begin(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _charge(on: bool) -> Begin:
+    def begin(vehicle: Vehicle, action: Action, now: float) -> str | None:
         return _unless(vehicle.driver.charge(on))
 
     return begin
 
 
-def _init_position(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _init_position(vehicle: Vehicle, action: Action, now: float) -> str | None:
     x, y, theta = (_number(action, key) for key in ("x", "y", "theta"))
+    told = str(action.parameter("mapId") or "")
+    if told not in ("", MAP_ID):
+        raise ActionError(f"mapId is {told[:60]!r}; {MAP_ID!r} was expected")
     return _unless(vehicle.driver.init_position(x, y, theta))
 
 
-def _trigger(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _trigger(vehicle: Vehicle, action: Action, now: float) -> str | None:
     return _unless("" if vehicle.hands.trigger() else "no action waits for a trigger")
 
 
-def _tell_state(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _tell_state(vehicle: Vehicle, action: Action, now: float) -> str | None:
     vehicle.request_state()
-    return True
+    return ""
 
 
-def _tell_factsheet(vehicle: Vehicle, action: Action, now: float) -> bool:
+def _tell_factsheet(vehicle: Vehicle, action: Action, now: float) -> str | None:
     vehicle.request_factsheet()
-    return True
+    return ""
 
 
-def _report_log(vehicle: Vehicle, action: Action, now: float) -> bool:
-    vehicle.request_log(str(action.parameter("reason", "")))
-    return True
+def _report_log(vehicle: Vehicle, action: Action, now: float) -> str | None:
+    try:
+        return vehicle.journal.store(str(action.parameter("reason", "")))
+    except OSError as error:
+        raise ActionError(f"the report is not stored: {error}") from None
 
 
-def _unless(reason: str) -> bool:
+def _unless(reason: str) -> str:
     if reason:
         raise ActionError(reason)
-    return True
+    return ""
 
 
 def _number(action: Action, key: str) -> float:
@@ -144,8 +164,8 @@ def _number(action: Action, key: str) -> float:
     return number
 
 
-# Each returns whether it is over at once. Raises ActionError.
-ACTIONS: dict[str, Callable[[Vehicle, Action, float], bool]] = {
+# Each returns what came of it if it is over at once, else RUNS. Raises ActionError.
+ACTIONS: dict[str, Begin] = {
     "cancelOrder": _cancel,
     "startPause": _pause,
     "stopPause": _go_on,

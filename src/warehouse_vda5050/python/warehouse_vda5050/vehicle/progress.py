@@ -5,8 +5,9 @@ A base is never changed nor taken back: an update has to repeat the released nod
 one on, and replaces the horizon alone.
 """
 
+from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell
-from warehouse_vda5050.model import Edge, EdgeState, ErrorType, Node, NodeState, Order
+from warehouse_vda5050.model import Edge, EdgeState, Node, NodeState, Order
 from warehouse_vda5050.validation import MessageError
 
 
@@ -48,15 +49,18 @@ class OrderProgress:
         if (order.id, order.update) != (self.id, self.update):
             return False
         if _content(order) != self._content:
-            self._refuse(order, f"update {self.update} was accepted with other nodes")
+            text = f"update {self.update} was accepted with other nodes"
+            self._refuse(order, text, Predefined.SAME_ORDER_UPDATE_ID)
         return True
 
     def stitch(self, order: Order, cells: list[Cell]) -> tuple[Node, ...]:
         """Takes over an update of this order. Returns the nodes it brings. Raises MessageError."""
         if order.update < self.update:
-            self._refuse(order, f"update {order.update} is older than {self.update}")
+            text = f"update {order.update} is older than {self.update}"
+            self._refuse(order, text, Predefined.OUTDATED_ORDER_UPDATE)
         if self.cancelled:
-            self._refuse(order, "the order was cancelled")
+            cancelled = Predefined.ORDER_UPDATE_FOLLOWING_CANCEL
+            self._refuse(order, "the order was cancelled", cancelled)
         shared = self._shared(order, cells)
         begin = shared[0]
         overlap = len(shared)
@@ -92,9 +96,11 @@ class OrderProgress:
         # Masters may leave out the actions of a node that they repeat.
         return same and (not actions or actions == {action.id for action in b.actions})
 
-    def _refuse(self, order: Order, text: str) -> None:
+    def _refuse(
+        self, order: Order, text: str, precise: Predefined = Predefined.VALIDATION_FAILURE
+    ) -> None:
         refer = (("orderId", order.id[:100]), ("orderUpdateId", str(order.update)))
-        raise MessageError(text, ErrorType.ORDER_UPDATE.value, refer)
+        raise MessageError(text, ErrorType.ORDER_UPDATE.value, refer, precise)
 
     def pass_nodes(self, count: int) -> list[Node]:
         """Takes the next `count` nodes as passed; returns them."""

@@ -34,8 +34,8 @@ class Teller:
         self._requested = False
         self._shown: Visualization | None = None
         self._shown_at = -math.inf
-        self._deceleration = max(0.1, vehicle.driver.factsheet().max_deceleration)
-        self._top_speed = vehicle.driver.factsheet().max_speed
+        self._deceleration = max(0.1, vehicle.sheet.max_deceleration)
+        self._top_speed = vehicle.sheet.max_speed
 
     def request(self) -> None:
         """Lets the next take() return a state in any case."""
@@ -74,7 +74,7 @@ class Teller:
         state = State(
             actions=(*vehicle.actions.states(vehicle.paused), *vehicle.instant.states()),
             paused=vehicle.paused,
-            errors=vehicle.told_errors(),
+            errors=vehicle.complaints.all(),
             maps=(MAP_ID,),
         )
         if report is None:

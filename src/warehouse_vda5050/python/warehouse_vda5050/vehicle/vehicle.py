@@ -7,37 +7,33 @@ vehicle.update(now)                # ten times a second
 state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 """
 
-from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from pathlib import Path
 
 from warehouse_vda5050.driver import Driver, Report
+from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.model import (
-    ActionState,
-    Error,
-    ErrorLevel,
-    ErrorType,
     Factsheet,
     InstantActions,
-    OperatingMode,
+    Node,
     Order,
     State,
     Visualization,
 )
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
-from warehouse_vda5050.validation.orders import cells_of, check_abilities, check_form
+from warehouse_vda5050.validation.actions import unknown_parameters
 from warehouse_vda5050.vehicle.abilities import completed
-from warehouse_vda5050.vehicle.actions import AT_NODES, ActionQueue
+from warehouse_vda5050.vehicle.actions import ActionQueue
+from warehouse_vda5050.vehicle.complaints import Complaints
 from warehouse_vda5050.vehicle.hands import Hands
 from warehouse_vda5050.vehicle.instant import InstantDesk
+from warehouse_vda5050.vehicle.journal import Journal
 from warehouse_vda5050.vehicle.progress import OrderProgress
+from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
 from warehouse_vda5050.vehicle.telling import Teller
 from warehouse_vda5050.vehicle.wheels import Wheels
-
-TAKING_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)
-REMEMBERED = 1000  # ids of orders that were carried out, against late copies
-KEPT_ERRORS = 10
 
 
 @dataclass(frozen=True)
@@ -45,13 +41,17 @@ class VehicleSettings:
     """interval: at the latest so long after the last state comes the next [s]; moving: the same
     while it drives; visualization: between two positions of a robot that moves [s], 0: none.
     linger: so long after an order the robot is given back [s]. first_path: the number of its first
-    path."""
+    path. begins_at_zero: whether a new order has to, as in 3.0. logs: where reports that masters
+    ask for are stored, under names that begin with `name`; None: nowhere."""
 
     interval: float = 30.0
     moving: float = 1.0
     visualization: float = 1.0
     linger: float = 3.0
     first_path: int = 1
+    begins_at_zero: bool = False
+    logs: Path | None = None
+    name: str = "vehicle"
 
 
 class Vehicle:
@@ -63,6 +63,7 @@ class Vehicle:
     def __init__(self, driver: Driver, grid: Grid, settings: VehicleSettings | None = None) -> None:
         self.driver, self.grid = driver, grid
         self.settings = settings or VehicleSettings()
+        self.sheet = completed(driver.factsheet())
         self.report: Report | None = None
         self.order: OrderProgress | None = None
         self.actions = ActionQueue()
@@ -70,51 +71,60 @@ class Vehicle:
         self.wheels = Wheels(driver, grid, self.settings.first_path)
         self.instant = InstantDesk(self)
         self.paused = False
-        self.errors: deque[Error] = deque(maxlen=KEPT_ERRORS)  # of messages
-        self.log: deque[str] = deque(maxlen=200)  # what happened, for logReport
+        self.is_cancelling = False
+        self.journal = Journal(self.settings.name, self.settings.logs)
+        self.complaints = Complaints(self)
+        self._reception = Reception(self)
         self._teller = Teller(self)
-        self._done: deque[str] = deque(maxlen=REMEMBERED)
-        self._cancelling = False
-        self._taken = False
+        self._taken = driver.is_taken()
         self._over_since: float | None = None
         self._factsheet_due = True
-        self._log_requests: list[str] = []
 
-    # What comes in.
+    # What comes in; a state answers each message.
 
-    def on_order(self, order: Order, now: float) -> bool:
-        """Takes an order or an update. Returns whether it was accepted; if not, and it is no
-        copy of what was, the state says why."""
+    def on_order(self, order: Order, now: float, unknown: tuple[str, ...] = ()) -> bool:
+        """Takes an order or an update; `unknown` are fields of it that no version has. Returns
+        whether it was accepted; if not, and it is no copy of what was, the state says why."""
+        self.request_state()
+        accepted = False
         try:
-            return self._accept(order)
+            accepted = self._reception.accept(order)
         except MessageError as invalid:
-            self.note(_referring(invalid.error, order))
-            return False
+            self.complaints.note(invalid.error)
+        if accepted:
+            self.complaints.clear()
+            self.journal.write(f"order {order.id} update {order.update} is accepted")
+        self.complaints.note_unknown(Kind.ORDER, unknown)
+        return accepted
 
-    def on_instant_actions(self, message: InstantActions, now: float) -> None:
-        """Begins instant actions."""
+    def on_instant_actions(
+        self, message: InstantActions, now: float, unknown: tuple[str, ...] = ()
+    ) -> None:
+        """Begins instant actions; `unknown` are fields of the message that no version has."""
+        self.request_state()
+        count, most = len(message.actions), self.sheet.max_actions
+        if count > most:
+            text = f"{count} actions; at most {most} were expected"
+            refer = (("topic", Kind.INSTANT_ACTIONS.value),)
+            self.note(Error(ErrorType.VALIDATION.value, description=text, references=refer))
+            return
         for action in message.actions:
-            self._write(f"{action.type} {action.id}")
+            self.journal.write(f"{action.type} {action.id}")
             self.instant.begin(action, now)
+        unknown = (*unknown, *unknown_parameters(message.actions, self.sheet))
+        self.complaints.note_unknown(Kind.INSTANT_ACTIONS, unknown)
 
     def note(self, error: Error) -> None:
         """Tells an error of a message, until the next order or update is accepted."""
-        if error not in self.errors:
-            self.errors.append(error)
-            self._write(f"{error.type}: {error.description}")
-
-    def note_unknown(self, fields: tuple[str, ...]) -> None:
-        """Tells fields of a message that no version has; the message counts all the same."""
-        if fields:
-            names = ", ".join(fields[:5]) + (" …" if len(fields) > 5 else "")
-            self.note(Error(ErrorType.UNKNOWN_FIELD.value, description=f"ignored: {names}"))
+        self.request_state()
+        self.complaints.note(error)
 
     # What goes on.
 
     def update(self, now: float) -> None:
         """Takes in the driver's report and carries on with the order."""
         self.report = self.driver.report()
-        if self.report is None or not self.report.heard:
+        if self.report is None or not self.report.answers:
             return
         self._count(self.report, now)
         self.hands.watch(self.report, now)
@@ -130,7 +140,7 @@ class Vehicle:
         if self.order and passed:
             nodes = self.order.pass_nodes(passed)
             self.actions.make_due(nodes)
-            self._write(f"passed {', '.join(node.id for node in nodes)}")
+            self.journal.write(f"passed {', '.join(node.id for node in nodes)}")
 
     def _begin_actions(self, report: Report, now: float) -> None:
         standing = self.wheels.rest and not report.busy and not report.moving
@@ -140,28 +150,35 @@ class Vehicle:
     def _drive(self, report: Report, now: float) -> None:
         order = self.order
         stays = self.actions.holds_driving or self.actions.failed
-        if order and not order.is_driven and not stays and not self._cancelling:
+        if order and not order.is_driven and not stays and not self.is_cancelling:
             self.wheels.drive(order, report, now)
 
     def _end_order(self, report: Report, now: float) -> None:
-        if self.order and report.mode not in TAKING_ORDERS and not self.is_free:
+        order = self.order
+        if order and report.mode not in TAKING_ORDERS and not self.is_free:
             self.begin_cancel(now)
-        if self._cancelling:
+        if self.is_cancelling or (order and order.cancelled):
             self.wheels.cancel(now)
-            if self.wheels.rest and self.actions.is_over and not report.busy:
-                self._end_cancel()
+        if self.is_cancelling and self.actions.is_over and self._has_halted(report):
+            self._end_cancel()
         self._give_back(report, now)
+
+    def _has_halted(self, report: Report) -> bool:
+        """Returns whether the robot has ended its path, or stands on it and is paused."""
+        if self.paused and not report.moving:
+            return True
+        return self.wheels.rest and not report.busy
 
     def _end_cancel(self) -> None:
         assert self.order
         self.order.cancel()
-        self._cancelling = False
+        self.is_cancelling = False
         self.instant.end("cancelOrder")
-        self._write(f"order {self.order.id} is cancelled")
+        self.journal.write(f"order {self.order.id} is cancelled")
 
     def _give_back(self, report: Report, now: float) -> None:
         """Gives the robot back some time after its order is over, unless it carries a unit."""
-        if not self.is_free or report.load:
+        if not self.is_free or report.load or report.busy:
             self._over_since = None
         elif self._over_since is None:
             self._over_since = now
@@ -169,87 +186,27 @@ class Vehicle:
             self._taken = False
             self.driver.give_back()
 
-    # Orders.
+    # What the reception asks for.
 
-    def _accept(self, order: Order) -> bool:
-        check_form(order)
-        current = self.order
-        if current and current.is_repeated(order):
-            return False
-        self._check_robot(order)
-        check_abilities(order, AT_NODES)
-        cells = cells_of(order, self.grid)
-        if current and order.id == current.id:
-            self._update_order(current, order, cells)
-        else:
-            self._begin_order(order, cells)
-        self.errors.clear()
-        self._write(f"order {order.id} update {order.update} is accepted")
-        return True
-
-    def _check_robot(self, order: Order) -> None:
-        report = self.report
-        if report is None:
-            self._refuse(order, "the robot has not told where it is")
-        elif not report.localized:
-            self._refuse(order, "the robot does not know where it is")
-        elif report.mode not in TAKING_ORDERS:
-            self._refuse(order, f"the operating mode is {report.mode.value}")
-        elif self._cancelling and self.order and order.id == self.order.id:
-            self._refuse(order, "the order is being cancelled", ErrorType.ORDER_UPDATE)
-
-    def _begin_order(self, order: Order, cells: list[tuple[int, int]]) -> None:
-        assert self.report
-        if not self.is_free:
-            assert self.order
-            self._refuse(order, f"order {self.order.id} is under way")
-        if order.id in self._done:
-            self._refuse(order, f"order {order.id} was carried out already")
-        if self.report.busy or self.report.moving:
-            self._refuse(order, "the robot carries out a command from elsewhere")
-        self._check_start(order, cells[0])
+    def take(self) -> str:
+        """Takes the robot for an order, from whom commands it else. Returns why not, or ''."""
         reason = "" if self._taken else self.driver.take()
-        if reason:
-            self._refuse(order, reason)
-        self._taken = True
-        self._start(order, cells)
+        self._taken |= not reason
+        return reason
 
-    def _start(self, order: Order, cells: list[tuple[int, int]]) -> None:
-        if self.order:
-            self._done.append(self.order.id)
-        self.order = OrderProgress(order, cells)
+    def start(self, progress: OrderProgress, order: Order) -> None:
+        """Begins an order that was accepted."""
+        self.order = progress
         self.actions = self.hands.actions = ActionQueue()
         self.wheels.begin()
         self.actions.tell(order.nodes)
         self.actions.make_due(order.nodes[:1])
 
-    def _update_order(
-        self, current: OrderProgress, order: Order, cells: list[tuple[int, int]]
-    ) -> None:
-        assert self.report
-        if self.is_free and order.update > current.update:
-            self._check_start(order, cells[0])
-            reason = "" if self._taken or current.cancelled else self.driver.take()
-            if reason:
-                self._refuse(order, reason)
-        self.actions.tell(current.stitch(order, cells))
-        self._taken = True
-        self.actions.keep_only(current.nodes)
-
-    def _check_start(self, order: Order, cell: tuple[int, int]) -> None:
-        """Refuses an order that does not begin where the robot stands."""
-        assert self.report
-        here = self.grid.cell_at(self.report.x, self.report.y)
-        if cell != here:
-            text = (
-                f"the first node, {order.nodes[0].id}, is not where the robot stands:"
-                f" {self.grid.node_id(here)}"
-            )
-            self._refuse(order, text, ErrorType.NO_ROUTE)
-
-    def _refuse(self, order: Order, text: str, type: ErrorType = ErrorType.ORDER) -> None:
-        refer = (("orderId", order.id[:100]), ("orderUpdateId", str(order.update)))
-        raise MessageError(text, type.value, refer)
+    def extend(self, nodes: tuple[Node, ...]) -> None:
+        """Goes on with an order that an update brought more nodes of."""
+        assert self.order
+        self.actions.tell(nodes)
+        self.actions.keep_only(self.order.nodes)
 
     @property
     def is_taken(self) -> bool:
@@ -263,16 +220,16 @@ class Vehicle:
             self.order.is_driven
             and self.actions.is_over
             and self.wheels.rest
-            and not self._cancelling
+            and not self.is_cancelling
         )
 
     # What instant actions ask for.
 
     def begin_cancel(self, now: float) -> bool:
         """Begins to cancel the order. Returns False if there is none."""
-        if self.is_free:
+        if self.is_free or (self.order and self.order.cancelled):
             return False
-        self._cancelling = True
+        self.is_cancelling = True
         self.actions.fail_waiting("the order was cancelled")
         self.hands.give_up()
         self.wheels.cancel(now)
@@ -301,13 +258,6 @@ class Vehicle:
         """Lets the next take_factsheet() return the factsheet."""
         self._factsheet_due = True
 
-    def request_log(self, reason: str) -> None:
-        """Lets the next take_logs() return the reason."""
-        self._log_requests.append(reason[:200])
-
-    def _write(self, line: str) -> None:
-        self.log.append(line[:300])
-
     # What goes out.
 
     @property
@@ -330,45 +280,4 @@ class Vehicle:
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is to be sent: at first, and when it was asked for."""
         due, self._factsheet_due = self._factsheet_due, False
-        return completed(self.driver.factsheet()) if due else None
-
-    def take_logs(self) -> list[tuple[str, list[str]]]:
-        """Returns (reason, lines) of each logReport since the last call."""
-        requests, self._log_requests = self._log_requests, []
-        return [(reason, list(self.log)) for reason in requests]
-
-    def told_errors(self) -> tuple[Error, ...]:
-        """Returns all errors: of messages, of the order under way, of the robot."""
-        errors = [*self.errors, *(self.report.errors if self.report else ())]
-        order = self.order
-        if order and not self.is_free:
-            if self.wheels.fault:
-                errors.append(_order_fault(order, self.wheels.fault))
-            if not self._cancelling and not order.is_driven:
-                errors += [_action_fault(order, state) for state in self.actions.failed]
-        return tuple(replace(error, description=error.description[:500]) for error in errors)
-
-
-HINT = "cancelOrder, then a new order"
-
-
-def _order_fault(order: OrderProgress, text: str) -> Error:
-    return Error(ErrorType.ORDER.value, ErrorLevel.WARNING, text, HINT, _references(order))
-
-
-def _action_fault(order: OrderProgress, state: ActionState) -> Error:
-    text = f"{state.type} failed, and the robot stays where it is: {state.result}"
-    refer = (*_references(order), ("actionId", state.id[:100]))
-    return Error(ErrorType.ORDER_ACTION.value, ErrorLevel.WARNING, text, HINT, refer)
-
-
-def _references(order: Order | OrderProgress) -> tuple[tuple[str, str], ...]:
-    """Returns what masters find an order's errors by."""
-    topic = ("topic", Kind.ORDER.value)
-    return topic, ("orderId", order.id[:100]), ("orderUpdateId", str(order.update))
-
-
-def _referring(error: Error, order: Order) -> Error:
-    """Returns the error of an order with all that masters find it by."""
-    further = [pair for pair in error.references if pair[0] not in ("orderId", "orderUpdateId")]
-    return replace(error, references=(*_references(order), *further))
+        return self.sheet if due else None

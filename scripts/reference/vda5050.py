@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fields of VDA 5050: what a vehicle makes of each."""
+
+from reference.markdown import code, page, prose, table
+
+INTRODUCTION = (
+    "A vehicle [of this system](../how-to/vda5050.md) does what a field says (driven), or does so"
+    " in any case and refuses an order that says otherwise (checked), or refuses the order"
+    " (refused). The error is an `orderError` with the field's name as a reference, in 3.0.0"
+    " `UNSUPPORTED_PARAMETER` and the like. Fields that stand nowhere here cost a warning. Names"
+    " are those of 2.1.0, and of 3.0.0 where that alone has the field."
+)
+
+
+def written() -> str:
+    """Returns the page of fields."""
+    from warehouse_vda5050 import field_rules
+    from warehouse_vda5050.vehicle.abilities import ACTIONS
+
+    sections = [section(place, rules) for place, rules in field_rules.TABLE.items()]
+    names = [code(name) for name in field_rules.NOT_TOLD]
+    left_out = f"## Left out of a state\n\n{', '.join(names)}"
+    return page("VDA 5050, field by field", INTRODUCTION, *sections, actions(ACTIONS), left_out)
+
+
+def section(place, rules) -> str:
+    """Returns the fields of one object of a message."""
+    rows = [(code(rule.name), rule.use.value, prose(rule.text)) for rule in rules]
+    return f"## {place}\n\n{table(['field', '', ''], rows)}"
+
+
+def actions(known) -> str:
+    """Returns the actions, with their parameters."""
+    rows = [
+        (
+            code(one.type),
+            ", ".join(one.scopes),
+            ", ".join(f"`{name}` ({prose(text)})" for name, _, _, text in one.parameters),
+            prose(one.description),
+        )
+        for one in known
+    ]
+    return f"## Actions\n\n{table(['action', 'scope', 'parameters', ''], rows)}"
