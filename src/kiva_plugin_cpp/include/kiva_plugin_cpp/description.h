@@ -69,6 +69,7 @@ struct Link {
   Pose inertial_pose_in_link;          ///< Centre of mass, turned to the principal axes.
   Vector3 principal_moments{1, 1, 1};  ///< About that centre, along those axes [kg m²].
   bool gravity = true;
+  bool self_collide = false;  ///< Touches other links of its model, but those it is joined to.
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
 };

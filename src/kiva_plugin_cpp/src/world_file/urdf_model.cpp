@@ -214,6 +214,7 @@ class Writer {
 
   void writeExtension(const UrdfExtension& from, XmlElement* link) {
     if (flagIn(*from.element, "turnGravityOff", false)) add(link, "gravity", "false");
+    if (flagIn(*from.element, "selfCollide", false)) add(link, "self_collide", "true");
     for (const XmlElement* part = from.element->FirstChildElement(); part;
          part = part->NextSiblingElement()) {
       if (isOfUrdf(*part)) continue;

@@ -83,9 +83,9 @@ void describe(A& a, Visual& v) {
 
 template <class A>
 void describe(A& a, Link& l) {
-  DESCRIBED(Link, 8);
+  DESCRIBED(Link, 9);
   FIELDS(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
-         l.collisions, l.visuals);
+         l.self_collide, l.collisions, l.visuals);
 }
 
 template <class A>
