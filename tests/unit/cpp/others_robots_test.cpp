@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kRadius = 0.1;  // of driven wheels [m]
 constexpr double kEffort = 30;   // of their motors [Nm]
+constexpr double kChassis = 60;  // [kg]
+constexpr double kStiffness = 10000;  // of a strut's spring [N/m]
 
 std::string inertial(double mass, double moment, const std::string& at = "0 0 0") {
   const std::string i = number(moment);
@@ -51,7 +53,7 @@ std::string caster(const std::string& name, const std::string& at) {
 }
 
 std::string base(const std::string& more = "") {
-  return link("base", inertial(60, 3) + box("0.8 0.5 0.2", "0 0 0.06") + more);
+  return link("base", inertial(kChassis, 3) + box("0.8 0.5 0.2", "0 0 0.06") + more);
 }
 
 std::string robot(const std::string& content) {
@@ -74,6 +76,24 @@ std::string withBogies() {
                    "<limit lower='-0.3' upper='0.3' effort='0' velocity='1'/>") +
              wheel(side, side + "_rocker", "0.2 0 -0.02") +
              wheel(side + "_rear", side + "_rocker", "-0.2 0 -0.02");
+  }
+  return robot(parts);
+}
+
+/// Four driven wheels, each on a strut that slides up and down against a spring.
+std::string withSprungWheels() {
+  std::string parts = base();
+  for (const auto& [name, at] : {std::pair{std::string("left"), "0.25 0.3 0"},
+                                 {"left_rear", "-0.25 0.3 0"},
+                                 {"right", "0.25 -0.3 0"},
+                                 {"right_rear", "-0.25 -0.3 0"}}) {
+    const std::string strut = name + "_strut";
+    parts += link(strut, inertial(0.5, 0.001)) +
+             joint(strut, "prismatic", "base", at, "0 0 1",
+                   "<limit lower='-0.05' upper='0.05' effort='0' velocity='1'/>"
+                   "<dynamics damping='300'/>") +
+             "<gazebo reference='" + strut + "_joint'><springStiffness>" + number(kStiffness) +
+             "</springStiffness></gazebo>" + wheel(name, strut, "0 0 0");
   }
   return robot(parts);
 }
@@ -148,6 +168,56 @@ TEST_F(OthersRobots, BogiesLetItStandAndDrive) {
   spawn(withBogies(), {"left_joint", "left_rear_joint"}, {"right_joint", "right_rear_joint"});
   expectToStand();
   expectToDrive(2);
+}
+
+TEST_F(OthersRobots, SprungWheelsLetItStandAndDrive) {
+  spawn(withSprungWheels(), {"left_joint", "left_rear_joint"}, {"right_joint", "right_rear_joint"});
+  expectToStand();
+  EXPECT_NEAR(position("left_strut_joint"), kChassis * 9.81 / (4 * kStiffness), kMillimetre / 10);
+  expectToDrive(2);
+}
+
+TEST_F(OthersRobots, ASpringCarriesItsLoadWhereForcesAreEven) {
+  const std::string bob = "<robot name='r'><link name='world'/>" +
+                          link("bob", inertial(2, 0.01)) +
+                          joint("bob", "prismatic", "world", "0 0 1", "0 0 1",
+                                "<limit lower='-1' upper='1' effort='0' velocity='9'/>"
+                                "<dynamics damping='20'/>") +
+                          "<gazebo reference='bob_joint'><springStiffness>400</springStiffness>"
+                          "<springReference value='0.1'/></gazebo></robot>";
+  w.spawnText(bob, "r", 0, 0);
+  w.run(3);
+  EXPECT_NEAR(position("bob_joint"), 0.1 - 2 * 9.81 / 400, 1e-4);
+}
+
+/// A plate in the air, and above it a bob that slides down, both on rails of their own.
+std::string bobAbovePlate(const std::string& extension) {
+  return "<robot name='r'><link name='world'/>" +
+         link("plate", inertial(1, 0.1) + box("0.4 0.4 0.1")) +
+         joint("plate", "fixed", "world", "0 0 0.5", "0 0 1") +
+         link("bob", inertial(1, 0.1) + box("0.1 0.1 0.1")) +
+         joint("bob", "prismatic", "world", "0 0 1", "0 0 1",
+               "<limit lower='-2' upper='2' effort='0' velocity='9'/>") +
+         extension + "</robot>";
+}
+
+TEST_F(OthersRobots, LinksOfAModelTouchEachOtherWhereItSaysSo) {
+  w.spawnText(bobAbovePlate(""), "through", 0, 0);
+  w.spawnText(bobAbovePlate("<gazebo reference='bob'><selfCollide value='true'/></gazebo>"), "onto",
+              2, 0);
+  w.run(1.5);
+  EXPECT_NEAR(w.world.state("through", "bob")->pose.Z(), 0.05, kMillimetre) << "on the floor";
+  EXPECT_NEAR(w.world.state("onto", "bob")->pose.Z(), 0.6, kMillimetre) << "on the plate";
+}
+
+TEST_F(OthersRobots, FrictionIsReadFromAnAttributeOrAText) {
+  for (const std::string mu : {"<mu1 value='0.3'/><mu2 value='0.3'/>", "<mu1>0.3</mu1>"}) {
+    const std::string text =
+        replaced(withCasters(), "</robot>", "<gazebo reference='left'>" + mu + "</gazebo></robot>");
+    const auto description = instance(text, "r").description;
+    EXPECT_EQ(description->findLink("left")->collisions.at(0).friction, 0.3) << mu;
+    EXPECT_EQ(description->findLink("right")->collisions.at(0).friction, 1) << mu;
+  }
 }
 
 TEST_F(OthersRobots, ALiftWithoutEffortRestsAtItsLowerLimit) {

@@ -88,6 +88,8 @@ struct Joint {
   double max_velocity = -1;        ///< [rad/s] or [m/s]; negative = unlimited.
   double damping = 0;              ///< [Nm s/rad] or [N s/m].
   double friction = 0;             ///< Dry friction [Nm] or [N].
+  double stiffness = 0;            ///< Of its spring [Nm/rad] or [N/m]; 0 = none.
+  double spring_reference = 0;     ///< Position at which the spring is relaxed [rad] or [m].
 
   /// Returns whether the joint turns or slides along an axis, with a position and a rate.
   bool hasAxis() const { return kind != Kind::kFixed && kind != Kind::kBall; }

@@ -90,11 +90,11 @@ void describe(A& a, Link& l) {
 
 template <class A>
 void describe(A& a, Joint& j) {
-  DESCRIBED(Joint, 12);
+  DESCRIBED(Joint, 14);
   FIELDS(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model,
          within(j.lower, -kEndless, kEndless), within(j.upper, -kEndless, kEndless),
          within(j.max_effort, -kEndless, kEndless), within(j.max_velocity, -kEndless, kEndless),
-         j.damping, j.friction);
+         j.damping, j.friction, j.stiffness, j.spring_reference);
 }
 
 template <class A>

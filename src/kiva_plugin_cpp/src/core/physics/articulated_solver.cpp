@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostRows = 400;      // of either kind: a direct solution takes their cube
 constexpr double kNoBound = 1e15;   // an impulse that is beyond is none
 constexpr double kSharing = 1e-9;  // see Ldl
-constexpr double kInert = 1e-9;     // share of its mobility that joints left of a row
+constexpr double kInert = 1e-6;     // least share of its mobility that joints left of a row
 constexpr double kNearlyStill = 1e-12;    // [m/s, rad/s]
 constexpr double kNoChange = 1e-9;   // [m/s, rad/s] of change in a sweep
 constexpr int kMostSweeps = 100;
@@ -238,16 +238,22 @@ double ArticulatedSolver::relax(int i) {
   return std::abs(x_[i] - before) * a_[i][i];
 }
 
-/// Both directions of the surface at once, on Coulomb's circle.
+/// Both directions of the surface at once, on Coulomb's circle. Joints may block one of them.
 double ArticulatedSolver::relaxFriction(int i) {
+  const double limit = yielding_[i].friction * std::max(0.0, impulse(yielding_[i].normal));
   const double a00 = a_[i][i], a01 = a_[i][i + 1], a11 = a_[i + 1][i + 1];
-  if (a00 <= 0 || a11 <= 0) return 0;
   double x[2] = {impulse(i), impulse(i + 1)};
   const double before[2] = {x[0], x[1]};
-  const double slip[2] = {-residual(i) - a00 * x[0] - a01 * x[1],
-                          -residual(i + 1) - a01 * x[0] - a11 * x[1]};
-  const double limit = yielding_[i].friction * std::max(0.0, impulse(yielding_[i].normal));
-  solveCoulomb(a00 * (1 + kSharing), a01, a11 * (1 + kSharing), slip, limit, x);
+  if (a00 > 0 && a11 > 0) {
+    const double slip[2] = {-residual(i) - a00 * x[0] - a01 * x[1],
+                            -residual(i + 1) - a01 * x[0] - a11 * x[1]};
+    solveCoulomb(a00 * (1 + kSharing), a01, a11 * (1 + kSharing), slip, limit, x);
+  } else {
+    for (int way : {0, 1}) {
+      const double a = a_[i + way][i + way];
+      if (a > 0) x[way] = std::clamp(x[way] + residual(i + way) / a, -limit, limit);
+    }
+  }
   double change = 0;
   for (int way : {0, 1}) {
     x_[i + way] += x[way] - before[way];
