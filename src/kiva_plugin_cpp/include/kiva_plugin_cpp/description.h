@@ -69,6 +69,7 @@ struct Link {
   Pose inertial_pose_in_link;          ///< Centre of mass, turned to the principal axes.
   Vector3 principal_moments{1, 1, 1};  ///< About that centre, along those axes [kg m²].
   bool gravity = true;
+  bool self_collide = false;  ///< Touches other links of its model, but those it is joined to.
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
 };
@@ -87,6 +88,8 @@ struct Joint {
   double max_velocity = -1;        ///< [rad/s] or [m/s]; negative = unlimited.
   double damping = 0;              ///< [Nm s/rad] or [N s/m].
   double friction = 0;             ///< Dry friction [Nm] or [N].
+  double stiffness = 0;            ///< Of its spring [Nm/rad] or [N/m]; 0 = none.
+  double spring_reference = 0;     ///< Position at which the spring is relaxed [rad] or [m].
 
   /// Returns whether the joint turns or slides along an axis, with a position and a rate.
   bool hasAxis() const { return kind != Kind::kFixed && kind != Kind::kBall; }

@@ -72,6 +72,9 @@ void setAxis(const XmlElement& from, const Scope& scope, Joint* joint) {
   if (!dynamics) return;
   joint->damping = atLeastZero(*axis, "damping", numberIn(*dynamics, "damping", 0));
   joint->friction = atLeastZero(*axis, "friction", numberIn(*dynamics, "friction", 0));
+  joint->stiffness =
+      atLeastZero(*axis, "spring_stiffness", numberIn(*dynamics, "spring_stiffness", 0));
+  joint->spring_reference = numberIn(*dynamics, "spring_reference", 0);
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ Link describeLink(const XmlElement& from, const Scope& scope, Faults* warnings) 
   link.name = scope.prefix + attributeOf(from, "name");
   link.pose_in_model = scope.pose * poseAround(from);
   link.gravity = flagIn(from, "gravity", true);
+  link.self_collide = flagIn(from, "self_collide", scope.self_collide);
   setInertia(from.FirstChildElement("inertial"), &link);
   forEach(from, "collision", [&](const XmlElement& part) {
     buildOrLeaveOut("collision", warnings,

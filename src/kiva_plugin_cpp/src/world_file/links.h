@@ -13,6 +13,7 @@ struct Scope {
   std::string prefix;  ///< `nested::`, empty for the outermost model.
   Pose pose;           ///< Of the nested model, in the outermost one.
   bool is_static;
+  bool self_collide;  ///< What its links do that do not say.
 };
 
 /// Throw SdfError.

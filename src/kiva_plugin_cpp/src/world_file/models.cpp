@@ -46,8 +46,9 @@ void addModel(const XmlElement& model, const Scope& scope, ModelDescription* des
     const Pose pose = scope.pose * poseAround(nested);
     const std::size_t first = description->links.size();
     const bool is_fixed = flagIn(nested, "static", false);
-    addModel(nested, {scope.origin, name + "::", pose, scope.is_static || is_fixed}, description,
-             warnings);
+    const bool self_collide = flagIn(nested, "self_collide", false);
+    addModel(nested, {scope.origin, name + "::", pose, scope.is_static || is_fixed, self_collide},
+             description, warnings);
     if (is_fixed && !description->is_static) holdToWorld(first, description);
   });
 }
@@ -72,7 +73,9 @@ void putFirst(const std::string& canonical, std::vector<Link>* links) {
 ModelDescription describeModel(const XmlElement& model, const Origin& origin, Faults* warnings) {
   ModelDescription description;
   description.is_static = isStatic(model);
-  addModel(model, {origin, "", Pose::Zero, description.is_static}, &description, warnings);
+  const bool self_collide = flagIn(model, "self_collide", false);
+  addModel(model, {origin, "", Pose::Zero, description.is_static, self_collide}, &description,
+           warnings);
   addStandIn(model, &description, warnings);
   putFirst(canonicalLinkOf(model), &description.links);
   return description;

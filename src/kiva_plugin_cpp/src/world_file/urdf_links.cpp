@@ -137,7 +137,7 @@ class Reader {
     const std::string of = attributeOf(from, "reference");
     if (tree_.links.count(of)) tree_.links[of].extensions.push_back({&from, Pose::Zero, false});
     for (const char* flag : {"preserveFixedJoint", "disableFixedJointLumping"}) {
-      if (flagIn(from, flag, false)) kept_.insert(of);
+      if (readFlag(valueOf(from.FirstChildElement(flag))).value_or(false)) kept_.insert(of);
     }
   }
 
@@ -230,6 +230,11 @@ void UrdfInertia::add(UrdfInertia other, const Pose& at) {
   pose = Pose(centre, Quaternion::Identity);
   moments = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
   products = {tensor(0, 1), tensor(0, 2), tensor(1, 2)};
+}
+
+std::string valueOf(const XmlElement* element) {
+  if (element && element->Attribute("value")) return attributeOf(*element, "value");
+  return contentOf(element);
 }
 
 UrdfTree readUrdf(const XmlElement& robot, Faults* warnings) { return Reader(warnings).run(robot); }

@@ -66,6 +66,10 @@ struct UrdfTree {
   std::map<std::string, Place> lumped;
 };
 
+/// What an element within `<gazebo>` says: in an attribute `value`, or as its text. Null says
+/// nothing.
+std::string valueOf(const XmlElement* element);
+
 /// Texts that are no numbers count as if they were not given, with a warning each. Throws SdfError
 /// where the links are no tree.
 UrdfTree readUrdf(const XmlElement& robot, Faults* warnings);

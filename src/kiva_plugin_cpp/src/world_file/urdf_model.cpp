@@ -143,26 +143,25 @@ class Writer {
     add(shape, "uri", uri);
   }
 
-  /// The last that `<gazebo reference="link">` says of an element for the link that a shape was
-  /// written for.
-  const XmlElement* extensionOf(const UrdfShape& shape, const char* name) const {
+  /// The last that `<gazebo reference="NAME">` says of an element for a link or a joint.
+  const XmlElement* extensionOf(const std::string& name, const char* key) const {
     const XmlElement* found = nullptr;
     forEach(robot_, "gazebo", [&](const XmlElement& extension) {
-      if (attributeOf(extension, "reference") != shape.from) return;
-      if (const XmlElement* const own = extension.FirstChildElement(name)) found = own;
+      if (attributeOf(extension, "reference") != name) return;
+      if (const XmlElement* const own = extension.FirstChildElement(key)) found = own;
     });
     return found;
   }
 
   void writeFriction(const UrdfShape& from, XmlElement* collision) {
-    const XmlElement* const along = extensionOf(from, "mu1");
-    const XmlElement* const across = extensionOf(from, "mu2");
+    const XmlElement* const along = extensionOf(from.from, "mu1");
+    const XmlElement* const across = extensionOf(from.from, "mu2");
     if (!along && !across) return;
     const XmlElement& given = along ? *along : *across;
     XmlElement* const surface = insert(collision, "surface", given);
     XmlElement* const ode = insert(insert(surface, "friction", given), "ode", given);
-    if (along) add(ode, "mu", contentOf(along));
-    if (across) add(ode, "mu2", contentOf(across));
+    if (along) add(ode, "mu", valueOf(along));
+    if (across) add(ode, "mu2", valueOf(across));
   }
 
   void writeColour(const UrdfShape& from, XmlElement* visual) {
@@ -213,7 +212,11 @@ class Writer {
   }
 
   void writeExtension(const UrdfExtension& from, XmlElement* link) {
-    if (flagIn(*from.element, "turnGravityOff", false)) add(link, "gravity", "false");
+    const auto says = [&](const char* name) {
+      return readFlag(valueOf(from.element->FirstChildElement(name))).value_or(false);
+    };
+    if (says("turnGravityOff")) add(link, "gravity", "false");
+    if (says("selfCollide")) add(link, "self_collide", "true");
     for (const XmlElement* part = from.element->FirstChildElement(); part;
          part = part->NextSiblingElement()) {
       if (isOfUrdf(*part)) continue;
@@ -297,6 +300,11 @@ class Writer {
     const XmlElement* const dynamics = from.FirstChildElement("dynamics");
     XmlElement* const out = insert(axis, "dynamics", dynamics ? *dynamics : from);
     for (const char* name : {"damping", "friction"}) add(out, name, text(dynamics, name, "0"));
+    const std::string joint_name = attributeOf(from, "name");
+    for (const auto& [key, name] : {std::pair{"springStiffness", "spring_stiffness"},
+                                    {"springReference", "spring_reference"}}) {
+      if (const auto* spring = extensionOf(joint_name, key)) add(out, name, valueOf(spring));
+    }
   }
 
   const XmlElement& robot_;

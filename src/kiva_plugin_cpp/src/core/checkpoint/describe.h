@@ -83,18 +83,18 @@ void describe(A& a, Visual& v) {
 
 template <class A>
 void describe(A& a, Link& l) {
-  DESCRIBED(Link, 8);
+  DESCRIBED(Link, 9);
   FIELDS(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
-         l.collisions, l.visuals);
+         l.self_collide, l.collisions, l.visuals);
 }
 
 template <class A>
 void describe(A& a, Joint& j) {
-  DESCRIBED(Joint, 12);
+  DESCRIBED(Joint, 14);
   FIELDS(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model,
          within(j.lower, -kEndless, kEndless), within(j.upper, -kEndless, kEndless),
          within(j.max_effort, -kEndless, kEndless), within(j.max_velocity, -kEndless, kEndless),
-         j.damping, j.friction);
+         j.damping, j.friction, j.stiffness, j.spring_reference);
 }
 
 template <class A>

@@ -111,10 +111,19 @@ bool wantsToMove(const Model& model) {
   });
 }
 
+/// No stiffer than the step can follow (the symplectic Euler method is stable up to four times that).
+void spring(const Mount& mount, const Joint& joint, double position, double dt) {
+  const bool slides = isSlider(joint);
+  const double stiffness = std::min(joint.stiffness, inertiaOf(mount, slides) / (dt * dt));
+  push(mount, slides, stiffness * (joint.spring_reference - position));
+}
+
 void driveJoint(const Model& model, int index, double dt) {
+  const Joint& joint = model.description->joints[index];
   const JointSettings& s = model.joints[index].settings;
-  const bool slides = isSlider(model.description->joints[index]);
+  const bool slides = isSlider(joint);
   const Mount mount = mountOf(model, index);
+  if (joint.stiffness > 0) spring(mount, joint, model.joints[index].position, dt);
   const bool motor = s.motor_effort > 0;
   setMotor(mount, slides, motor ? s.motor_speed : 0,
            std::min(motor ? s.motor_effort : s.friction, kMostPush), dt);

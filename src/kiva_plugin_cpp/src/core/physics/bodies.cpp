@@ -27,7 +27,7 @@ LinkBody finishBody(LinkBody body, const Link& link, const BodyContext& context,
   btRigidBody::btRigidBodyConstructionInfo info(
       moves ? link.mass : 0, nullptr, shape,
       moves ? toBullet(link.principal_moments) : btVector3(0, 0, 0));
-  body.group = context.group;
+  body.group = context.group | (link.self_collide ? kSelfCollidingGroup : 0);
   body.mask = context.mask;
   body.body = std::make_unique<btRigidBody>(info);
   body.body->setUserIndex(context.model);

@@ -15,8 +15,15 @@
 
 namespace kiva {
 
-/// Collision filter groups: which bodies touch which others.
-enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
+/// Collision filter groups: which bodies touch which others. Bodies of one model touch each other
+/// only where one of them is of `kSelfCollidingGroup` too.
+enum CollisionGroup : int {
+  kFloorGroup = 1,
+  kStaticGroup = 2,
+  kDynamicGroup = 4,
+  kRobotGroup = 8,
+  kSelfCollidingGroup = 16
+};
 
 /// Third user index of a body that was put somewhere, with a velocity, since the last step.
 constexpr int kPlaced = 1;

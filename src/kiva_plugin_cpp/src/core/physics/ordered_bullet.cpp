@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/physics/bodies.h"
 #include "core/physics/parting.h"
 #include "core/physics/planar_solver.h"
 
@@ -51,6 +52,11 @@ bool jointComesBefore(const btTypedConstraint* a, const btTypedConstraint* b) {
   return key(a) < key(b);
 }
 
+/// What joins links of a model, and not what stands for contacts with the floor.
+bool isJoint(const btTypedConstraint* constraint) {
+  return constraint->getConstraintType() != MAX_CONSTRAINT_TYPE;
+}
+
 bool touches(const btPersistentManifold* manifold) { return manifold->getNumContacts() > 0; }
 
 }  // namespace
@@ -83,6 +89,16 @@ std::vector<btPersistentManifold*> OrderedDispatcher::makeManifolds(btOverlappin
   return {getInternalManifoldPointer(), getInternalManifoldPointer() + m_manifoldsPtr.size()};
 }
 
+bool OwnPartsFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  const int of_a = a->m_collisionFilterGroup, of_b = b->m_collisionFilterGroup;
+  if (!(of_a & b->m_collisionFilterMask) || !(of_b & a->m_collisionFilterMask)) return false;
+  if ((of_a | of_b) & kSelfCollidingGroup) return true;
+  const auto modelOf = [](const btBroadphaseProxy* proxy) {
+    return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
+  };
+  return modelOf(a) != modelOf(b);
+}
+
 std::vector<btPersistentManifold*> OrderedDispatcher::manifolds() const {
   std::vector<btPersistentManifold*> out;
   for (int i = 0; i < m_manifoldsPtr.size(); ++i) {
@@ -107,8 +123,30 @@ btScalar OrderedSolver::solveGroup(btCollisionObject** bodies, int body_count,
     solvePlanar(island, info);
     return 0;
   }
+  btContactSolverInfo own = info;
+  if (std::any_of(joints, joints + joint_count, isJoint)) {
+    own.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  }
   return btSequentialImpulseConstraintSolver::solveGroup(
-      bodies, body_count, manifolds, touching, joints, joint_count, info, draw, dispatcher);
+      bodies, body_count, manifolds, touching, joints, joint_count, own, draw, dispatcher);
+}
+
+btScalar OrderedSolver::solveGroupCacheFriendlyIterations(
+    btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
+    int manifold_count, btTypedConstraint** joints, int joint_count,
+    const btContactSolverInfo& info, btIDebugDraw* draw) {
+  if (std::any_of(joints, joints + joint_count, isJoint)) {
+    const bool is_solved = articulated_.solve(
+        {m_tmpSolverBodyPool, m_tmpSolverNonContactConstraintPool, m_tmpSolverContactConstraintPool,
+         m_tmpSolverContactFrictionConstraintPool});
+    if (is_solved) {
+      solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count,
+                                                    joints, joint_count, info, draw);
+      return 0;
+    }
+  }
+  return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+      bodies, body_count, manifolds, manifold_count, joints, joint_count, info, draw);
 }
 
 void OrderedSolver::convertContacts(btPersistentManifold** manifolds, int count,

@@ -11,6 +11,8 @@
 
 #include <vector>
 
+#include "core/physics/articulated_solver.h"
+
 namespace kiva {
 
 /// Marks every manifold with the parts of both bodies that it is about, in its companion ids.
@@ -31,6 +33,13 @@ class OrderedDispatcher : public btCollisionDispatcher {
   bool minds_sleepers_ = false;  ///< Those asleep are looked at, too.
 };
 
+/// Leaves out pairs of bodies of one model, unless it says that its links touch each other. Wheels
+/// turn within the hull of a chassis, and what holds them is no contact.
+class OwnPartsFilter : public btOverlapFilterCallback {
+ public:
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+};
+
 /// Goes through an island's contacts and joints in the order of their bodies. It expects to be
 /// asked to move overlapping bodies apart without a change of their velocities.
 class OrderedSolver : public btSequentialImpulseConstraintSolver {
@@ -44,6 +53,14 @@ class OrderedSolver : public btSequentialImpulseConstraintSolver {
   /// Bounds the speed with which overlapping bodies are moved apart.
   void convertContacts(btPersistentManifold** manifolds, int count,
                        const btContactSolverInfo& info) override;
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** joints, int joint_count,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* draw) override;
+
+ private:
+  ArticulatedSolver articulated_;
 };
 
 /// Islands of bodies with contacts or joints between them.

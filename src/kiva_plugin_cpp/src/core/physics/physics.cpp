@@ -50,6 +50,7 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_(&configuration_),
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   gContactAddedCallback = combineMaterials;
+  broadphase_.getOverlappingPairCache()->setOverlapFilterCallback(&own_parts_filter_);
   world_.setGravity(toBullet(gravity));
   world_.setForceUpdateAllAabbs(false);
   // A fixed distance at which contacts are foreseen; the relative one would be less than a thin

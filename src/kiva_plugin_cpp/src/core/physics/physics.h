@@ -104,6 +104,7 @@ class Physics {
   BoxBoxContacts::Creator box_contacts_;
   RoundContacts::Creator round_contacts_, swapped_round_contacts_;
   OrderedDispatcher dispatcher_;
+  OwnPartsFilter own_parts_filter_;
   btDbvtBroadphase broadphase_;
   OrderedSolver solver_;
   ContactIslandWorld world_;
