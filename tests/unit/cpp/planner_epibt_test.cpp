@@ -93,6 +93,63 @@ TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
   }
 }
 
+/// One-way streets: along the bottom, up the right side, back along the top, down the left side.
+FloorDescription loop() {
+  FloorDescription floor = drawn({"....", ".##.", "...."});
+  floor.exits = {1, 1, 1, 2, 8, 0xf, 0xf, 2, 8, 4, 4, 4};
+  return floor;
+}
+
+/// Drives until the first robot is at its goal, or so many ticks long; how many.
+int ticksTo(const Floor& floor, Fleet& fleet, int most) {
+  const auto planner = makeEpibt();
+  planner->start(floor, {}, 1);
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell[0] != fleet.goal[0] && ticks < most; ++ticks) {
+    planner->plan(fleet, {}, plan);
+    for (int robot = 0; robot < fleet.size(); ++robot) {
+      const State state{fleet.cell[robot], fleet.heading[robot]};
+      const State next = after(floor, state, plan.at(robot, 0));
+      fleet.cell[robot] = next.cell;
+      fleet.heading[robot] = next.heading;
+    }
+  }
+  return ticks;
+}
+
+TEST(Epibt, TurnsBackInAOneWayStreetThatIsCut) {
+  const Floor floor(loop());
+  Fleet fleet;
+  fleet.cell = {2};
+  fleet.heading = {0};
+  fleet.goal = {0};
+  fleet.loaded = {1};
+  Fleet open = fleet;
+  EXPECT_EQ(ticksTo(floor, open, 100), 11) << "around";
+  for (const bool is_unit : {false, true}) {
+    Fleet shut = fleet;
+    (is_unit ? shut.units : shut.closed) = {3};
+    const int ticks = ticksTo(floor, shut, 100);
+    EXPECT_GT(ticks, 14) << "waits whether it goes away";
+    EXPECT_LT(ticks, 25) << "turns, and drives two cells back";
+  }
+}
+
+TEST(Epibt, ComesToAUnitInALaneFromBeyondWhereALoadedRobotWaitsBehindIt) {
+  FloorDescription lane = loop();
+  lane.lane = {0, 1, 1, 1, 0, 0, 0, 1, 0, 0, 1, 1};
+  const Floor floor(lane);
+  Fleet fleet;
+  fleet.cell = {0, 2};
+  fleet.heading = {0, 0};
+  fleet.goal = {3, 9};
+  fleet.loaded = {0, 1};
+  fleet.units = {3};
+  EXPECT_LT(ticksTo(floor, fleet, 100), 40) << "around, against the lane";
+  EXPECT_EQ(fleet.cell[1], 2);
+}
+
 TEST(Epibt, TurnsNoLoadWhereThereIsNoRoom) {
   const Floor floor(drawn({".....", ".###.", "....."}));
   const Cell corner = 4, goal = 9;

@@ -39,6 +39,9 @@ void Prices::update(const Edges& edges) {
     for (std::size_t edge = 0; edge < next.size(); ++edge) {
       of[deck][edge] = next[edge] == kNowhere ? 0 : costs[edge];
     }
+    for (const int edge : edges.against[deck]) {
+      if (next[edge] != kNowhere) of[deck][edge] = kMaxEdgeCost;  // other ways are better
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "strong_bridges.h"
+#include "warehouse_layout/strong_bridges.h"
 
 namespace layout {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strong_bridges.h"
+#include "warehouse_layout/strong_bridges.h"
 
 #include <algorithm>
 #include <utility>
