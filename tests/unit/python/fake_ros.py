@@ -5,6 +5,17 @@ from types import SimpleNamespace
 
 import rospy
 
+from warehouse_msgs.msg import FleetState
+
+
+def fleet_state(**fields):
+    """A FleetState as a world sends it: columns that are not given are zeros."""
+    rows = len(fields["kiva_id"])
+    unsaid = {
+        n: [0] * rows for n, t in zip(FleetState.__slots__, FleetState._slot_types) if "[" in t
+    }
+    return FleetState(**(unsaid | fields))
+
 
 class Publisher:
     """Remembers what was published."""
@@ -40,8 +51,14 @@ class FakeRos:
         self.publishers, self.callbacks, self.warnings = {}, {}, []
         self.connections = 1  # of each subscriber
 
-    def logwarn_once(self, text):
+    def logwarn(self, text):
         self.warnings.append(text)
+
+    logwarn_once = logwarn
+
+    @staticmethod
+    def resolve_name(name):
+        return f"/{name.lstrip('/')}"
 
     def get_param(self, name, default):
         return self.parameters.get(name, default)
