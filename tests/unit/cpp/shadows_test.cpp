@@ -59,6 +59,23 @@ TEST_F(Shadows, TellsWhatItIsTold) {
   EXPECT_EQ(f.charge[i], 0.5f);
 }
 
+TEST_F(Shadows, RefusesWhatNoRobotCanReport) {
+  const double nan = std::nan("");
+  EXPECT_THROW(w.world.shadow(2, at(nan, 5)), std::invalid_argument);
+  EXPECT_THROW(w.world.shadow(2, at(1e300, 5)), std::runtime_error);
+  ShadowReport told = at(0, 5);
+  for (const float charge : {-0.1f, 1.1f, static_cast<float>(nan)}) {
+    told.charge = charge;
+    EXPECT_THROW(w.world.shadow(2, told), std::invalid_argument);
+  }
+  told = at(0, 5);
+  told.report.last_end = 255;
+  EXPECT_THROW(w.world.shadow(2, told), std::invalid_argument);
+  w.run(1);
+  EXPECT_EQ(w.y(2), 5);
+  EXPECT_FALSE(w.world.isShadow(2));
+}
+
 TEST_F(Shadows, LeavesCommandsToOthers) {
   w.world.shadow(2, at(0, 5));
   w.movx(2, 2);

@@ -5,6 +5,17 @@ from types import SimpleNamespace
 
 import rospy
 
+from warehouse_msgs.msg import FleetState
+
+
+def fleet_state(**fields):
+    """A FleetState as a world sends it: columns that are not given are zeros."""
+    rows = len(fields["kiva_id"])
+    unsaid = {
+        n: [0] * rows for n, t in zip(FleetState.__slots__, FleetState._slot_types) if "[" in t
+    }
+    return FleetState(**(unsaid | fields))
+
 
 class Publisher:
     """Remembers what was published."""
@@ -40,13 +51,13 @@ class FakeRos:
         self.publishers, self.callbacks, self.warnings = {}, {}, []
         self.connections = 1  # of each subscriber
 
-    def logwarn_once(self, text):
+    def logwarn(self, text):
         self.warnings.append(text)
 
-    def get_namespace(self):
-        return "/"
+    logwarn_once = logwarn
 
-    def resolve_name(self, name):
+    @staticmethod
+    def resolve_name(name):
         return f"/{name.lstrip('/')}"
 
     def get_param(self, name, default):

@@ -5,6 +5,7 @@ import threading
 from types import ModuleType
 from typing import Any, NamedTuple
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import CoordinatorState, TransportEvent
 from warehouse_msgs.srv import CancelTransport, ReleaseTransport, Transport
 
@@ -31,8 +32,8 @@ class Coordinator:
         self._transport = ros.ServiceProxy("warehouse/transport", Transport)
         self._release = ros.ServiceProxy("warehouse/release_transport", ReleaseTransport)
         self._cancel = ros.ServiceProxy("warehouse/cancel_transport", CancelTransport)
-        ros.Subscriber("warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
-        ros.Subscriber("warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
+        subscribe(ros, "warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
+        subscribe(ros, "warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
 
     def submit(
         self,

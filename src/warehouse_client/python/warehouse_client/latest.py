@@ -5,6 +5,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from warehouse_client.message_check import fit, subscribe
+
 
 class LatestMessages:
     """Keeps the newest message of each topic, for a worker that may be slower than they come.
@@ -17,7 +19,7 @@ class LatestMessages:
         self._fresh, self._lock = threading.Event(), threading.Lock()
         self._messages = dict.fromkeys(topics)
         for name, (topic, kind) in topics.items():
-            ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
+            subscribe(ros, topic, kind, self._keep, name, queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         with self._lock:
@@ -41,8 +43,7 @@ class LatestMessages:
         Between the two messages of one change they don't; the second is on its way.
         """
         objects, states = self["objects"], self["states"]
-        fit = objects and states and objects.revision == states.revision
-        return (objects, states) if fit else None
+        return (objects, states) if fit(objects, states) else None
 
 
 class LazyPublisher:

@@ -10,18 +10,18 @@ from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
 from warehouse_msgs.srv import FailRequest, SetRobotModeRequest, TransportRequest
 
 
-def _constants(kind: Any, prefix: str = "") -> dict[int, str]:
+def constants(kind: Any, prefix: str = "") -> dict[int, str]:
     """Returns {value: name} of a message type's constants with that prefix, without the prefix."""
     named = {n: v for n, v in vars(kind).items() if n.isupper() and isinstance(v, int)}
     return {v: n.removeprefix(prefix) for n, v in named.items() if n.startswith(prefix)}
 
 
-EVENT = _constants(Event)
-STATUS = _constants(KivaStatus, "STATUS_")
-STATE = _constants(KivaStatus, "STATE_")
-TRANSPORT = _constants(TransportEvent)
-MODE = _constants(SetRobotModeRequest)
-THEN = _constants(TransportRequest)
+EVENT = constants(Event)
+STATUS = constants(KivaStatus, "STATUS_")
+STATE = constants(KivaStatus, "STATE_")
+TRANSPORT = constants(TransportEvent)
+MODE = constants(SetRobotModeRequest)
+THEN = constants(TransportRequest)
 WORK = ("fetching", "ready", "lifting", "bringing", "waiting", "storing", "dropping", "idle")
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from nav_msgs.srv import GetMap
 
+from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, People, Scenery, UnitStates, WarehouseObjects
@@ -38,8 +39,8 @@ class Warehouse:
             ("scenery", Scenery, "scenery"),
             ("people", People, "people"),
         ):
-            ros.Subscriber(f"warehouse/{topic}", kind, self._keep, name, queue_size=1)
-        ros.Subscriber("warehouse/fleet", FleetState, self._on_fleet, queue_size=10)
+            subscribe(ros, f"warehouse/{topic}", kind, self._keep, name, queue_size=1)
+        subscribe(ros, "warehouse/fleet", FleetState, self._on_fleet, queue_size=10)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -55,7 +56,7 @@ class Warehouse:
         fleet, objects, units = self.fleet, self.objects, self.units
         if fleet is None or objects is None or units is None or self.scenery is None:
             return False
-        return objects.revision == units.revision and fleet.timeline == units.timeline
+        return fit(objects, units) and fleet.timeline == units.timeline
 
     def is_known_at(self, now: float) -> bool:
         """Returns whether it is known by messages not later than `now` [s].

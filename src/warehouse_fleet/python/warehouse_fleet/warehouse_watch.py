@@ -10,6 +10,7 @@ from nav_msgs.msg import OccupancyGrid
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
+from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout import floor_markings
@@ -42,17 +43,18 @@ class WarehouseWatch:
         self.by_hand: frozenset[str] = frozenset()
         self.collisions = 0
         self._refused: list[str] = []
-        follow = rospy.Subscriber
-        follow("warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
-        follow("warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
-        follow("warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
-        follow("warehouse/people", People, self._keep, "people", queue_size=1)
-        follow("warehouse/events", Event, self._on_event, queue_size=10000)
-        follow("warehouse/stations", StationStates, self._on_stations, queue_size=1)
+        subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
+        subscribe(
+            rospy, "warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1
+        )
+        subscribe(rospy, "warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
+        subscribe(rospy, "warehouse/people", People, self._keep, "people", queue_size=1)
+        subscribe(rospy, "warehouse/events", Event, self._on_event, queue_size=10000)
+        subscribe(rospy, "warehouse/stations", StationStates, self._on_stations, queue_size=1)
 
     def begin(self) -> None:
         """Subscribes to the robots' reports; the warehouse can be controlled from then on."""
-        rospy.Subscriber("warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
+        subscribe(rospy, "warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
@@ -91,7 +93,7 @@ class WarehouseWatch:
     @property
     def is_consistent(self) -> bool:
         """Whether the messages on units are of one revision; one of them may be on its way."""
-        return self.objects.revision == self.units.revision
+        return fit(self.objects, self.units)
 
     def unit_poses(self) -> UnitPoses | None:
         """Returns where the units stand; None while a message is on its way."""

@@ -18,6 +18,7 @@ from rospy.numpy_msg import numpy_msg
 from warehouse_client import tracking
 from warehouse_client.commands import COMMANDS
 from warehouse_client.latest import LatestMessages
+from warehouse_client.message_check import subscribe
 from warehouse_client.routes import point
 from warehouse_msgs.msg import (
     CarryAction,
@@ -108,7 +109,7 @@ class RobotActions:
             objects=("warehouse/objects", numpy_msg(WarehouseObjects)),
             states=("warehouse/unit_states", numpy_msg(UnitStates)),
         )
-        ros.Subscriber("warehouse/events", Event, self._on_event, queue_size=1000)
+        subscribe(ros, "warehouse/events", Event, self._on_event, queue_size=1000)
         self._servers = [
             ActionServer(name, kind, self._on_goal(begin), auto_start=False)
             for name, kind, begin in (
@@ -213,8 +214,8 @@ class RobotActions:
     def _hear_fleet(self):
         """The fleet is heard while anybody works."""
         if self._works and not self._hearing:
-            self._hearing = self._ros.Subscriber(
-                "warehouse/fleet", FleetState, self._on_fleet, queue_size=1
+            self._hearing = subscribe(
+                self._ros, "warehouse/fleet", FleetState, self._on_fleet, queue_size=1
             )
         elif not self._works and self._hearing:
             self._hearing.unregister()

@@ -14,6 +14,7 @@ from typing import Any
 from warehouse_client import survey
 from warehouse_client.engine import Engine
 from warehouse_client.latest import LatestMessages
+from warehouse_client.message_check import subscribe
 from warehouse_client.routes import goals, route
 from warehouse_client.services import is_offered
 from warehouse_client.survey import Survey
@@ -201,8 +202,8 @@ class FleetWatch:
 
     def __init__(self, ros: Any) -> None:
         self._state, self.delivered = CoordinatorState(), 0
-        ros.Subscriber("warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
-        ros.Subscriber("warehouse/transports", TransportEvent, self._count, queue_size=1000)
+        subscribe(ros, "warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
+        subscribe(ros, "warehouse/transports", TransportEvent, self._count, queue_size=1000)
 
     def _take(self, state):
         self._state = state

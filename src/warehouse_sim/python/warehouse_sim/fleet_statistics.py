@@ -6,6 +6,7 @@ from collections import defaultdict
 from dataclasses import dataclass
 from typing import Any
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Event, FleetState
 
 COLUMNS = {
@@ -38,7 +39,7 @@ class FleetStatistics:
 
     def __init__(self, ros: Any) -> None:
         self._odometers: dict[Any, Odometer] = defaultdict(Odometer)
-        ros.Subscriber("warehouse/fleet", FleetState, self._measure, queue_size=100)
+        subscribe(ros, "warehouse/fleet", FleetState, self._measure, queue_size=100)
 
     def _measure(self, fleet):
         for kiva, x, y, yaw in zip(fleet.kiva_id, fleet.x, fleet.y, fleet.yaw):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from warehouse_client.commands import COMMANDS
+from warehouse_client.message_check import subscribe
 from warehouse_client.message_names import EVENT
 from warehouse_msgs.msg import Event, KivaStatus
 
@@ -58,13 +59,13 @@ class ScriptExecutor:
         self._ended: dict[int, Any] = {}
         self._now = 0.0  # [s, simulated]
         self.events: list[Event] = []
-        self._answers = ros.Subscriber("warehouse/events", Event, self._inbox.put, queue_size=1000)
+        self._answers = subscribe(ros, "warehouse/events", Event, self._inbox.put, queue_size=1000)
         for topic, kind in COMMANDS.items():
             self._publishers[topic] = ros.Publisher(topic, kind, queue_size=10)
 
     def watch(self, kiva: int) -> None:
         """Follows the status of a robot, so that it can take part."""
-        self._ros.Subscriber(f"kiva{kiva}/status", KivaStatus, self._inbox.put, queue_size=100)
+        subscribe(self._ros, f"kiva{kiva}/status", KivaStatus, self._inbox.put, queue_size=100)
 
     def status(self, kiva: int) -> KivaStatus | None:
         """Returns the robot's newest KivaStatus; None if none has come yet."""

@@ -5,6 +5,7 @@ import time
 from typing import Any
 
 from warehouse_client.engine import Engine
+from warehouse_client.message_check import subscribe
 from warehouse_layout import models
 from warehouse_msgs.msg import Event, MoveAlong
 
@@ -28,7 +29,7 @@ class Traffic:
     def __init__(self, ros: Any, robots: int) -> None:
         self._way = dict.fromkeys(range(1, robots + 1), 1)
         self._topic = ros.Publisher("movx", MoveAlong, queue_size=0)
-        ros.Subscriber("warehouse/events", Event, self._go_on, queue_size=100000)
+        subscribe(ros, "warehouse/events", Event, self._go_on, queue_size=100000)
         while not self._topic.get_num_connections():
             time.sleep(0.05)
 

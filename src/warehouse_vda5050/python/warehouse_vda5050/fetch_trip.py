@@ -5,6 +5,7 @@ from typing import Any
 
 import rospy
 
+from warehouse_client.message_check import subscribe
 from warehouse_client.routes import Grid as RouteGrid
 from warehouse_client.routes import NoRouteError, route
 from warehouse_msgs.msg import WarehouseState
@@ -124,7 +125,7 @@ def wait_for_warehouse() -> WarehouseState:
         if state.kivas and state.storage_units and state.stations:
             found.append(state)
 
-    rospy.Subscriber("warehouse/state", WarehouseState, look, queue_size=1)
+    subscribe(rospy, "warehouse/state", WarehouseState, look, queue_size=1)
     for _ in range(int(WAIT * 10)):
         if found:
             return found[-1]

@@ -13,6 +13,7 @@ import rospy
 
 from warehouse_client.commands import COMMANDS
 from warehouse_client.services import is_offered
+from warehouse_client.message_check import wait_for
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_layout.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import (
@@ -214,7 +215,7 @@ class WorldLink:
 def _chargers(told: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
-        scenery = rospy.wait_for_message("warehouse/scenery", Scenery, WAIT)
+        scenery = wait_for(rospy, "warehouse/scenery", Scenery, WAIT)
         plan = FloorPlan.of_messages(told, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()

@@ -4,9 +4,9 @@
 import math
 
 import pytest
-from fake_ros import FakeRos
+from fake_ros import FakeRos, fleet_state
 
-from warehouse_msgs.msg import Event, FleetState
+from warehouse_msgs.msg import Event
 from warehouse_sim.fleet_statistics import FleetStatistics
 
 
@@ -17,7 +17,7 @@ def ros():
 
 def drive(ros, *poses):
     for x, y, yaw in poses:
-        ros.callbacks["warehouse/fleet"](FleetState(kiva_id=[4], x=[x], y=[y], yaw=[yaw]))
+        ros.callbacks["warehouse/fleet"](fleet_state(kiva_id=[4], x=[x], y=[y], yaw=[yaw]))
 
 
 def row(statistics, events=()):

@@ -5,10 +5,10 @@ import io
 
 import pytest
 import rospy
-from fake_ros import FakeRos
+from fake_ros import FakeRos, fleet_state
 
 from warehouse_layout import poses
-from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
+from warehouse_msgs.msg import KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim.state import StatePublisher
 
 
@@ -46,7 +46,7 @@ class World(FakeRos):
     def drive(self, seconds):
         self.seconds = seconds
         self.callbacks["warehouse/fleet"](
-            FleetState(
+            fleet_state(
                 stamp=rospy.Time(seconds),
                 kiva_id=[1, 4],
                 x=[1, 5],

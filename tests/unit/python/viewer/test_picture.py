@@ -6,7 +6,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-from fake_ros import FakeRos
+from fake_ros import FakeRos, fleet_state
 from geometry_msgs.msg import Point, PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
@@ -15,7 +15,6 @@ from warehouse_layout import poses
 from warehouse_msgs.msg import (
     Event,
     FleetPaths,
-    FleetState,
     KivaStatus,
     Look,
     Scenery,
@@ -87,15 +86,11 @@ class Scene(FakeRos):
     def drive(self, x=1.0, status=KivaStatus.STATUS_IDLE, shelf=0, ended=0):
         others = len(self.numbers) - 1
         self.callbacks["warehouse/fleet"](
-            FleetState(
+            fleet_state(
                 kiva_id=self.numbers,
                 x=[x, *range(2, 2 + others)],
-                y=[0] * (others + 1),
-                yaw=[0] * (others + 1),
                 status=bytes([status, *[0] * others]),
                 shelf_id=[shelf, *[0] * others],
-                state=bytes(1 + others),
-                failures=bytes(1 + others),
                 last_end=bytes([ended, *[0] * others]),
             )
         )

@@ -39,7 +39,7 @@ void moveAll(kiva::World& world, const warehouse_msgs::FleetState& m) {
   for (std::size_t i = 0; i < m.kiva_id.size(); ++i) {
     try {
       world.shadow(m.kiva_id[i], reportOf(m, i));
-    } catch (const std::logic_error& error) {
+    } catch (const std::exception& error) {
       ROS_WARN_THROTTLE(kWarnAgain, "/warehouse/shadows: kiva%d: %s", m.kiva_id[i], error.what());
     }
   }

@@ -6,6 +6,7 @@ from typing import Any
 
 import rospy
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import (
     Cancel,
     FleetFollow,
@@ -45,14 +46,14 @@ class CommandTopics:
             ("cancel", Cancel, self._on_cancel),
             ("stop", Stop, self._on_stop),
         ):
-            rospy.Subscriber(topic, kind, take, queue_size=QUEUE, tcp_nodelay=True)
+            subscribe(rospy, topic, kind, take, queue_size=QUEUE, tcp_nodelay=True)
         for topic, other, what in (
             ("mov", MoveTo, "way of its own to a point"),
             ("movx", MoveAlong, "distance along x"),
             ("movy", MoveAlong, "distance along y"),
             ("rot", Rotate, "turn"),
         ):
-            rospy.Subscriber(topic, other, self._on_other, what, queue_size=QUEUE)
+            subscribe(rospy, topic, other, self._on_other, what, queue_size=QUEUE)
 
     def _send(self, kiva_id: int, command: Command) -> None:
         if kiva_id in self._numbers:

@@ -9,7 +9,6 @@ from typing import Any
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.encoders import jsonable_encoder
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
 from starlette.routing import Match
 
 from warehouse_msgs.msg import Event, TransportEvent
@@ -21,6 +20,7 @@ from warehouse_viewer.api.routes import prometheus, sockets
 from warehouse_viewer.api.schemas.pydantic_versions import faults_of
 from warehouse_viewer.api.transport_book import TransportBook
 from warehouse_viewer.editor.routes import Editor
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
@@ -109,6 +109,7 @@ class Viewer:
             docs_url=None,
             redoc_url=None,
             openapi_url="/openapi.json",
+            default_response_class=JSONResponse,
         )
         app.state.backend, app.state.hub = self.backend, self.hub
         app.state.metrics, app.state.sockets = self.metrics, SocketLimit()

@@ -19,7 +19,6 @@ A slow reader misses states in between, never the newest. `missed`: there were m
 list again.
 """
 
-import json
 from collections.abc import Sequence
 from typing import Literal
 
@@ -32,6 +31,7 @@ from warehouse_viewer.api.schemas.fleet import Coordinator, Transport
 from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station, Throughput
 from warehouse_viewer.api.schemas.watch import Alarm, LeadingFigures
 from warehouse_viewer.api.stream import until_gone
+from warehouse_viewer.json_text import dumps
 
 ROWS = {
     "orders": operations_json.order,
@@ -217,4 +217,4 @@ class _Reader:
             await self._send("coordinator", coordinator=told)
 
     async def _send(self, kind, **fields):
-        await self._socket.send_text(json.dumps({"type": kind, **fields}, separators=(",", ":")))
+        await self._socket.send_text(dumps({"type": kind, **fields}))

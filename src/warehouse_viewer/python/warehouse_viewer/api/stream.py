@@ -12,7 +12,6 @@ A slow reader misses states in between, never the newest; of events at most the 
 """
 
 import asyncio
-import json
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
@@ -22,6 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict
+from warehouse_viewer.json_text import dumps
 
 FAREWELL = 1.0  # until a client that nothing can be sent to is known to have gone [s, wall]
 
@@ -92,4 +92,4 @@ async def _send_robots(socket, backend, known):
 
 
 async def _send(socket, message):
-    await socket.send_text(json.dumps(message, separators=(",", ":")))
+    await socket.send_text(dumps(message))

@@ -2,7 +2,6 @@
 """The page /layout and what it asks of its server."""
 
 import asyncio
-import json
 import os
 import sys
 import typing
@@ -11,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.responses import Response, StreamingResponse
 from starlette.routing import Route
 
 from warehouse_layout import generated, layout_file
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
 from warehouse_viewer.editor import checking, drawing_json, opening
+from warehouse_viewer.json_text import JSONResponse, dumps
 from warehouse_viewer.server.site import LAYOUT
 
 PAGE = LAYOUT.path
@@ -109,7 +109,7 @@ async def _trial(text: bytes) -> AsyncIterator[bytes]:
         async for last in process.stdout:
             yield last
         if not last.startswith((b'{"result"', b'{"error"')):
-            yield json.dumps({"error": "the trial ended early"}).encode() + b"\n"
+            yield dumps({"error": "the trial ended early"}).encode() + b"\n"
         await process.wait()
     finally:
         if process.returncode is None:

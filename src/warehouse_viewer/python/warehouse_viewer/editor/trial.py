@@ -6,7 +6,6 @@ a line each: {time, of, pieces, waiting: {station: units}} now and then, and as 
 {error}.
 """
 
-import json
 import signal
 import sys
 import time as clock
@@ -19,6 +18,7 @@ from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.placement import place
 from warehouse_operations import Operations, PolicyError, Site, layout_site
 from warehouse_operations.ideal import IdealFleet
+from warehouse_viewer.json_text import dumps
 
 SECONDS = 600.0  # that robots work, simulated
 SLICE = 5.0  # after which the progress can be told, simulated [s]
@@ -110,9 +110,9 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         for line in lines(sys.stdin.read()):
-            print(json.dumps(line), flush=True)
+            print(dumps(line), flush=True)
     except (LayoutFileError, TrialError, PolicyError) as error:
-        print(json.dumps({"error": str(error).removeprefix("layout:").strip()}), flush=True)
+        print(dumps({"error": str(error).removeprefix("layout:").strip()}), flush=True)
 
 
 if __name__ == "__main__":

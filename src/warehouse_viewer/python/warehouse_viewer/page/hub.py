@@ -16,6 +16,7 @@ import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_layout import poses
+from warehouse_viewer.json_text import dumps
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.activities import wait_too_long
 from warehouse_viewer.page.model import Model
@@ -54,7 +55,7 @@ class Page:
 
     async def send_json(self, message: Any) -> None:
         """Sends a message as compact JSON."""
-        await self.socket.send_text(json.dumps(message, separators=(",", ":")))
+        await self.socket.send_text(dumps(message))
 
 
 class Keeper(Protocol):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the page shows, made from the newest messages: a scene that seldom changes, and tables."""
 
-import json
 import time
 from collections.abc import Callable, Collection
 from typing import Any
@@ -9,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_layout import floor_markings, poses
+from warehouse_viewer.json_text import dumps
 from warehouse_viewer.page import paint, protocol
 from warehouse_viewer.page.activities import activity
 from warehouse_viewer.page.paint import short
@@ -151,7 +151,7 @@ class Model:
     def scene_text(self) -> str:
         """Returns the scene as JSON text, which is made once."""
         if self._scene_text is None:
-            self._scene_text = json.dumps(self.scene(), separators=(",", ":"))
+            self._scene_text = dumps(self.scene())
         return self._scene_text
 
     def scene(self) -> dict[str, Any]:

@@ -11,12 +11,13 @@ Decompressed, it is messages in a row, little-endian, each at a multiple of 8 by
 The first update tells everything, each other one what has changed. web/js/replay/chunk.js reads it.
 """
 
-import json
 import struct
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
+
+from warehouse_viewer.json_text import dumps
 
 UPDATE, TEXT = 1, 4
 LEVEL = 6  # of zlib; 1 is a third faster and a fifth larger
@@ -64,7 +65,7 @@ class OpenChunk:
 
     def add_text(self, stamp: float, message: dict[str, Any]) -> None:
         """Adds a message that JSON can say; `stamp` is in simulated time [s]."""
-        self._add(TEXT, stamp, json.dumps(message, separators=(",", ":")).encode())
+        self._add(TEXT, stamp, dumps(message).encode())
 
     def add_marks(self, marks: Sequence[Mark]) -> None:
         """Adds marks, up to MOST_MARKS of them."""

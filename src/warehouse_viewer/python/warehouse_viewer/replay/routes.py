@@ -6,9 +6,10 @@ from dataclasses import astuple
 from typing import Any, Protocol
 
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.chunk import Chunk, unpacked
 

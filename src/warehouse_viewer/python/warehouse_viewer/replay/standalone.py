@@ -5,10 +5,11 @@ from contextlib import suppress
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.replay.routes import Recording, RecordingRoutes
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.connections import listen_near

@@ -11,6 +11,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from gazebo_msgs.msg import PerformanceMetrics
+from warehouse_client.message_check import fit, subscribe
 from warehouse_msgs.msg import (
     CoordinatorPaths,
     CoordinatorState,
@@ -58,9 +59,9 @@ class Feed:
         self._extras: dict[str, Any] = {}
         self._used, self._coordinated = 0.0, 0.0
         self.vda5050 = Vda5050Feed(ros)
-        ros.Subscriber("warehouse/events", Event, on_event, queue_size=10000)
+        subscribe(ros, "warehouse/events", Event, on_event, queue_size=10000)
         topic = "warehouse/transports"
-        ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
+        subscribe(ros, topic, TransportEvent, on_transport, queue_size=10000)
 
     def __getitem__(self, name: str) -> Any:
         return self._messages.get(name)
@@ -69,8 +70,7 @@ class Feed:
     def objects_and_states(self) -> tuple[WarehouseObjects, UnitStates] | None:
         """(WarehouseObjects, UnitStates) of the same revision; None if there are none yet."""
         objects, states = self["objects"], self["states"]
-        fit = objects and states and objects.revision == states.revision
-        return (objects, states) if fit else None
+        return (objects, states) if fit(objects, states) else None
 
     @property
     def coordinator(self) -> CoordinatorState | None:
@@ -165,7 +165,7 @@ class Feed:
                 self._extras[name] = self._subscribe(name, *wanted[name])
 
     def _subscribe(self, name, topic, kind):
-        return self._ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
+        return subscribe(self._ros, topic, kind, self._keep, name, queue_size=1)
 
     def _keep(self, message, name):
         self._messages[name] = message

@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import (
     HeatMap,
     Kpis,
@@ -31,14 +32,14 @@ class ShiftFeed:
         self._messages: dict[str, Any] = {}
         self._seq: dict[str, int] = {}
         self._subscribers = {
-            name: ros.Subscriber(f"warehouse/{name}", kind, self._keep, name, queue_size=1)
+            name: subscribe(ros, f"warehouse/{name}", kind, self._keep, name, queue_size=1)
             for name, kind in WHOLE.items()
         }
         for topic, kind, take in (
             ("warehouse/order_changes", OrderStatuses, self._take_orders),
             ("warehouse/stock_changes", StockPlaces, self._take_places),
         ):
-            ros.Subscriber(topic, kind, take, queue_size=10000)
+            subscribe(ros, topic, kind, take, queue_size=10000)
 
     @property
     def runs(self) -> bool:

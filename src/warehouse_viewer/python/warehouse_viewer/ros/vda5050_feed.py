@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Vda5050
 
 
@@ -11,7 +12,7 @@ class Vda5050Feed:
 
     def __init__(self, ros: Any) -> None:
         self._told: dict[int, Vda5050] = {}
-        self._subscriber = ros.Subscriber("warehouse/vda5050", Vda5050, self._keep, queue_size=10)
+        self._subscriber = subscribe(ros, "warehouse/vda5050", Vda5050, self._keep, queue_size=10)
 
     def _keep(self, message: Vda5050) -> None:
         self._told[message.direction] = message

@@ -11,6 +11,7 @@ from typing import Any
 from geometry_msgs.msg import PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import FleetState, MoveTo
 
 REACH = 0.75  # of a robot's centre from the point that means it [m]
@@ -22,8 +23,8 @@ class Chosen:
     def __init__(self, ros: Any) -> None:
         self._ros, self.number, self._scan = ros, 0, None
         self._fleet, self._spacing = None, 1.0
-        ros.Subscriber("clicked_point", PointStamped, self._choose, queue_size=1)
-        ros.Subscriber("move_base_simple/goal", PoseStamped, self._send, queue_size=1)
+        subscribe(ros, "clicked_point", PointStamped, self._choose, queue_size=1)
+        subscribe(ros, "move_base_simple/goal", PoseStamped, self._send, queue_size=1)
         self._goals = ros.Publisher("mov", MoveTo, queue_size=10)
         self._scans = ros.Publisher("warehouse/chosen/scan", LaserScan, queue_size=1)
 
@@ -50,7 +51,7 @@ class Chosen:
         self.number, self._scan = number, None
         if number:
             topic = f"kiva{number}/chassis/laser/scan"
-            self._scan = self._ros.Subscriber(topic, LaserScan, self._scans.publish, queue_size=1)
+            self._scan = subscribe(self._ros, topic, LaserScan, self._scans.publish, queue_size=1)
 
     def _send(self, goal):
         if not self.number:

@@ -3,13 +3,13 @@
 
 import hmac
 import ipaddress
-import json
 import time
 from collections.abc import Callable, Hashable, Sequence
 from http.cookies import BaseCookie, CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
+from warehouse_viewer.json_text import dumps
 from warehouse_viewer.server import token_page
 
 MOST_BODY = 64 * 1024  # [bytes]
@@ -176,7 +176,7 @@ async def _refuse(scope, send, refusal):
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 1008})
         return
-    body = json.dumps({"detail": str(refusal)}).encode()
+    body = dumps({"detail": str(refusal)}).encode()
     headers = [(b"content-type", b"application/json"), *refusal.headers, *HEADERS]
     await send({"type": "http.response.start", "status": refusal.status, "headers": headers})
     await send({"type": "http.response.body", "body": body})

@@ -7,10 +7,11 @@ from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import RefusedError, Source

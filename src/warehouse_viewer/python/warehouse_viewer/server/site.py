@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount, Route
 
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server import font
 from warehouse_viewer.server.static_files import Files, FreshFiles
 from warehouse_viewer.shared_files import CHART, THREE, WEB

@@ -10,12 +10,13 @@ when states are known), `now`, the `rows` that the reader does not know yet, eac
 `base`, the state of each row before the first change if it is all that is kept, and `moments`.
 """
 
-import json
 from collections import deque
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from warehouse_viewer.json_text import dumps
 
 HOUR = 3600.0  # that is kept [s, simulated]
 MOST_CHANGES = 1_000_000  # that are kept, at four bytes each
@@ -128,7 +129,7 @@ class SpanLog:
 
 
 def _packed(head: dict[str, Any], moments: Sequence[Moment], origin: float) -> bytes:
-    text = json.dumps(head, separators=(",", ":")).encode()
+    text = dumps(head).encode()
     text += b" " * (-len(text) % 4)
     times = np.array([one.time - origin for one in moments], "<f4")
     counts = np.array([len(one.rows) for one in moments], "<u4")

@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
 from warehouse_layout.layout_file import SUFFIX, LayoutFileError
@@ -15,6 +15,7 @@ from warehouse_operations.order_file import DemandError
 from warehouse_operations.policies import DEFAULTS, ROLES
 from warehouse_operations.runs import RunError
 from warehouse_operations.simulation import ERRORS
+from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server.site import WHATIF
 from warehouse_viewer.whatif.queue import QueueError
 from warehouse_viewer.whatif.scenario import (

@@ -6,7 +6,6 @@ as soon as its input is closed, whatever closed it. Prints progress as `simulate
 does, and as the last line {done: [faults]} or {error}.
 """
 
-import json
 import os
 import signal
 import sys
@@ -17,6 +16,7 @@ from warehouse_layout.layout_file import LayoutFileError
 from warehouse_operations import sweep
 from warehouse_operations.progress import ProgressLines
 from warehouse_operations.simulation import ERRORS, simulate
+from warehouse_viewer.json_text import dumps
 
 NICE = 10
 ENDED = 3  # the exit code where the server is gone
@@ -49,9 +49,9 @@ def main() -> None:
     try:
         told = {"done": simulated(Path(sys.argv[1]), int(sys.argv[2]))}
     except (*ERRORS, LayoutFileError, sweep.SweepError, OSError) as error:
-        print(json.dumps({"error": str(error)}), flush=True)
+        print(dumps({"error": str(error)}), flush=True)
         sys.exit(1)
-    print(json.dumps(told), flush=True)
+    print(dumps(told), flush=True)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from warehouse_operations import runs, sweep
 from warehouse_operations.runs import KPIS, Run, RunError
+from warehouse_viewer.json_text import dumps
 
 STATE = "state.json"  # what became of runs that left no figures
 LARGE = ("traffic", "waiting", "floor", "throughput_s")  # of run.json, which only a report needs
@@ -67,7 +68,7 @@ class States:
         """Notes the state of runs."""
         told = self.read() | {str(seed): {"state": state} | more for seed in seeds}
         beside = self._path.with_name(f".{STATE}.part")
-        beside.write_text(json.dumps(told), "utf-8")
+        beside.write_text(dumps(told), "utf-8")
         os.replace(beside, self._path)
 
     def clear(self) -> None:

@@ -4,7 +4,6 @@
 from typing import Any, Literal
 
 from fastapi import APIRouter, Body, Depends, HTTPException, Query, Request
-from fastapi.responses import JSONResponse
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, TEXT, problems
@@ -12,6 +11,7 @@ from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.commands import Command, NewWalk, Outcome, Walker
 from warehouse_viewer.api.schemas.models import NewRobot, Robot, Robots
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict, no_text
+from warehouse_viewer.json_text import JSONResponse
 
 router = APIRouter()
 ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wall]

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the fields of messages must hold, beyond what their types say.
+
+A number is finite where no contract says otherwise, in the messages of other packages as well.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from warehouse_client import message_names
+from warehouse_layout.models import KINDS
+from warehouse_msgs.msg import Event, Look, OrderEvent, OrderStatus, Station, StationState, Vda5050
+
+Kinds = Mapping[Any, str]  # the values that a message defines, and their names
+
+
+@dataclass(frozen=True)
+class Contract:
+    """What a message of one type must hold.
+
+    tables: fields that are columns of one table, "carrier pose:7" for a pose of 7 numbers a row.
+    optional: columns that may also be empty. kinds: the values of fields that have names.
+    ids: fields of numbers above 0, each but once. indices: (lowest, field) that a field's values
+    are indices into. names: what the names in a field begin with, before their number. totals: the
+    fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
+    fields that may also be infinite or NaN, which mean something there. source: the node that
+    alone is heard as long as it publishes; "" where any node may.
+    """
+
+    tables: Sequence[str] = ()
+    optional: frozenset[str] = frozenset()
+    kinds: Mapping[str, Kinds] = field(default_factory=dict)
+    ids: frozenset[str] = frozenset()
+    indices: Mapping[str, tuple[int, str]] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
+    totals: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    positive: frozenset[str] = frozenset()
+    any_number: frozenset[str] = frozenset()
+    source: str = ""
+
+
+def _words(*names: str) -> Kinds:
+    return {name: name for name in names}
+
+
+_STATION = _words(Station.PICK, Station.REPLENISH)
+_KIVA = {"status": message_names.STATUS, "state": message_names.STATE}
+_ENDS = {0: "none yet", Event.DONE: "DONE", Event.BLOCKED: "BLOCKED"}
+_DOING = _words(*message_names.WORK, "manual", "out_of_service")
+_, _UNIT, _ITEM, _BELT = KINDS
+_WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
+
+_WAREHOUSE = {
+    "CoordinatorPaths": Contract(
+        source=_FLEET,
+        tables=("kiva_id released planned waits_for goal_x goal_y", "x y"),
+        ids=frozenset({"kiva_id"}),
+        totals={"x": ("released", "planned")},
+        any_number=frozenset({"goal_x", "goal_y"}),
+    ),
+    "CoordinatorState": Contract(
+        source=_FLEET,
+        tables=(
+            "station queue",
+            "waiting_kiva waiting_for waiting_since waiting_text",
+            "doing_kiva doing",
+        ),
+        kinds={"doing": _DOING},
+    ),
+    "Event": Contract(source=_WORLD, kinds={"kind": message_names.EVENT}),
+    "FleetFollow": Contract(
+        tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
+    ),
+    "FleetPaths": Contract(
+        source=_WORLD, tables=("kiva_id points", "x y"), totals={"x": ("points",)}
+    ),
+    "FleetState": Contract(
+        source=_WORLD,
+        tables=(
+            "kiva_id x y yaw vx vy yaw_rate status state shelf_id path_id reached left last_end"
+            " failures charge load_limit mode",
+        ),
+        optional=frozenset({"load_limit"}),
+        kinds=_KIVA | {"last_end": _ENDS, "mode": message_names.MODE},
+        ids=frozenset({"kiva_id"}),
+        any_number=frozenset({"load_limit"}),
+    ),
+    "FollowPath": Contract(tables=("x y",)),
+    "HeatMap": Contract(
+        source=_SHIFT, tables=("traffic waiting",), positive=frozenset({"spacing", "width"})
+    ),
+    "Kpis": Contract(source=_SHIFT),
+    "KivaStatus": Contract(source=_WORLD, kinds=_KIVA),
+    "Look": Contract(
+        tables=(
+            "links link_pose:7",
+            "shape_link shape_kind shape_pose:7 shape_size:3 shape_colour:4",
+        ),
+        kinds={"shape_kind": message_names.constants(Look)},
+        indices={"shape_link": (0, "links")},
+    ),
+    "Notices": Contract(source=_SHIFT),
+    "OrderEvent": Contract(source=_SHIFT, kinds={"kind": message_names.constants(OrderEvent)}),
+    "OrderStatus": Contract(
+        tables=("lines picked",), kinds={"state": message_names.constants(OrderStatus)}
+    ),
+    "OrderStatuses": Contract(source=_SHIFT),
+    "People": Contract(source=_WORLD, tables=("name x y vx vy ahead_x ahead_y",)),
+    "Scenery": Contract(
+        source=_WORLD,
+        tables=("models model_look pose:7",),
+        indices={
+            "kiva_look": (-1, "looks"),
+            "storage_unit_look": (-1, "looks"),
+            "item_look": (-1, "looks"),
+            "model_look": (0, "looks"),
+        },
+        positive=frozenset({"grid_spacing"}),
+    ),
+    "Station": Contract(tables=("x y",), kinds={"kind": _STATION}, indices={"service": (0, "x")}),
+    "StationState": Contract(
+        kinds={"kind": _STATION, "mode": message_names.constants(StationState)},
+    ),
+    "StationStates": Contract(source=_SHIFT),
+    "StockPlaces": Contract(source=_SHIFT),
+    "Throughput": Contract(
+        source=_SHIFT,
+        tables=("items_picked pieces_stored orders_completed",),
+        positive=frozenset({"interval"}),
+    ),
+    "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
+    "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
+    "Vda5050": Contract(
+        tables=("kiva_id manufacturer serial connection order errors driven",),
+        kinds={
+            "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
+            "connection": {
+                Vda5050.ONLINE: "ONLINE",
+                Vda5050.OFFLINE: "OFFLINE",
+                Vda5050.CONNECTIONBROKEN: "CONNECTIONBROKEN",
+            },
+        },
+    ),
+    "WarehouseObjects": Contract(
+        source=_WORLD,
+        tables=("items item_unit item_pose:7", "fallen_item fallen_from"),
+        ids=frozenset({"kiva_id"}),
+        indices={
+            "item_unit": (-1, "storage_units"),
+            "fallen_item": (0, "items"),
+            "fallen_from": (0, "storage_units"),
+        },
+        names={"storage_units": _UNIT, "items": _ITEM, "belts": _BELT},
+    ),
+    "WarehouseState": Contract(tables=("place_x place_y",)),
+}
+
+_OTHERS = {
+    # By REP 117 inf is no return and NaN no measurement.
+    "gazebo_msgs/PerformanceMetrics": Contract(source=_WORLD),
+    "sensor_msgs/LaserScan": Contract(any_number=frozenset({"ranges", "intensities"})),
+}
+
+CONTRACTS = {f"warehouse_msgs/{name}": one for name, one in _WAREHOUSE.items()} | _OTHERS
