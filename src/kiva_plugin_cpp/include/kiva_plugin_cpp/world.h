@@ -21,6 +21,7 @@
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/odometry.h"
 #include "kiva_plugin_cpp/people.h"
 #include "kiva_plugin_cpp/realism.h"
 
@@ -324,6 +325,8 @@ class World {
   /// Returns where the robot believes to be: (x, y, yaw) in world [m, rad], yaw unwrapped. Robots
   /// drive by this pose. It is the true pose unless localisation is realistic.
   Vector3 believedPose(int robot) const;
+  /// Returns that pose and the motion by the wheels, with covariances.
+  Odometry odometry(int robot) const;
   /// Returns the acceleration below which the robot stays so that its load does not tip [m/s²]. It
   /// is +inf without a load, and if loads are ideal.
   double loadLimit(int robot) const;

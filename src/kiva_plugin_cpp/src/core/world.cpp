@@ -28,6 +28,7 @@
 #include "core/motion/dynamics.h"
 #include "core/motion/ground.h"
 #include "core/motion/joints.h"
+#include "core/motion/self_location.h"
 #include "core/parallel/workers.h"
 #include "core/people/protective_fields.h"
 #include "core/people/walking.h"
@@ -506,6 +507,7 @@ Vector3 World::believedPose(int robot) const {
   const PlanarPose at = state_->fleet.believed(robot);
   return {at.x, at.y, at.yaw};
 }
+Odometry World::odometry(int robot) const { return odometryOf(state_->view, robot); }
 double World::loadLimit(int robot) const { return kiva::loadLimit(state_->view, robot); }
 Pose World::basePose(int robot) const { return kiva::basePose(state_->view, robot); }
 std::uint64_t World::unitsRevision() const { return state_->storage.revision; }

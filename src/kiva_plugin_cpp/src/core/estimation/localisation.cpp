@@ -125,6 +125,33 @@ void Localisation::propagate(double slip_noise, double separation_noise) {
   way = turn = 0;
 }
 
+void Localisation::measure(const double rates[2], double slip_noise, double slip_length,
+                           double separation_noise, double speeds[2], double variances[4]) const {
+  double rim[2];
+  double per_rim[2][2];  // of speed and turn rate
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    rim[wheel] = rates[wheel] * believed.radius[wheel] * (1 + slip[wheel]);
+    per_rim[0][wheel] = 0.5;
+    per_rim[1][wheel] = (wheel == 0 ? -1 : 1) / believed.separation;
+  }
+  for (int row = 0; row < 2; ++row) {
+    speeds[row] = per_rim[row][0] * rim[0] + per_rim[row][1] * rim[1];
+  }
+  const double share = slip_noise * slip_noise / slip_length;
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      double sum = row == 1 && column == 1 ? std::pow(separation_noise * speeds[1], 2) : 0;
+      for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+          const double error = covariance[(3 + i) * kN + 3 + j] + (i == j ? share : 0);
+          sum += per_rim[row][i] * rim[i] * per_rim[column][j] * rim[j] * error;
+        }
+      }
+      variances[2 * row + column] = sum;
+    }
+  }
+}
+
 void Localisation::correct(const PlanarPose& reading, double position_noise, double angle_noise) {
   // Even a perfect code is not believed wholly, so that there is an inverse.
   const double position = position_noise * position_noise + 1e-12;

@@ -58,6 +58,10 @@ struct Localisation {
   /// What has gone since the last time makes the pose less certain. Deviations: `slip` of a wheel
   /// over a metre, `separation` as a share.
   void propagate(double slip, double separation);
+  /// Speed ahead [m/s] and turn rate [rad/s] by the wheels' rates [rad/s], and their covariance,
+  /// row by row, where the wheels slip alike for `slip_length` [m].
+  void measure(const double rates[2], double slip, double slip_length, double separation,
+               double speeds[2], double variances[4]) const;
   /// A code was read: corrects pose and radii. Deviations in [m, rad].
   void correct(const PlanarPose& reading, double position_noise, double angle_noise);
 };

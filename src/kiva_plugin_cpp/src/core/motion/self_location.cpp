@@ -129,6 +129,35 @@ void readCode(MotionView& world, int robot, bool stands) {
   l.lost = false;
 }
 
+Odometry odometryOf(const Scene& world, int robot) {
+  const Fleet& fleet = world.fleet;
+  const FleetState& f = world.fleet;
+  Odometry out;
+  const PlanarPose at = f.believed(robot);
+  out.pose = {at.x, at.y, at.yaw};
+  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+  out.speed = c * fleet.vx[robot] + s * fleet.vy[robot];
+  out.turn_rate = fleet.yaw_rate[robot];
+  if (!f.localises) return out;
+  const LocalisationRealism& real = world.settings.realism.localisation;
+  Localisation l = f.localisation[robot];
+  const double alike = l.stretch.under_way ? l.slip_for : kSlipLength;
+  l.settle(f.reference[robot], f.wheel_angle[0][robot], f.wheel_angle[1][robot]);
+  l.propagate(real.slip, real.wheel_separation_error);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      out.pose_covariance[3 * i + j] = l.covariance[i * Localisation::kStates + j];
+    }
+  }
+  const double rates[2] = {f.wheel_speed[0][robot], f.wheel_speed[1][robot]};
+  double speeds[2];
+  l.measure(rates, real.slip, alike, real.wheel_separation_error, speeds,
+            out.twist_covariance.data());
+  out.speed = speeds[0];
+  out.turn_rate = speeds[1];
+  return out;
+}
+
 bool checkLost(MotionView& world, int robot) {
   Localisation& l = world.fleet.localisation[robot];
   if (l.since_code < l.lost_at) return false;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/state/motion_view.h"
+#include "kiva_plugin_cpp/odometry.h"
 
 namespace kiva {
 
@@ -23,6 +24,8 @@ void track(MotionView& world, int robot);
 void readCode(MotionView& world, int robot, bool stands);
 /// Draws the slip of its wheels on the next `length` [m].
 void drawSlip(MotionView& world, int robot, double length);
+/// Returns what the robot's odometry says now.
+Odometry odometryOf(const Scene& world, int robot);
 /// Stops a robot that has gone too far without a code, and reports it as lost. Returns whether it
 /// is.
 bool checkLost(MotionView& world, int robot);

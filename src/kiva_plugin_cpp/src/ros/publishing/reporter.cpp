@@ -56,8 +56,13 @@ bool isSilent(const kiva::World& world, int robot) {
 RobotPose believedOf(const kiva::World& world, int i) {
   RobotPose out = poseOf(world, i);
   if (!world.realism().localisation.enabled) return out;
-  const kiva::Vector3 at = world.believedPose(i);
+  const kiva::Odometry odometry = world.odometry(i);
+  const kiva::Vector3& at = odometry.pose;
   out.base = kiva::Pose(at.X(), at.Y(), out.base.Z(), 0, 0, at.Z());
+  out.twist = {{odometry.speed, 0, 0}, {0, 0, odometry.turn_rate}};
+  out.is_exact = false;
+  out.pose_covariance = odometry.pose_covariance;
+  out.twist_covariance = odometry.twist_covariance;
   return out;
 }
 

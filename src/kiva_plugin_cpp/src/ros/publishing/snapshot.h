@@ -8,6 +8,7 @@
 #include <warehouse_msgs/UnitStates.h>
 #include <warehouse_msgs/WarehouseObjects.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,6 +37,9 @@ struct RobotPose {
   int kiva_id = 0;
   kiva::Pose base;                 ///< In world.
   kiva::Twist twist;               ///< In base_link.
+  bool is_exact = true;            ///< What follows is 0 then: pose and twist are true.
+  std::array<double, 9> pose_covariance{};   ///< Of x, y, yaw.
+  std::array<double, 4> twist_covariance{};  ///< Of speed ahead and turn rate.
   double wheel_angle[2] = {0, 0};  ///< Left, right [rad].
   double tower = 0;                ///< Above its rest [m].
 };

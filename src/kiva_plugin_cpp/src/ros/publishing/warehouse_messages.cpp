@@ -13,6 +13,9 @@ namespace {
 
 using warehouse_msgs::KivaStatus;
 
+// Variance of what wheels do not measure, and a level floor leaves no room for [m², rad²].
+constexpr double kOffTheFloor = 1e-6;
+
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
 /// Returns the number in `kiva<id>` of the robot at that index, 0 for -1.
@@ -21,6 +24,18 @@ int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.rob
 int shelfOf(const kiva::World& world, int robot) {
   const int unit = world.fleet().unit[robot];
   return unit < 0 ? 0 : world.storageUnits()[unit].id;
+}
+
+/// Writes the covariance of some of x, y, z, roll, pitch, yaw, by their places among these.
+template <std::size_t N, std::size_t Size>
+void write(const std::array<double, Size>& covariance, const std::array<int, N>& places,
+           boost::array<double, 36>* out) {
+  for (int axis = 0; axis < 6; ++axis) (*out)[7 * axis] = kOffTheFloor;
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t j = 0; j < N; ++j) {
+      (*out)[6 * places[i] + places[j]] = covariance[N * i + j];
+    }
+  }
 }
 
 void overwrite(const kiva::RobotReport& last, int i, warehouse_msgs::FleetState* out) {
@@ -110,6 +125,9 @@ nav_msgs::Odometry toMessage(const RobotPose& robot, double time) {
   out.child_frame_id = robotName(robot.kiva_id) + "/base_link";
   out.pose.pose = toMessage(robot.base);
   out.twist.twist = toMessage(robot.twist);
+  if (robot.is_exact) return out;
+  write<3>(robot.pose_covariance, {0, 1, 5}, &out.pose.covariance);
+  write<2>(robot.twist_covariance, {0, 5}, &out.twist.covariance);
   return out;
 }
 
