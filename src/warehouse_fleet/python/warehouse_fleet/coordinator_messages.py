@@ -11,6 +11,7 @@ import rospy
 from warehouse_fleet.controller import FleetController
 from warehouse_fleet.failures import names_of
 from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.obstacles import in_the_way
 from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.traffic import Releases
 from warehouse_fleet.transport_book import Step, TransportEvent
@@ -83,6 +84,7 @@ def state_message(
         *_alarms(controller),
         *waiting.for_people(),
         *_fallen(watch.objects),
+        *in_the_way(transports),
         *(text for text in (traffic.plans.alarm, left_out) if text),
     ]
     return state

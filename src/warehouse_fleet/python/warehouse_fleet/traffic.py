@@ -16,6 +16,7 @@ import numpy as np
 from warehouse_fleet import Execution
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.message_enums import Mode, Status
+from warehouse_fleet.obstacles import ObstacleLog
 from warehouse_fleet.people import zone_around
 from warehouse_fleet.plan_loop import PlanLoop
 from warehouse_fleet.robot_table import NOWHERE, Reports, RobotTable
@@ -93,8 +94,9 @@ class Traffic:
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
             self._after[station.cells[:-1]] = station.cells[1:]
-        self._next_map = self._obstructed_until = 0.0
-        self._units = np.zeros(0, np.int32)
+        self._next_map = 0.0
+        self.obstacles = ObstacleLog()
+        self.zone = np.zeros(0, np.int32)  # cells where people are or are about to be
         self._had_people = False
         self._fallen = 0  # items on the floor
 
@@ -139,7 +141,6 @@ class Traffic:
         robots.mode[robots.lost] = OUT_OF_SERVICE
         self._find_foreign(reports, foreign)
         self.watchdog.update()
-        self._close_trapped()
 
     def inherited(self, reports: Reports) -> np.ndarray:
         """Returns (n,) bool: robots that have been on paths since before this began."""
@@ -154,12 +155,6 @@ class Traffic:
         self._foreign = (self._foreign + 1) * foreign
         if foreign.any():
             robots.mode[self._foreign >= FOREIGN] = MANUAL
-
-    def _close_trapped(self) -> None:
-        if not len(self._units) and self.time > self._obstructed_until:
-            return
-        for cell in self.watchdog.trapped_cells():
-            self._execution.close(int(cell), self.time + MAP_PERIOD)
 
     def ahead_of(self, robot: int) -> int:
         """Returns the robot for which one waits, by the plan or because it holds the next cell of
@@ -199,7 +194,7 @@ class Traffic:
     def shut(self, cell: int, until: float) -> None:
         """Closes a cell for all robots until that time [s]."""
         self._execution.close(cell, until)
-        self._obstructed_until = max(self._obstructed_until, until)
+        self.obstacles.note(cell, self.time, until)
 
     @property
     def closed(self) -> np.ndarray:
@@ -234,17 +229,16 @@ class Traffic:
         if not people.name and not self._had_people:
             return
         self._had_people = bool(people.name)
-        zone = zone_around(self.plan, people)
-        self._execution.set_zone(zone)
-        edge = self.plan.beside(zone) if len(zone) else zone
+        self.zone = zone_around(self.plan, people)
+        self._execution.set_zone(self.zone)
+        edge = self.plan.beside(self.zone) if len(self.zone) else self.zone
         robots = self.robots
         robots.slowed_for_people = np.isin(robots.kiva_ids, [*people.slowed, *people.stopped])
         robots.slowed_for_people |= np.isin(robots.cell, edge)
 
     def set_units(self, cells: Any) -> None:
         """Closes cells for loaded robots: units stand there, off the storage places."""
-        self._units = np.asarray(cells, np.int32)
-        self._execution.set_units(self._units)
+        self._execution.set_units(np.asarray(cells, np.int32))
 
     def journey(self, robot: int) -> tuple[float, float, int]:
         """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""

@@ -55,6 +55,19 @@ class Step(IntEnum):
 
 # A member of an enumeration is found by a slow search; these are looked at for each robot.
 OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING, STORING, DROPPING = Step
+# What may follow each step. A robot may be found with a unit, lose its way or its transport, lift
+# again, and be sent to another storage place.
+FOLLOWS: dict[Step, frozenset[Step]] = {
+    OPEN: frozenset((FETCHING, STORING)),
+    FETCHING: frozenset((READY, OPEN)),
+    READY: frozenset((LIFTING, OPEN)),
+    LIFTING: frozenset((LIFTING, BRINGING, STORING, FETCHING)),
+    BRINGING: frozenset((WAITING, STORING)),
+    WAITING: frozenset((STORING, DROPPING)),
+    STORING: frozenset((DROPPING, STORING)),
+    DROPPING: frozenset((DROPPING, STORING)),
+}
+FETCHED, INBOUND = frozenset((FETCHING, READY)), frozenset((LIFTING, BRINGING, WAITING))
 
 
 @dataclass(eq=False)
@@ -69,7 +82,8 @@ class Transport:
     priority: int = 0
     step: Step = OPEN
     robot: int = NOWHERE  # an index
-    let_go: bool = False  # the station has released it
+    let_go: bool = False  # it leaves its destination, or does not go there
+    cancelled: bool = False  # after its unit was lifted
     since: float = 0.0  # the step began
     attempts: int = 0  # at lifting
     place: int = NOWHERE  # the storage cell that is kept for it while it is under way
@@ -106,9 +120,8 @@ class TransportBook:
     (the storage cell that is kept for its unit), `station_of` (an index into `stations`).
 
     `open`: those without a robot, the most urgent first. `ready`: those at step READY, in the order
-    in which they came to it. `released`: those at step WAITING that may leave. `inbound` counts
-    lifted units by the station they go to or are at, `fetched` those whose robot is on its way to
-    the unit.
+    in which they came to it. By station, `fetched` counts units that robots drive to or wait
+    beneath, `inbound` those that are lifted, until they leave it; go_on() counts.
     """
 
     def __init__(self, robots: int, last: int = 0, stations: Iterable[str] = ()) -> None:
@@ -116,7 +129,6 @@ class TransportBook:
         self.step_of = np.full(robots, NOWHERE, np.int8)
         self.place_of = np.full(robots, NOWHERE, np.int32)
         self.station_of = np.full(robots, NOWHERE, np.int32)
-        self.released: list[Transport] = []
         self._station = {name: i for i, name in enumerate(stations)}
         self._turns = 0
         self.open: list[Transport] = []
@@ -170,7 +182,6 @@ class TransportBook:
         self._dequeue(transport)
         self.hand_over(transport, robot)
         self.go_on(transport, FETCHING, time)
-        self.fetched[transport.station] += 1
 
     def hand_over(self, transport: Transport, robot: int) -> None:
         """Notes that a robot does a transport."""
@@ -181,25 +192,27 @@ class TransportBook:
         self.station_of[robot] = self._station.get(transport.station, NOWHERE)
 
     def go_on(self, transport: Transport, step: Step, time: float) -> None:
-        """Brings a transport that a robot does to a step, at `time` [s]."""
+        """Brings a transport that a robot does to a step, at `time` [s]. Raises ValueError where
+        that step does not follow."""
+        if step not in FOLLOWS[transport.step]:
+            text = f"{step.name} can't follow {transport.step.name}"
+            raise ValueError(f"transport {transport.number}: {text}")
+        self._count(transport, -1)
         transport.step, transport.since = step, time
         self.step_of[transport.robot] = step
+        self._count(transport, 1)
+        if step == READY:
+            self.ready.append(transport)
+
+    def _count(self, transport: Transport, change: int) -> None:
+        if transport.step in FETCHED:
+            self.fetched[transport.station] += change
+        elif transport.step in INBOUND:
+            self.inbound[transport.station] += change
 
     def keep(self, transport: Transport, place: int) -> None:
         """Keeps a storage cell for the unit of a transport that a robot does."""
         transport.place = self.place_of[transport.robot] = place
-
-    def let_go(self, transport: Transport) -> None:
-        """Lets a unit leave its station, now or when it gets there."""
-        transport.let_go = True
-        if transport.step == WAITING:
-            self.released.append(transport)
-
-    def take_released(self) -> list[Transport]:
-        """Returns those released since the last call that still wait, in the order of turns."""
-        released, self.released = self.released, []
-        waiting = [t for t in released if t.step == WAITING and t.number in self]
-        return sorted(waiting, key=lambda transport: transport.turn)
 
     def _leave_robot(self, transport: Transport) -> None:
         robot = transport.robot
@@ -209,15 +222,14 @@ class TransportBook:
 
     def unassign(self, transport: Transport) -> None:
         """Takes a transport from its robot before the unit is lifted: another one fetches it."""
-        self.fetched[transport.station] -= 1
+        self.go_on(transport, OPEN, transport.since)
         self._leave_robot(transport)
-        transport.robot, transport.step = NOWHERE, OPEN
+        transport.robot = NOWHERE
         self.enqueue(transport)
 
     def remove(self, transport: Transport) -> None:
         """Removes a transport that is over."""
-        if transport.step in (FETCHING, READY):
-            self.fetched[transport.station] -= 1
+        self._count(transport, -1)
         if transport.robot == NOWHERE:
             self._dequeue(transport)
         self._leave_robot(transport)
@@ -236,6 +248,11 @@ class TransportBook:
         """Returns how many transports to a station have no robot yet."""
         return sum(transport.station == station for transport in self.open)
 
+    def destinations(self) -> list[int]:
+        """Returns the cells to which units are to be brought that go to no station."""
+        going = (OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING)
+        return [t.cell for t in self if not t.station and t.step in going]
+
     def kept_places(self) -> np.ndarray:
         """Returns the storage cells that are kept for units under way."""
         return self.place_of[self.place_of != NOWHERE]
@@ -246,6 +263,11 @@ class TransportBook:
         """Adds an event of that time [s] for take_events()."""
         number, shelf, station = transport.number, transport.shelf, transport.station
         self._events.append(TransportEvent(time, number, kind, kiva_id, shelf, station, text))
+
+    @property
+    def has_events(self) -> bool:
+        """Whether there are events to be taken."""
+        return bool(self._events)
 
     def take_events(self) -> list[TransportEvent]:
         """Returns all events since the last call, in order."""

@@ -10,6 +10,7 @@ import numpy as np
 from warehouse_fleet.charging import Charging
 from warehouse_fleet.dispatch import admit, assign, carry, park, recover
 from warehouse_fleet.robot_table import NOWHERE, Reports
+from warehouse_fleet.station_ways import StationWays
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transport_book import (
     ENDS,
@@ -23,6 +24,7 @@ from warehouse_fleet.transport_book import (
     TransportBook,
     TransportEvent,
 )
+from warehouse_fleet.transport_requests import TransportRequests
 from warehouse_fleet.unit_map import UnitMap, UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 
@@ -51,7 +53,7 @@ class LiftOrder(NamedTuple):
     up: bool
 
 
-class Transports:
+class Transports(TransportRequests):
     """All transports, and the dispatcher that gives them to robots; its phases are in dispatch/.
 
     Others may decide: `match_robots(asked, free)` yields pairs of a Transport of those `asked` for
@@ -62,9 +64,10 @@ class Transports:
     """
 
     def __init__(self, plan: FloorPlan, traffic: Traffic, last: int = 0) -> None:
-        self.plan, self.traffic, self.robots = plan, traffic, traffic.robots
         names = [station.name for station in plan.stations]
-        self.book, self.units = TransportBook(len(self.robots), last, names), UnitMap(plan)
+        super().__init__(plan, TransportBook(len(traffic.robots), last, names))
+        self.traffic, self.robots = traffic, traffic.robots
+        self.units = UnitMap(plan)
         self.match_robots: Callable[
             [list[Transport], np.ndarray], Iterable[tuple[Transport, int]]
         ] = lambda asked, free: assign.nearest_robots(self, asked, free)
@@ -72,113 +75,72 @@ class Transports:
             self.nearest(cell, free)
         )
         self.park: Callable[[int], int | None] = lambda _robot: None
-        self.stations = {station.name: station for station in plan.stations}
         # How many units of a station may be lifted at a time: its lane has room for them.
         self.capacity = {one.name: min(LIFTED, one.service + 1) for one in plan.stations}
-        self.is_open = dict.fromkeys(self.stations, True)
         self._queue_of = np.full(
             plan.passable.size, NOWHERE, np.int32
         )  # a station's index, by cell
         for i, one in enumerate(plan.stations):
             self._queue_of[one.queue] = i
-        self.left_out: frozenset[str] = frozenset()  # stations that no robot can reach
+        self._ways = StationWays(plan)
         self.charging = Charging(plan, traffic, self.distance)
         self.places = np.flatnonzero(plan.storage)  # cells
         self.aside = (plan.storage | plan.parking).ravel()  # cells where no robot passes
         # What the phases keep from tick to tick.
         self.abandoned_units: set[int] = set()  # to be stored, wherever they are
+        self.released: list[Transport] = []  # that wait at their destination, and may leave
         self.freed: list[int] = []  # robots that have ended a transport since park ran
         self.shortest: dict[int, int] = {}  # cells of the journey that a robot is on
         self._lifts: list[LiftOrder] = []
 
-    # --- requests
+    # --- the fleet of TransportRequests
 
-    def submit(
-        self,
-        shelf_id: int,
-        station: str = "",
-        x: float | None = None,
-        y: float | None = None,
-        then: int = STORE,
-        priority: int = 0,
-    ) -> Answer:
-        """Asks for a unit to be brought to a station, or to the cell at (x, y) [m]."""
-        if shelf_id not in self.units.cell_of:
-            return Answer(0, False, f"there is no storage unit {shelf_id}")
+    @property
+    def time(self) -> float:
+        """The simulated time of the last reports [s]."""
+        return self.traffic.time
+
+    @property
+    def cell_of_unit(self) -> dict[int, int]:
+        """The cell of each unit; NOWHERE: it is carried, or stands across cells."""
+        return self.units.cell_of
+
+    def kiva_id(self, robot: int) -> int:
+        """Returns the id of a robot, given its index."""
+        return int(self.robots.kiva_ids[robot])
+
+    def check_reach(self, shelf_id: int, cell: int) -> None:
+        """Raises ValueError if no robot can come to a unit; `cell` is on the fleet's floor."""
         if not self.units.is_in_reach(self.units.cell_of[shelf_id]):
-            return Answer(0, False, f"no robot can reach storage unit {shelf_id} and return")
-        if shelf_id in self.book.of_unit:
-            number = self.book.of_unit[shelf_id].number
-            return Answer(0, False, f"storage unit {shelf_id} has transport {number} already")
-        if then not in (STORE, STAY):
-            return Answer(0, False, f"then is {then}; 0 (STORE) or 1 (STAY) was expected")
-        try:
-            cell = self._destination(shelf_id, station, x, y)
-        except ValueError as error:
-            return Answer(0, False, str(error))
-        transport = self.book.add(shelf_id, station, cell, then, priority)
-        self.book.enqueue(transport)
-        self.publish_event(transport, Kind.RECEIVED)
-        return Answer(transport.number, True, "")
+            raise ValueError(f"no robot can reach storage unit {shelf_id} and return")
 
-    def _destination(self, shelf_id: int, station: str, x: float | None, y: float | None) -> int:
-        if station:
-            if station in self.left_out:
-                raise ValueError(f"no robot can reach station {station} and return")
-            if station not in self.stations:
-                raise ValueError(f"there is no station {station!r}")
-            if not self.is_open[station]:
-                raise ValueError(f"station {station} is closed")
-            return self.stations[station].service_cell
-        if x is None or y is None or not np.isfinite([x, y]).all():
-            raise ValueError(f"neither a station nor a point: ({x}, {y})")
-        cell = int(self.plan.cell_of(x, y))
-        if cell == NOWHERE or not self.plan.passable.flat[cell]:
-            raise ValueError(f"no robot can stand at ({x:g}, {y:g})")
-        if self.plan.lane.flat[cell]:
-            raise ValueError(f"({x:g}, {y:g}) is in the lane of a station; name the station")
-        if self.taken()[cell] and self.units.unit_in.get(cell) != shelf_id:
-            raise ValueError(f"({x:g}, {y:g}) is taken")
-        return cell
+    def taken(self) -> np.ndarray:
+        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
+        taken = self.units.stands.copy()
+        taken[self.book.kept_places()] = True
+        taken[self.book.destinations()] = True
+        return taken
 
-    def release(self, transport_id: int) -> tuple[bool, str]:
-        """Releases a unit that has arrived at its station. Returns (success, message)."""
-        transport = self.book.get(transport_id)
-        if transport is None:
-            return False, f"there is no transport {transport_id} under way"
-        if transport.step != Step.WAITING:
-            return False, f"transport {transport_id} has not arrived yet"
-        if transport.let_go:
-            return False, f"transport {transport_id} has been released already"
-        self.book.let_go(transport)
-        return True, ""
+    def end(self, transport: Transport) -> None:
+        """Removes a transport that is over; its robot is free."""
+        self.book.remove(transport)
+        if transport.robot != NOWHERE:
+            self.freed.append(transport.robot)
+            self.robots.send(transport.robot, NOWHERE)
 
-    def cancel(self, transport_id: int) -> tuple[bool, str]:
-        """Ends a transport; a unit that is lifted already is stored again. Returns (success,
-        message)."""
-        transport = self.book.get(transport_id)
-        if transport is None:
-            return False, f"there is no transport {transport_id} under way"
-        if transport.step <= Step.READY:
-            self.publish_event(transport, Kind.CANCELLED)
-            self.end(transport)
-        elif transport.step in (Step.LIFTING, Step.BRINGING, Step.WAITING):
-            self.publish_event(transport, Kind.CANCELLED)
-            transport.then = STORE
-            self.book.let_go(transport)
-            if transport.step == Step.BRINGING:
-                carry.store(self, transport)
-        return True, ""
+    def turn_back(self, transport: Transport) -> None:
+        """Has a unit that is being brought stored instead."""
+        carry.store(self, transport)
 
-    def set_open(self, station: str, is_open: bool) -> None:
-        """Opens or closes a station. A closed one gets no more units; those on the way there are
-        stored again."""
-        self.is_open[station] = is_open
-        if is_open:
-            return
-        for transport in self:
-            if transport.station == station and transport.step < Step.WAITING:
-                self.cancel(transport.number)
+    def leave(self, transport: Transport) -> None:
+        """Has a unit leave its destination at the next tick."""
+        self.released.append(transport)
+
+    def fail(self, transport: Transport, text: str) -> None:
+        """Ends a transport that can't be done, for the reason `text`."""
+        self.book.totals.failed += 1
+        self.publish_event(transport, Kind.FAILED, text)
+        self.end(transport)
 
     # --- state
 
@@ -193,27 +155,14 @@ class Transports:
         """What all robots have done so far."""
         return self.book.totals
 
-    @property
-    def cell_of_unit(self) -> dict[int, int]:
-        """The cell of each unit; NOWHERE: it is carried, or stands across cells."""
-        return self.units.cell_of
-
     def assigned(self) -> list[Transport]:
         """Returns the transports that a robot does."""
         return self.book.assigned()
-
-    def take_events(self) -> list[TransportEvent]:
-        """Returns all events since the last call, in order."""
-        return self.book.take_events()
 
     def take_lifts(self) -> list[LiftOrder]:
         """Returns the lifts that are to be sent since the last call."""
         lifts, self._lifts = self._lifts, []
         return lifts
-
-    def waiting(self, station: str) -> int:
-        """Returns how many units are at a station or on the way to it."""
-        return self.book.waiting(station)
 
     def open_for(self, station: str) -> int:
         """Returns how many transports to a station have no robot yet."""
@@ -264,11 +213,12 @@ class Transports:
         idle = robots.automatic & ~robots.busy & ~robots.loaded & (robots.cell != NOWHERE)
         return idle & (self.book.step_of == NOWHERE)
 
-    def taken(self) -> np.ndarray:
-        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
-        taken = self.units.stands.copy()
-        taken[self.book.kept_places()] = True
-        return taken
+    def is_cut_off(self, transport: Transport) -> bool:
+        """Returns whether no robot can come to the station of a transport, or leave it, with its
+        unit now."""
+        barred = {*self.traffic.closed.tolist(), *self.units.in_streets()}
+        barred.discard(self.cell_of_unit[transport.shelf])
+        return self._ways.are_barred(transport.station, barred)
 
     def close_streets(self) -> None:
         """Closes the cells in which units stand off the storage places for loaded robots."""
@@ -278,27 +228,6 @@ class Transports:
         """Adds the order that a transport's robot lifts or drops its unit."""
         kiva_id = int(self.robots.kiva_ids[transport.robot])
         self._lifts.append(LiftOrder(kiva_id, transport.shelf, up))
-
-    def publish_event(self, transport: Transport, kind: Kind, text: str = "") -> None:
-        """Adds an event of a transport."""
-        robot = transport.robot
-        kiva_id = int(self.robots.kiva_ids[robot]) if robot != NOWHERE else 0
-        self.book.publish_event(self.traffic.time, transport, kind, kiva_id, text)
-
-    def fail(self, transport: Transport, text: str) -> None:
-        """Ends a transport that can't be done, for the reason `text`."""
-        self.book.totals.failed += 1
-        self.publish_event(transport, Kind.FAILED, text)
-        if Step.READY < transport.step < Step.STORING:
-            self.book.inbound[transport.station] -= 1
-        self.end(transport)
-
-    def end(self, transport: Transport) -> None:
-        """Removes a transport that is over; its robot is free."""
-        self.book.remove(transport)
-        if transport.robot != NOWHERE:
-            self.freed.append(transport.robot)
-            self.robots.send(transport.robot, NOWHERE)
 
     def nearest(self, cell: int, cells: Sequence[int]) -> int:
         """Returns the nearest of some cells; NOWHERE if there are none."""

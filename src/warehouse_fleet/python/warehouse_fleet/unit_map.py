@@ -27,9 +27,18 @@ class UnitPoses(NamedTuple):
     stamp: float  # [s]
 
 
+class Crooked(NamedTuple):
+    """Where a unit stands across cells."""
+
+    x: float  # [m]
+    y: float  # [m]
+    cells: frozenset[int]  # that it obstructs
+
+
 class UnitMap:
     """The cell of each unit, `cell_of`: NOWHERE if it is carried, or stands across cells. `unit_in`
-    holds those that stand, by cell; `stands`, (cells,) bool, tells in which there is one."""
+    holds those that stand, by cell; `stands`, (cells,) bool, tells in which there is one. `crooked`
+    holds those that stand across cells, by unit."""
 
     def __init__(self, plan: FloorPlan) -> None:
         self.cell_of: dict[int, int] = {}
@@ -37,7 +46,10 @@ class UnitMap:
         self.stands = np.zeros(plan.passable.size, bool)
         self._order = np.zeros(plan.passable.size, np.int64)  # in which units came to cells
         self._came = 0
-        self._streets: dict[int, None] = {}  # cells with a unit, off the storage places
+        self.crooked: dict[int, Crooked] = {}
+        # Cells with a unit, off the storage places: since when it has stood there without a
+        # transport that brought it [s].
+        self._streets: dict[int, float] = {}
         self._off_storage = ~np.asarray(plan.storage, bool).ravel()
         self._plan = plan
         self._put_down: dict[int, float] = {}  # when each unit was put down last [s]
@@ -51,13 +63,15 @@ class UnitMap:
         askew = abs(np.remainder(poses.yaw + np.pi / 4, np.pi / 2) - np.pi / 4)
         crooked = (off > CROOKED) | (askew > ASKEW)
         crooked &= ~poses.carried & (cells != NOWHERE)
-        obstructed = set()
+        self.crooked = {}
         for unit in np.flatnonzero(crooked):
             x, y, yaw = poses.x[unit], poses.y[unit], poses.yaw[unit]
             half = UNIT_REACH * (abs(np.cos(yaw)) + abs(np.sin(yaw)))
-            for dx, dy in itertools.product((-half, 0, half), repeat=2):
-                obstructed.add(int(plan.cell_of(x + dx, y + dy)))
+            around = itertools.product((-half, 0, half), repeat=2)
+            covers = frozenset(int(plan.cell_of(x + dx, y + dy)) for dx, dy in around)
+            self.crooked[int(poses.shelf_id[unit])] = Crooked(float(x), float(y), covers)
         cells = np.where(poses.carried | crooked, NOWHERE, cells)
+        obstructed = set().union(*(one.cells for one in self.crooked.values()))
         return dict(zip(poses.shelf_id.tolist(), cells.tolist())), obstructed
 
     def update(self, cells: dict[int, int], stamp: float, lifted: Iterable[int]) -> None:
@@ -72,7 +86,8 @@ class UnitMap:
         self.stands[:] = False
         self.stands[standing] = True
         self._order[standing], self._came = np.arange(len(standing)), len(standing)
-        self._streets = dict.fromkeys(standing[self._off_storage[standing]].tolist())
+        in_streets = standing[self._off_storage[standing]].tolist()
+        self._streets = {cell: self._streets.get(cell, stamp) for cell in in_streets}
 
     def lift(self, unit: int) -> int:
         """Notes that a unit was lifted; returns the cell in which it stood."""
@@ -92,12 +107,17 @@ class UnitMap:
         self._came += 1
         self._order[cell] = self._came
         if self._off_storage[cell]:
-            self._streets[cell] = None
+            self._streets[cell] = np.inf  # it was to be brought there
         self._put_down[unit] = time
 
     def in_streets(self) -> list[int]:
         """Returns the cells in which units stand off the storage places."""
         return list(self._streets)
+
+    def left_in_streets(self, before: float) -> list[int]:
+        """Returns the cells, ascending, off the storage places in which units have stood since
+        before that time [s] that no transport brought there."""
+        return sorted(cell for cell, since in self._streets.items() if since < before)
 
     def first_in(self, cells: np.ndarray) -> int:
         """Returns that of some cells with units, (n,), to which its unit came first."""

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from warehouse_fleet.traffic import Traffic
 
 NO_PROGRESS = 30.0  # after which a robot is counted [s]
-TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 LOOKS_AHEAD = 5.0  # without progress, after which the cause of waiting is looked up [s]
 MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be served, or leaves [s]
 
@@ -43,14 +42,6 @@ class Watchdog:
         stuck = self.stuck_for > NO_PROGRESS
         self.count += int(np.count_nonzero(stuck & ~self._counted))
         self._counted = stuck
-
-    def trapped_cells(self) -> np.ndarray:
-        """Returns the cells of robots that can't go on for an obstacle: a loaded one can't turn
-        back in a one-way street. The robot that is to take the obstacle away comes another way."""
-        robots, traffic = self._robots, self._traffic
-        trapped = (traffic.time - robots.still_since > TRAPPED) & ~robots.stalled & ~robots.busy
-        trapped &= robots.automatic & ~traffic.plan.lane.ravel()[robots.cell]
-        return robots.cell[trapped]
 
     def _wait_excused(self) -> np.ndarray:
         """Returns (n,) bool: robots that wait, directly or behind others, for one that excuses."""

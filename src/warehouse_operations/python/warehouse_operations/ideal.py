@@ -11,16 +11,16 @@ physics, and the difference between the two is what traffic costs.
     fleet.take_events()
 """
 
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
-from warehouse_fleet.transports import STORE, Answer, TransportEvent
+from warehouse_fleet.transport_book import Transport
+from warehouse_fleet.transport_requests import TransportRequests
 from warehouse_layout.floor_plan import FloorPlan
-from warehouse_operations.ideal_floor import IdealFloor, UnreachableError
-from warehouse_operations.ideal_trips import Transport, Trips
+from warehouse_operations.ideal_floor import IdealFloor
+from warehouse_operations.ideal_trips import Trips
 from warehouse_operations.protocols import Hooks, Task
 from warehouse_operations.travel import Travel
 
@@ -48,7 +48,7 @@ class NearestHooks:
         """Returns None: a robot without work waits where it is."""
 
 
-class IdealFleet:
+class IdealFleet(TransportRequests):
     """Robots, units and stations of a FloorPlan, as protocols.Requests offers them.
 
     robots, units: the cell of each, by id. Raises ValueError where a unit's cell is not a storage
@@ -64,7 +64,7 @@ class IdealFleet:
         *,
         kinematics: Kinematics | None = None,
     ) -> None:
-        self.plan, self.kinematics = plan, kinematics or Kinematics()
+        self.kinematics = kinematics or Kinematics()
         self.travel = Travel(plan, self.kinematics)
         self.collisions = self.blocked = self.watchdog = self.stuck = 0
         self.fallen_items: tuple[str, ...] = ()
@@ -72,7 +72,8 @@ class IdealFleet:
         self.executed_over_planned = 1.0
         self._floor = IdealFloor(plan, units, self.travel)
         self._trips = Trips(self._floor, robots, self.kinematics, NearestHooks())
-        self._ids = itertools.count(1)
+        self._trips.arrive = self.arrive
+        super().__init__(plan, self._trips.book)
 
     @property
     def transports(self) -> "IdealFleet":
@@ -94,59 +95,41 @@ class IdealFleet:
         """The metres that all robots have driven, or set off to drive."""
         return self._trips.distance_m
 
-    # Requests.
+    # The fleet of TransportRequests.
 
-    def submit(
-        self,
-        shelf_id: int,
-        station: str = "",
-        x: float | None = None,
-        y: float | None = None,
-        then: int = STORE,
-        priority: int = 0,
-    ) -> Answer:
-        """Asks for a transport to a station, or to the cell at x, y in world [m]."""
-        try:
-            lane, cell = self._floor.target(shelf_id, station, x, y)
-        except UnreachableError as error:
-            return Answer(0, False, str(error))
-        transport = Transport(next(self._ids), shelf_id, lane, cell, then, priority)
-        self._trips.add(transport)
-        return Answer(transport.transport_id, True, "")
+    @property
+    def cell_of_unit(self) -> Mapping[int, int]:
+        """The cell of each unit that is not carried."""
+        return self._floor.units
 
-    def release(self, transport_id: int) -> tuple[bool, str]:
-        """Lets a unit leave its station. Returns success and the fault."""
-        transport = self._trips.open.get(transport_id)
-        if not transport:
-            return False, f"transport {transport_id} is not under way"
-        if not transport.arrived:
-            return False, f"transport {transport_id} has not arrived"
-        self._trips.release(transport)
-        return True, ""
+    def kiva_id(self, robot: int) -> int:
+        """Returns the id of a robot, given its index."""
+        return self._trips.robots[robot].kiva_id
 
-    def cancel(self, transport_id: int) -> tuple[bool, str]:
-        """Ends a transport; a unit that is lifted is stored. Returns success and the fault."""
-        transport = self._trips.open.get(transport_id)
-        if not transport or transport.cancelled:
-            return False, f"transport {transport_id} is not under way"
-        if transport.arrived:
-            return False, f"transport {transport_id} has arrived; release it"
-        self._trips.cancel(transport)
-        return True, ""
+    def check_reach(self, shelf_id: int, cell: int) -> None:
+        """Raises ValueError if no way leads from a unit to a cell."""
+        if not np.isfinite(self.travel.loaded_to(cell).seconds[self._floor.units[shelf_id]]):
+            x, y = self.plan.point_of(cell)
+            raise ValueError(f"no way leads from storage unit {shelf_id} to ({x:g}, {y:g})")
 
-    def set_open(self, station: str, is_open: bool) -> None:
-        """Opens or closes a station; transports on the way to a closed one are cancelled."""
-        lane = self._floor.lanes[station]
-        lane.is_open = is_open
-        if not is_open:
-            for transport in list(self._trips.open.values()):
-                if transport.lane is lane and not transport.arrived:
-                    self.cancel(transport.transport_id)
+    def taken(self) -> np.ndarray:
+        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
+        taken = np.asarray(self.plan.storage, bool).ravel() & ~self._trips.free()
+        taken[list(self._floor.units.values())] = True
+        taken[self.book.destinations()] = True
+        return taken
 
-    def take_events(self) -> list[TransportEvent]:
-        """Returns what happened since the last call, in order."""
-        events, self._trips.events = self._trips.events, []
-        return events
+    def end(self, transport: Transport) -> None:
+        """Removes a transport that is over; its robot is free."""
+        self._trips.end(transport)
+
+    def turn_back(self, transport: Transport) -> None:
+        """Has a unit that is being brought stored instead."""
+        self._trips.turn_back(transport)
+
+    def leave(self, transport: Transport) -> None:
+        """Has a unit leave its destination now."""
+        self._trips.leave(transport)
 
     # The driver.
 
@@ -166,10 +149,6 @@ class IdealFleet:
     def unit_cell(self, shelf_id: int) -> int | None:
         """Returns the cell where a unit stands; None while it is carried."""
         return self._floor.units.get(shelf_id)
-
-    def waiting(self, station: str) -> int:
-        """Returns how many units are at a station or on their way to it."""
-        return self._floor.lanes[station].inbound
 
     def activities(self) -> dict[str, float]:
         """Returns the robot-seconds spent on each of ACTIVITIES up to now."""

@@ -9,7 +9,19 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
-from warehouse_fleet.transports import STAY, Kind, TransportEvent
+from warehouse_fleet.robot_table import NOWHERE
+from warehouse_fleet.transport_book import (
+    BRINGING,
+    DROPPING,
+    LIFTING,
+    READY,
+    STAY,
+    STORING,
+    Kind,
+    Step,
+    Transport,
+    TransportBook,
+)
 from warehouse_operations.activities import ACTIVITIES
 from warehouse_operations.event_queue import EventQueue
 from warehouse_operations.ideal_floor import IdealFloor, Lane
@@ -26,36 +38,15 @@ class Robot:
     cell: int
     activity: str = "idle"  # one of ACTIVITIES
     since: float = 0.0  # when the activity began [s]
-    parked: float = 0.0  # when it reaches its cell, if it drives there without a task [s]
-
-
-@dataclass(eq=False)
-class Transport:
-    """A unit's way to a station or cell, and back."""
-
-    transport_id: int
-    shelf_id: int
-    lane: Lane | None  # None: to a cell
-    cell: int  # where it ends: the lane's service cell, or another
-    then: int  # STORE or STAY
-    priority: int
-    robot: Robot | None = None
-    arrived: bool = False
-    cancelled: bool = False
-
-    @property
-    def driver(self) -> Robot:
-        """The robot of a transport under way."""
-        assert self.robot is not None
-        return self.robot
+    there: float = 0.0  # when it reaches its cell, if it drives there [s]
 
 
 class Trips:
     """Transports from their start to their end, each phase an event of `queue`.
 
-    time: simulated [s]. open: all transports, by id; waiting: those without a robot. events: what
-    has happened since they were last taken. distance_m: driven by all robots. ways: how often each
-    (service or end cell, other cell, outbound) was driven with a load.
+    time: simulated [s]. book: all transports, with the events that they cause. distance_m: driven
+    by all robots. ways: how often each (service or end cell, other cell, outbound) was driven with
+    a load. arrive: is called with each transport whose unit has come to its destination.
     """
 
     def __init__(
@@ -64,50 +55,27 @@ class Trips:
         self.floor, self.kinematics, self.hooks = floor, kinematics, hooks
         self.travel, self.queue = floor.travel, EventQueue()
         self.time = self.distance_m = 0.0
-        self.robots = {i: Robot(i, int(cell)) for i, cell in sorted(robots.items())}
+        self.robots = [Robot(i, int(cell)) for i, cell in sorted(robots.items())]
+        self.book = TransportBook(len(self.robots), stations=floor.lanes)
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
-        self.open: dict[int, Transport] = {}
-        self.waiting: dict[int, Transport] = {}
-        self.events: list[TransportEvent] = []
+        self.arrive: Callable[[Transport], None] = lambda _transport: None
         self.ways: Counter[tuple[int, int, bool]] = Counter()
-        self._idle = dict(self.robots)
-
-    def add(self, transport: Transport) -> None:
-        """Takes a new transport, which waits for a robot."""
-        self.open[transport.transport_id] = self.waiting[transport.transport_id] = transport
-        self.floor.busy.add(transport.shelf_id)
-        if transport.lane:
-            transport.lane.inbound += 1
-        elif transport.then == STAY:
-            self.floor.free[transport.cell] = False
-        self._add_event(Kind.RECEIVED, transport)
-
-    def cancel(self, transport: Transport) -> None:
-        """Cancels a transport that has not arrived; a unit that is lifted is stored."""
-        self._add_event(Kind.CANCELLED, transport)
-        transport.cancelled = True
-        if transport.lane:
-            transport.lane.inbound -= 1
-        elif transport.then == STAY:
-            self.floor.clear(transport.cell)
-        if not transport.robot:
-            del self.waiting[transport.transport_id]
-            self._end(transport)
+        self._idle = dict(enumerate(self.robots))  # by index
 
     def step_until(self, time: float) -> None:
         """Goes on to a time [s], or to the first event before it."""
         self._match()
-        while not self.events and self.queue.next_time <= time:
+        while not self.book.has_events and self.queue.next_time <= time:
             self.time = self.queue.next_time
             self.queue.run_next()
             self._match()
-        if not self.events:
+        if not self.book.has_events:
             self.time = max(self.time, time)
 
     def activities(self) -> dict[str, float]:
         """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
         total = dict(self.seconds)
-        for robot in self.robots.values():
+        for robot in self.robots:
             total[robot.activity] += self.time - robot.since
         return total
 
@@ -115,17 +83,13 @@ class Trips:
         self.queue.schedule(self.time + delay, act, argument)
 
     def _add_event(self, kind: Kind, transport: Transport) -> None:
-        self.events.append(
-            TransportEvent(
-                self.time,
-                transport.transport_id,
-                kind,
-                transport.robot.kiva_id if transport.robot else 0,
-                transport.shelf_id,
-                transport.lane.name if transport.lane else "",
-                "",
-            )
-        )
+        self.book.publish_event(self.time, transport, kind, self._driver(transport).kiva_id)
+
+    def _driver(self, transport: Transport) -> Robot:
+        return self.robots[transport.robot]
+
+    def _go_on(self, transport: Transport, step: Step) -> None:
+        self.book.go_on(transport, step, self.time)
 
     def _begin(self, robot: Robot, activity: str) -> None:
         self.seconds[robot.activity] += self.time - robot.since
@@ -133,55 +97,72 @@ class Trips:
 
     def _match(self) -> None:
         """Gives robots without work the transports that wait."""
-        if not self.waiting or not self._idle:
+        if not self.book.open or not self._idle:
             return
-        waiting = sorted(self.waiting.values(), key=lambda one: (-one.priority, one.transport_id))
-        robots = list(self._idle.values())
+        waiting, robots = list(self.book.open), list(self._idle.values())
+        indices = list(self._idle)
         seconds, metres = self.travel.unloaded(
-            [self.floor.units[one.shelf_id] for one in waiting], [robot.cell for robot in robots]
+            [self.floor.units[one.shelf] for one in waiting], [robot.cell for robot in robots]
         )
-        # One that drives to where it parks must come there first.
-        seconds += np.array([max(robot.parked - self.time, 0.0) for robot in robots])
-        tasks = [_task(one) for one in waiting]
+        # One that drives somewhere must come there first.
+        seconds += np.array([max(robot.there - self.time, 0.0) for robot in robots])
+        tasks = self._tasks(waiting)
         for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
-            self._assign(waiting[task], robots[robot], seconds[task, robot], metres[task, robot])
+            self.distance_m += metres[task, robot]
+            self._assign(waiting[task], indices[robot], seconds[task, robot])
 
-    def _assign(self, transport: Transport, robot: Robot, seconds: float, metres: float) -> None:
-        del self.waiting[transport.transport_id], self._idle[robot.kiva_id]
-        transport.robot = robot
-        self.distance_m += metres
+    def _tasks(self, waiting: list[Transport]) -> list[Task]:
+        asked = Counter(one.station for one in waiting)
+        coming = {name: self.book.waiting(name) + count for name, count in asked.items() if name}
+        return [
+            Task(one.number, one.shelf, one.station, one.priority, coming.get(one.station, 0))
+            for one in waiting
+        ]
+
+    def _assign(self, transport: Transport, index: int, seconds: float) -> None:
+        robot = self._idle.pop(index)
+        robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
+        self.book.assign(transport, index, self.time)
         self._add_event(Kind.ASSIGNED, transport)
         self._begin(robot, "to unit")
         self._schedule(seconds, self._reach_unit, transport)
 
     def _reach_unit(self, transport: Transport) -> None:
-        transport.driver.cell = self.floor.units[transport.shelf_id]
-        if transport.cancelled:
-            self._free_robot(transport)
+        if transport.number not in self.book:
             return
-        self._begin(transport.driver, "lift")
+        for step in (READY, LIFTING):
+            self._go_on(transport, step)
+        self._begin(self._driver(transport), "lift")
         self._schedule(self.kinematics.lift, self._lift, transport)
 
     def _lift(self, transport: Transport) -> None:
-        home = self.floor.units.pop(transport.shelf_id)
+        home = self.floor.units.pop(transport.shelf)
         self.floor.clear(home)
         self._add_event(Kind.LIFTED, transport)
-        self._begin(transport.driver, "to station")
+        if transport.let_go:  # was cancelled meanwhile
+            self._go_on(transport, STORING)
+            self._store(transport)
+            return
+        self._go_on(transport, BRINGING)
+        self._begin(self._driver(transport), "to station")
         table = self.travel.loaded_to(transport.cell)
         self.distance_m += table.metres[home]
         self.ways[transport.cell, home, False] += 1
         self._schedule(table.seconds[home], self._reach_end, transport)
 
     def _reach_end(self, transport: Transport) -> None:
-        transport.driver.cell = transport.cell
+        self._driver(transport).cell = transport.cell
         if transport.cancelled:
             self._store(transport)
-        elif transport.lane:
-            self._begin(transport.driver, "queue")
-            transport.lane.queue.append(transport)
-            self._serve_next(transport.lane, 0.0)
+        elif lane := self._lane(transport):
+            self._begin(self._driver(transport), "queue")
+            lane.queue.append(transport)
+            self._serve_next(lane, 0.0)
         else:
             self._arrive(transport)
+
+    def _lane(self, transport: Transport) -> Lane | None:
+        return self.floor.lanes.get(transport.station)
 
     def _serve_next(self, lane: Lane, moving_up: float) -> None:
         """Moves the first in the lane to the service cell as soon as that has been left."""
@@ -193,32 +174,32 @@ class Trips:
 
     def _arrive(self, transport: Transport) -> None:
         if transport.cancelled:
-            self._leave(transport)
+            self._clear_lane(transport)
             self._store(transport)
             return
-        transport.arrived = True
-        if transport.lane:
-            transport.lane.waited += self.time - transport.driver.since
-        self._begin(transport.driver, "service")
-        self._add_event(Kind.ARRIVED, transport)
-        if not transport.lane and transport.then == STAY:
-            self.release(transport)
+        if lane := self._lane(transport):
+            lane.waited += self.time - self._driver(transport).since
+        self._begin(self._driver(transport), "service")
+        self.arrive(transport)
 
-    def release(self, transport: Transport) -> None:
-        """Lets a unit that has arrived leave its station, or be lowered where it is."""
-        transport.arrived = False
+    def turn_back(self, transport: Transport) -> None:
+        """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
+        self._go_on(transport, STORING)
+
+    def leave(self, transport: Transport) -> None:
+        """Has a unit leave its station, or be lowered where it is."""
         self._add_event(Kind.RELEASED, transport)
-        if transport.lane:
-            transport.lane.inbound -= 1
-            self._leave(transport)
+        self._clear_lane(transport)
         if transport.then == STAY:
-            self._lower((transport, transport.driver.cell))
+            self.floor.free[transport.cell] = False
+            self._lower((transport, transport.cell))
         else:
+            self._go_on(transport, STORING)
             self._store(transport)
 
-    def _leave(self, transport: Transport) -> None:
+    def _clear_lane(self, transport: Transport) -> None:
         """Frees the service cell for when the robot with its unit has left it."""
-        lane = transport.lane
+        lane = self._lane(transport)
         if lane and lane.serving is transport:
             spacing = self.floor.plan.spacing
             lane.serving = None
@@ -227,48 +208,54 @@ class Trips:
 
     def _store(self, transport: Transport) -> None:
         """Sends a unit to a free place that the policy chooses."""
-        start = transport.driver.cell
-        table = self.travel.loaded_from(start)
-        cells = np.flatnonzero(self.floor.free & np.isfinite(table.seconds))
+        robot = self._driver(transport)
+        table = self.travel.loaded_from(robot.cell)
+        free = self.free()
+        cells = np.flatnonzero(free & np.isfinite(table.seconds))
         if not len(cells):
-            self._begin(transport.driver, "idle")
+            self._begin(robot, "idle")
             self._schedule(RETRY, self._store, transport)
             return
-        place = int(self.hooks.choose_place(transport.shelf_id, cells, table.metres[cells]))
+        place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
         self.floor.free[place] = False
-        self._begin(transport.driver, "back")
+        self._begin(robot, "back")
         self.distance_m += table.metres[place]
-        self.ways[start, place, True] += 1
+        self.ways[robot.cell, place, True] += 1
         self._schedule(table.seconds[place], self._lower, (transport, place))
 
-    def _lower(self, argument: Any) -> None:
+    def free(self) -> np.ndarray:
+        """Returns (cells,) bool: storage places where no unit stands or is to be brought."""
+        free = self.floor.free
+        if kept := self.book.destinations():
+            free = free.copy()
+            free[kept] = False
+        return free
+
+    def _lower(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
-        transport.driver.cell = place
-        self._begin(transport.driver, "lift")
+        robot = self._driver(transport)
+        robot.cell = place
+        self._go_on(transport, DROPPING)
+        self._begin(robot, "lift")
         self._schedule(self.kinematics.lift, self._drop, argument)
 
-    def _drop(self, argument: Any) -> None:
+    def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
-        self.floor.units[transport.shelf_id] = place
+        self.floor.units[transport.shelf] = place
         self._add_event(Kind.STORED, transport)
-        self._free_robot(transport)
+        self.end(transport)
 
-    def _free_robot(self, transport: Transport) -> None:
-        robot = transport.driver
-        self._end(transport)
+    def end(self, transport: Transport) -> None:
+        """Removes a transport that is over; its robot is free."""
+        self.book.remove(transport)
+        if transport.robot == NOWHERE:
+            return
+        robot = self._driver(transport)
         self._begin(robot, "idle")
-        self._idle[robot.kiva_id] = robot
+        self._idle[transport.robot] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)
         if to is not None and to != robot.cell:
             seconds, metres = self.travel.unloaded([robot.cell], [to])
             self.distance_m += float(metres[0, 0])
-            robot.cell, robot.parked = int(to), self.time + float(seconds[0, 0])
-
-    def _end(self, transport: Transport) -> None:
-        del self.open[transport.transport_id]
-        self.floor.busy.discard(transport.shelf_id)
-
-
-def _task(one: Transport) -> Task:
-    name, inbound = (one.lane.name, one.lane.inbound) if one.lane else ("", 0)
-    return Task(one.transport_id, one.shelf_id, name, one.priority, inbound)
+            begin = max(self.time, robot.there)
+            robot.cell, robot.there = int(to), begin + float(seconds[0, 0])

@@ -10,106 +10,19 @@ from functools import partial
 
 import numpy as np
 import pytest
+from fault_site import BOX, WARM_UP, Site
 from faults import BadConnection, Stops
 
-from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.message_enums import Mode
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import reports_of
 from warehouse_fleet.transports import Kind
 from warehouse_layout.stations import PICK
 
-BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
-  <collision name="body"><pose>0 0 0.3 0 0 0</pose>
-    <geometry><box><size>0.5 0.5 0.6</size></box></geometry></collision>
-</link></model></sdf>"""
 PILLAR = BOX.replace("0.5 0.5 0.6", "0.1 0.1 0.6")
 # Of pillars that leave no room on any grid point between them [m].
 AROUND = list(itertools.product((-0.5, 0.95), (-0.9, 0.0, 0.9)))
-WARM_UP = 60  # until units arrive as fast as they are taken [s]
 WINDOW = 240  # over which deliveries are counted [s]
 AS_BEFORE = 0.8  # of the deliveries of a calm fleet: they vary so much by chance
 SEEDS = range(1, 1 + int(os.environ.get("FAULT_SEEDS", "1")))
-
-
-class Site:
-    """`medium` with twenty robots, all its stations busy."""
-
-    def __init__(self, seed=1, connection=lambda world, seed: world):
-        self.seed = seed
-        self.world = World.preset("medium", seed=seed)
-        self.begin(connection(self.world, seed))
-        self.run(WARM_UP)
-
-    def begin(self, world):
-        """With a driver that knows nothing yet."""
-        self.driver = FleetDriver(world, seed=self.seed)
-        self.traffic, self.transports = self.driver.traffic, self.driver.transports
-        self.plan = self.driver.plan
-        self._demand = RandomTransports(self.transports, self.seed, exchange=10)
-        self.events = []
-
-    def take_over(self):
-        """Another driver, that ends the paths it finds."""
-        self.driver.close()
-        self.begin(self.world)
-        while (found := self.traffic.inherited(reports_of(self.world.fleet))).any():
-            self.world.cancel(self.traffic.robots.kiva_ids[found])
-            self.run(0.5)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.driver.close()
-
-    def run(self, seconds, *happenings):
-        """Goes on for so long. Units delivered a minute."""
-        before, end = self.transports.totals.delivered, self.world.time + seconds
-        while self.world.time < end - 1e-9:
-            for happening in happenings:
-                happening.advance()
-            self.step()
-        return (self.transports.totals.delivered - before) * 60 / seconds
-
-    def step(self):
-        self.driver.step()
-        events = self.transports.take_events()
-        self.events += events
-        self._demand.advance(self.world.time, events)
-
-    def until(self, condition, patience=60):
-        """Goes on until that holds: what it says."""
-        end = self.world.time + patience
-        while not (met := condition()):
-            assert self.world.time < end, "waited in vain"
-            self.step()
-        return met
-
-    def has_seen(self, kind, shelf):
-        return any(e.kind == kind and e.shelf_id == shelf for e in self.events)
-
-    def at_speed(self, loaded):
-        """Robots that drive fast through a street."""
-        fleet = self.world.fleet
-        fast = np.hypot(fleet.vx, fleet.vy) > 1
-        aside = (self.plan.storage | self.plan.lane).ravel()
-        ready = fast & ((fleet.shelf_id != 0) == loaded) & ~aside[self.traffic.robots.cell]
-        return np.flatnonzero(ready).tolist()
-
-    def between_cells(self, loaded):
-        """Those of them that are far from the middle of a cell."""
-        fleet = self.world.fleet
-        x, y = self.plan.point_of(self.plan.cell_of(fleet.x, fleet.y))
-        off = np.hypot(fleet.x - x, fleet.y - y)
-        return [robot for robot in self.at_speed(loaded) if off[robot] > 0.2]
-
-    def traffic_says(self, what, robot):
-        return getattr(self.traffic.robots, what)[robot]
-
-    def name(self, robot):
-        return f"kiva{self.traffic.robots.kiva_ids[robot]}"
 
 
 @pytest.fixture(scope="module")

@@ -126,16 +126,3 @@ def test_a_unit_is_brought_to_a_cell_and_stays(where):
     assert fleet.unit_cell(1) == free[0]
     other = where.plan.point_of(where.units[2])
     assert "is taken" in fleet.submit(1, x=other[0], y=other[1], then=STAY).message
-
-
-@pytest.mark.parametrize(
-    "request_, message",
-    [
-        ({"shelf_id": 10**6, "station": "pick1"}, "there is no storage unit 1000000"),
-        ({"shelf_id": 1, "station": "nowhere"}, "there is no station 'nowhere'"),
-        ({"shelf_id": 1}, "a station, or x and y, was expected"),
-        ({"shelf_id": 1, "x": -50.0, "y": 0.0}, "(-50.0, 0.0) is not a cell to drive to"),
-    ],
-)
-def test_requests_that_can_not_be_are_refused(where, request_, message):
-    assert fleet_of(where).submit(**request_).message == message

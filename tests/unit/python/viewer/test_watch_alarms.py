@@ -73,6 +73,16 @@ def test_every_kind_says_what_to_do():
         ("kiva7 was pushed and does not find back: put it straight", "ROBOT_LOST", "kiva7"),
         ("pick1 has waited for a person for 40 s", "STATION_UNATTENDED", "pick1"),
         ("item4 lies on the floor, off storage_unit1", "ITEM_FALLEN", "item4"),
+        (
+            "storage_unit7 stands across cells at (3.0, 1.4): put it straight",
+            "OBSTACLE",
+            "storage_unit7",
+        ),
+        (
+            "storage_unit7 stands in a street at (3.0, 1.0): bring it to a storage place",
+            "OBSTACLE",
+            "storage_unit7",
+        ),
         ("a plan was refused: two robots in a cell", "PLAN_REFUSED", "a plan was refused"),
         ("the floor has no way out", "COORDINATOR", "the floor has no way out"),
     ],

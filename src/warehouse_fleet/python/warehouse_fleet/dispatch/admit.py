@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 
 def run(work: "Transports") -> None:
-    """Lifts units for whose station there is room, in the order in which their robots came."""
+    """Lifts units for whose station there is room, in the order in which their robots came. None is
+    lifted for a station whose lane can't be entered, passed and left now."""
     book = work.book
     if not book.ready:
         return
@@ -21,11 +22,9 @@ def run(work: "Transports") -> None:
             continue
         station = transport.station
         is_full = station and book.inbound[station] >= work.capacity[station]
-        if is_full or not _is_beneath(work, transport):
+        if is_full or not _is_beneath(work, transport) or work.is_cut_off(transport):
             book.ready.append(transport)
             continue
-        book.fetched[station] -= 1
-        book.inbound[station] += 1
         transport.attempts = 0
         carry.begin_lift(work, transport, LIFTING)
 

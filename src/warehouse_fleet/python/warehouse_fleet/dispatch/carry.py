@@ -39,8 +39,10 @@ def run(work: "Transports", reports: Reports) -> None:
         _watch_lift(work, robot, int(reports["shelf_id"][robot]))
     for robot in work.traffic.arrived(DRIVES[book.step_of]).tolist():
         _arrive(work, robot)
-    for transport in book.take_released():
-        _leave(work, transport)
+    released, work.released = work.released, []
+    for transport in sorted(released, key=lambda one: one.turn):
+        if transport.step == WAITING and transport.number in book:
+            _leave(work, transport)
 
 
 def _watch_lift(work: "Transports", robot: int, shelf: int) -> None:
@@ -54,9 +56,6 @@ def _watch_lift(work: "Transports", robot: int, shelf: int) -> None:
     elif robots.astray[robot]:  # lifts again when it is back in the middle
         robots.busy[robot] = False
         work.book.go_on(transport, FETCHING if is_up else STORING, work.traffic.time)
-        if is_up:
-            work.book.inbound[transport.station] -= 1
-            work.book.fetched[transport.station] += 1
     elif work.traffic.time - transport.since > LIFT_PATIENCE:
         if transport.attempts < LIFT_ATTEMPTS:
             begin_lift(work, transport, transport.step)
@@ -90,14 +89,9 @@ def _arrive(work: "Transports", robot: int) -> None:
     _count_journey(work, robot)
     if transport.step == FETCHING:
         book.go_on(transport, READY, work.traffic.time)
-        book.ready.append(transport)
     elif transport.step == BRINGING:
-        book.go_on(transport, WAITING, work.traffic.time)
         work.robots.busy[robot] = True
-        book.totals.delivered += 1
-        work.publish_event(transport, Kind.ARRIVED)
-        if not transport.station:
-            book.let_go(transport)
+        work.arrive(transport)
     else:
         transport.attempts = 0
         begin_lift(work, transport, DROPPING)
@@ -118,7 +112,7 @@ def _bring(work: "Transports", transport: Transport) -> None:
     work.close_streets()
     work.robots.loaded[transport.robot] = True
     work.publish_event(transport, Kind.LIFTED)
-    if transport.let_go:  # was cancelled meanwhile
+    if transport.let_go:  # goes to no destination
         store(work, transport)
         return
     work.book.go_on(transport, BRINGING, work.traffic.time)
@@ -133,20 +127,17 @@ def _leave(work: "Transports", transport: Transport) -> None:
     """The unit has been released."""
     work.robots.busy[transport.robot] = False
     work.publish_event(transport, Kind.RELEASED)
-    work.book.inbound[transport.station] -= 1
     if transport.then == STAY:
         if work.plan.storage.flat[transport.cell]:
             work.book.keep(transport, transport.cell)
         transport.attempts = 0
         begin_lift(work, transport, DROPPING)
     else:
-        store(work, transport, is_inbound=False)
+        store(work, transport)
 
 
-def store(work: "Transports", transport: Transport, is_inbound: bool = True) -> None:
-    """Sends a loaded robot to a free storage place; is_inbound: its station counts on it still."""
-    if is_inbound:
-        work.book.inbound[transport.station] -= 1
+def store(work: "Transports", transport: Transport) -> None:
+    """Sends a loaded robot to a free storage place."""
     work.book.keep(transport, NOWHERE)
     taken = work.taken()
     taken[work.traffic.closed] = True

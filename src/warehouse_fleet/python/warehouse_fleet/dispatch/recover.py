@@ -79,7 +79,7 @@ def _adopt(work: "Transports", robot: int, shelf: int) -> None:
     work.units.cell_of[shelf] = NOWHERE
     work.robots.loaded[robot] = True
     work.publish_event(transport, Kind.RECEIVED, "its robot was found with it")
-    carry.store(work, transport, is_inbound=False)
+    carry.store(work, transport)
 
 
 def _avoid(work: "Transports", closed: set[int]) -> None:
@@ -87,7 +87,7 @@ def _avoid(work: "Transports", closed: set[int]) -> None:
     for transport in work.book.assigned():
         is_away = work.robots.cell[transport.robot] != transport.place
         if transport.step == STORING and transport.place in closed and is_away:
-            carry.store(work, transport, is_inbound=False)
+            carry.store(work, transport)
 
 
 def store_abandoned(work: "Transports") -> None:
@@ -104,5 +104,6 @@ def store_abandoned(work: "Transports") -> None:
             work.book.sort_open()
             continue
         transport = work.book.add(shelf, "", cell, priority=URGENT)
+        transport.let_go = True  # to storage, at once
         work.book.enqueue(transport)
         work.publish_event(transport, Kind.RECEIVED, "its robot was lost")

@@ -69,6 +69,11 @@ KINDS = {
         "Item lies on the floor",
         "Pick it up: choose it on the floor page, and 'Pick up'. Its pieces are out of stock.",
     ),
+    "OBSTACLE": AlarmKind(
+        WARNING,
+        "Something stands in the way",
+        "Take away what the sentence names, or put it straight: robots go another way till then.",
+    ),
     "ROBOT_WAITS": AlarmKind(
         WARNING,
         "Robot has waited for long",

@@ -24,6 +24,7 @@ SENTENCES = (
     (re.compile(r"(kiva\d+) was pushed "), "ROBOT_LOST"),
     (re.compile(r"(.+) has waited for a person for "), "STATION_UNATTENDED"),
     (re.compile(r"(.+) lies on the floor, off "), "ITEM_FALLEN"),
+    (re.compile(r"(.+) stands (?:in a street|across cells|in the way) at "), "OBSTACLE"),
     (re.compile(r"(a plan was refused): "), "PLAN_REFUSED"),
 )
 MOMENTS = {EventKind.COLLISION.name: "COLLISION", EventKind.TIPPED.name: "UNIT_TIPPED"}
