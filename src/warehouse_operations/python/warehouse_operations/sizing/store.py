@@ -6,6 +6,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
+from warehouse_layout import user_file
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
 VERSION = 1  # of what is kept; another one is simulated again
@@ -16,7 +17,7 @@ class Store:
 
     def __init__(self, folder: Path, orders_file: str = "") -> None:
         self._folder = folder
-        self._orders = Path(orders_file).read_bytes() if orders_file else b""
+        self._orders = user_file.read_bytes(orders_file) if orders_file else b""
 
     def get(self, point: Point) -> Record | None:
         """Returns the Record of a Point; None if there is none, or none that can be read."""
