@@ -2,6 +2,7 @@
 //
 // Files that would take all memory, all stack or minutes are told off before the work begins.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <tinyxml2.h>
 #include <unistd.h>
 
@@ -166,6 +167,12 @@ TEST(Limits, EndMeshFilesThatAreTooLong) {
   fs::resize_file(models.path("long.dae"), 100'000'001);
   EXPECT_PRED2(contains, warningsOf(mesh(models.path("long.dae")), {}),
                "expected at most 100000000");
+}
+
+TEST(Limits, LeaveMeshesAloneThatAreNoRegularFiles) {
+  const Models models;
+  ASSERT_EQ(mkfifo(models.path("pipe.stl").c_str(), 0600), 0);
+  EXPECT_PRED2(contains, warningsOf(mesh(models.path("pipe.stl")), {}), "there is no file");
 }
 
 TEST(Limits, EndMeshFilesThatNestTooDeep) {

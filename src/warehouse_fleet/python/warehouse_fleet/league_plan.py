@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from warehouse_fleet._core import Fleet, Rules, validate
 from warehouse_fleet.problem import Problem, ProblemError, read, read_map
-from warehouse_layout import Floor
+from warehouse_layout import Floor, user_file
 
+MOST_BYTES = 2_000_000_000  # of a result: 10,000 robots for 100,000 ticks
 ACTIONS = {"W": 0, "F": 1, "R": 2, "C": 3}  # rows count downwards, so R is Action's positive turn
 HEADINGS = {"E": 0, "S": 1, "W": 2, "N": 3}
 
@@ -70,7 +71,7 @@ class _Result:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            self._data = json.loads(path.read_text(encoding="utf-8"))
+            self._data = json.loads(user_file.read_text(path, most=MOST_BYTES))
         except (OSError, UnicodeDecodeError) as error:
             self._fail(getattr(error, "strerror", None) or str(error))
         except json.JSONDecodeError as error:

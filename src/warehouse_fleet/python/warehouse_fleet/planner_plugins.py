@@ -31,7 +31,7 @@ import yaml
 from numpy.typing import ArrayLike, NDArray
 
 from warehouse_fleet._core import Fleet, Planner, Rules, epibt, load_planner, validate
-from warehouse_layout import Floor
+from warehouse_layout import Floor, user_file
 
 MANOEUVRE = 3  # ticks in which a robot reaches any neighbouring cell
 # (4, MANOEUVRE) of Action: forward after so many quarter turns (row), the shorter way round.
@@ -269,8 +269,7 @@ def read_spec(path: str | PathLike[str]) -> dict[str, Any]:
     """Returns the content of a YAML file that names a planner; raises PlannerError. An option
     `file`, if it is relative, is one beside it: nodes of ROS run in another folder."""
     try:
-        with open(path, encoding="utf-8") as file:
-            spec = yaml.safe_load(file)
+        spec = yaml.safe_load(user_file.read_text(path))
     except (OSError, yaml.YAMLError) as error:
         raise PlannerError(f"{path}: {error}") from error
     if not isinstance(spec, dict):

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from warehouse_fleet.delays import DURATIONS, EVENTS, DelayModel
+from warehouse_layout import user_file
 
 PASSABLE, WALLS = ".ESG", "@TOW"  # the letters of a map
 
@@ -202,7 +203,7 @@ def _integer(word: str, path: str | PathLike[str], number: int, least: int) -> i
 
 def _text(path: str | PathLike[str]) -> str:
     try:
-        return Path(path).read_text(encoding="utf-8")
+        return user_file.read_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise ProblemError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
 

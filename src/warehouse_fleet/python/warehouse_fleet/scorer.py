@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from warehouse_layout import user_file
+
 FORMAT = "kiva-dispatcher 1"
 
 
@@ -47,7 +49,7 @@ def load(path: str | Path, role: str, features: int) -> Scorer:
     """Returns the Scorer of a file for a role. Raises ValueError that names what is wrong."""
     shapes = {"into": (features, -1), "bias": (-1,), "out": (-1,), "straight": (features,)}
     try:
-        with np.load(path, allow_pickle=False) as content:
+        with user_file.opened(path) as file, np.load(file, allow_pickle=False) as content:
             if str(content["format"]) != FORMAT:
                 raise ValueError(f"its format is not {FORMAT!r}")
             if str(content["role"]) != role:

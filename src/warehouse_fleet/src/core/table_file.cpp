@@ -2,11 +2,13 @@
 //
 // Tables of regions in a file: a line of text that says what they were made for, their number, and
 // for each its key and its words as they lie in memory.
+#include <filesystem>
 #include <fstream>
 #include <istream>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "distance_tables.h"
 
@@ -114,8 +116,10 @@ void DistanceTables::save(const std::string& path) const {
 }
 
 void DistanceTables::load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": no such file, or it can't be read");
+  std::error_code failed;  // a device or a pipe might never end
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, failed)) file.open(path, std::ios::binary);
+  if (!file.is_open()) throw std::runtime_error(path + ": no such file, or it can't be read");
   try {
     load(file);
   } catch (const std::runtime_error& error) {

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from warehouse_layout import user_file
 from warehouse_layout.layout_data import (
     ALONG_X,
     ALONG_Y,
@@ -71,7 +72,7 @@ __all__ = [
 def read(path: str | Path) -> LayoutFile:
     """Reads a layout file. Raises LayoutFileError for one that can't be read or is wrong."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = user_file.read_text(path)
     except OSError as error:
         raise LayoutFileError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:

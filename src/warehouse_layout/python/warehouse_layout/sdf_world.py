@@ -9,12 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from warehouse_layout import files, poses
+from warehouse_layout import files, poses, user_file
 from warehouse_layout.models import kind_and_number
 
 DEPTH = 8  # of models within models
 POINTS = ("kiva", "storage_unit", "item")  # kinds of which the pose alone is read: they are many
-MOST_BYTES = 300_000_000  # of a world file
 
 
 class WorldError(ValueError):
@@ -85,9 +84,7 @@ def name_of(element: ElementTree.Element) -> str:
 def read(path: str | Path) -> SdfWorld:
     """Reads a world file. Raises WorldError."""
     try:
-        if Path(path).stat().st_size > MOST_BYTES:
-            raise WorldError(f"{path}: more than {MOST_BYTES // 10**6} MB")
-        root = ElementTree.parse(path).getroot()
+        root = user_file.read_xml(path)
     except OSError as error:
         raise WorldError(f"{path}: {error.strerror}") from error
     except (ElementTree.ParseError, ValueError, RecursionError) as error:
@@ -214,7 +211,7 @@ class _Reader:
         """Returns the <model> in a file, or None; each file is read once."""
         if file not in self._files:
             try:
-                self._files[file] = ElementTree.parse(file).getroot().find("model")
+                self._files[file] = user_file.read_xml(file).find("model")
             except (OSError, ElementTree.ParseError):
                 self._files[file] = None
         return self._files[file]

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from warehouse_layout import files, models, placement
+from warehouse_layout import files, models, placement, user_file
 from warehouse_layout import layout_file as lf
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.sdf_world import name_of
@@ -53,7 +53,7 @@ def _surroundings(file: LayoutFile, keep_floor: bool) -> ElementTree.Element:
     """Returns the world around a layout: its building, or light and grid alone."""
     path = file.beside_file(file.building) if file.building else files.worlds() / "empty.sdf"
     try:
-        root = ElementTree.parse(path).getroot()
+        root = user_file.read_xml(path)
     except (OSError, ElementTree.ParseError) as error:
         raise LayoutFileError(f"{path}: can't be read: {error}") from error
     if root.tag != "sdf" or len(root) != 1 or root[0].tag != "world":

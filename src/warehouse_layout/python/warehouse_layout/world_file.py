@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
+from warehouse_layout import user_file
 from warehouse_layout.models import FLOOR, kind_and_number
 
 
@@ -72,7 +73,9 @@ def insertable(path: str | Path, standing: Collection[str]) -> Insertion:
 def _parse(path: str | Path) -> tuple[ElementTree.Element, ElementTree.Element]:
     """Returns the root of a file, and the <world> in it."""
     try:
-        root = ElementTree.parse(path).getroot()
+        root = user_file.read_xml(path)
+    except OSError as error:
+        raise WorldFileError(f"{path}: {error.strerror}") from error
     except ElementTree.ParseError as error:
         raise WorldFileError(f"{path} is not XML: {error}") from error
     world = root.find("world") if root.tag == "sdf" else None

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout import user_file
 from warehouse_learning.options import Options
 
 FORMAT = "kiva-episode 1"
@@ -35,7 +36,7 @@ def save(path: Any, options: Options, seed: int, actions: Any) -> None:
 def load(path: Any) -> tuple[Options, int, np.ndarray]:
     """Returns (Options, seed, actions) of a file. Raises EpisodeError."""
     try:
-        content = json.loads(Path(path).read_text())
+        content = json.loads(user_file.read_text(path))
         if content["format"] != FORMAT:
             raise EpisodeError(f"{path}: its format is {content['format']!r}, not {FORMAT!r}")
         return Options.of(content["options"]), int(content["seed"]), np.array(content["actions"])

@@ -2,6 +2,7 @@
 """Databases by their URL or path: opened, checked, and locked against a second program."""
 
 import contextlib
+import os
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ from sqlalchemy import create_engine, event, select, text
 from sqlalchemy.engine import Engine, make_url
 from sqlalchemy.exc import SQLAlchemyError
 
+from warehouse_layout import user_file
 from warehouse_operations import schema
 from warehouse_operations.locks import FileLock, InUseError, holder
 
@@ -68,6 +70,7 @@ def prepare(engine: Engine, text: Any, makes: bool = True) -> None:
     try:
         if path:
             _check_file(path)
+            _make_private(path)
         with engine.begin() as connection:
             if path:
                 _check_pages(connection)
@@ -103,10 +106,17 @@ def _check_file(path: Path) -> None:
     if path.is_dir():
         raise schema.SchemaError("is a folder; the path of an SQLite file was expected")
     if path.exists():
-        with path.open("rb") as file:
+        with user_file.opened(path, None) as file:
             begin = file.read(len(MAGIC))
         if begin and begin != MAGIC:
             raise schema.SchemaError("is not an SQLite database; another file was expected")
+
+
+def _make_private(path: Path) -> None:
+    """Makes a file that only its owner reads, for orders and stock are no one else's; SQLite gives
+    those beside it the same mode."""
+    with contextlib.suppress(OSError):  # of another one, SQLite says why it can't be opened
+        os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
 
 
 def _check_pages(connection: Any) -> None:

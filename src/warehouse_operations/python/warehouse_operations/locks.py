@@ -36,7 +36,9 @@ class FileLock:
 
     def _taken(self, path: Path) -> TextIO | None:
         """Returns the locked file, or None if its holder has just removed it."""
-        file = self._path.open("a+", encoding="utf-8", errors="replace")
+        # Its owner's alone: who can read a file can lock it.
+        number = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o600)
+        file = os.fdopen(number, "a+", encoding="utf-8", errors="replace")
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if not self._is_there(file):

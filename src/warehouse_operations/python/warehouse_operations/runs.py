@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from warehouse_layout import user_file
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.kpis import INTERVAL
 from warehouse_operations.stations import WorkStation
@@ -76,7 +77,7 @@ def read(folder: str | os.PathLike[str]) -> Run:
     for name in (KPIS, RUN):
         path = Path(folder) / name
         try:
-            content.append(json.loads(path.read_text(encoding="utf-8")))
+            content.append(json.loads(user_file.read_text(path)))
         except OSError as error:
             raise RunError(f"{path}: {error.strerror}") from error
         except ValueError as error:

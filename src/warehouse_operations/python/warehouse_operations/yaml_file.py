@@ -6,11 +6,13 @@ from typing import Any
 
 import yaml
 
+from warehouse_layout import user_file
+
 
 def read_yaml(path: str | Path, error: type[Exception]) -> Any:
     """Returns the content of a YAML file; raises `error` with a sentence."""
     try:
-        return yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        return yaml.safe_load(user_file.read_text(path))
     except OSError as why:
         raise error(f"{path}: {why.strerror}") from why
     except yaml.YAMLError as why:

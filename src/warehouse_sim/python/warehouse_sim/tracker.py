@@ -187,4 +187,7 @@ def follow(ros: Any, kind: Any, prefix: str) -> None:
         else:
             work_left = tracker.go_on()
         if tracker.count > limit:
-            ros.logwarn_once(f"{tracker.count} objects, {limit} topics (~max_topics, ulimit -n)")
+            ros.logwarn_once(
+                f"{limit} of {tracker.count} objects have topics of their own; {prefix} tells of all."
+                " More need a larger ~max_topics, or limit of open files (ulimit -Hn)"
+            )

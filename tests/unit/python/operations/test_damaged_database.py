@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Databases that are none, of no version, or damaged: one sentence, with the file."""
 
+import os
 import random
 import shutil
 import sqlite3
@@ -12,6 +13,7 @@ from sqlalchemy import text
 
 from warehouse_operations import Operations, check
 from warehouse_operations.database import DatabaseError, open_engine
+from warehouse_operations.engines import lock
 from warehouse_operations.returning import SiteError
 
 PAGE = 4096
@@ -156,3 +158,17 @@ def test_programs_say_it_in_a_sentence(program, database):
     )
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert done.stderr.startswith(f"{program}: {database}") and done.stderr.count("\n") == 1
+
+
+def test_a_new_database_is_its_owners_alone(tmp_path):
+    path = tmp_path / "shift.db"
+    before = os.umask(0o022)
+    try:
+        engine = open_engine(path)
+        with lock(engine, path), engine.begin() as connection:
+            connection.exec_driver_sql("CREATE TABLE other (number INTEGER)")
+            modes = {one.name: one.stat().st_mode & 0o777 for one in tmp_path.iterdir()}
+    finally:
+        os.umask(before)
+    assert len(modes) == 4, modes  # -wal, -shm and the lock beside it
+    assert set(modes.values()) == {0o600}, modes

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_layout import layout_file as lf
+from warehouse_layout import user_file
 from warehouse_layout.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.layout_reader import LEAST_SPACING, MOST_SPACING
 from warehouse_layout.request import LIMITS
@@ -31,7 +32,7 @@ class Note(str):
 def text_of(path: PathName) -> str:
     """Returns the text of a file in UTF-8. Raises FormatError."""
     try:
-        return Path(path).read_text(encoding="utf-8-sig")
+        return user_file.read_text(path, "utf-8-sig")
     except OSError as error:
         raise FormatError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -41,7 +42,7 @@ def text_of(path: PathName) -> str:
 def bytes_of(path: PathName) -> bytes:
     """Returns the content of a file. Raises FormatError."""
     try:
-        return Path(path).read_bytes()
+        return user_file.read_bytes(path)
     except OSError as error:
         raise FormatError(f"{path}: {error.strerror}") from error
 

@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ElementTree
 from typing import overload
 from xml.etree.ElementTree import Element
 
+from warehouse_layout import user_file
 from warehouse_layout.formats.common import FormatError, PathName
 
 MOST = 1e9  # the largest number in a file
@@ -17,7 +18,7 @@ class InstanceError(FormatError):
 def read_root(path: PathName, tag: str) -> Element:
     """Returns the root of a file, which must have a tag. Raises InstanceError."""
     try:
-        root = ElementTree.parse(path).getroot()
+        root = user_file.read_xml(path)
     except OSError as error:
         raise InstanceError(f"{path}: {error.strerror}") from error
     except ElementTree.ParseError as error:

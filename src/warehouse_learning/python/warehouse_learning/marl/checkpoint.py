@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout import user_file
 from warehouse_learning.marl.mlp import Adam
 
 KINDS = "weight", "mean", "square"
@@ -31,7 +32,7 @@ def load(path: Path, settings: dict[str, Any], optimisers: Sequence[Adam]) -> di
 
     Raises ValueError for what was made with other settings.
     """
-    with np.load(path, allow_pickle=False) as content:
+    with user_file.opened(path, None) as file, np.load(file, allow_pickle=False) as content:
         state = json.loads(str(content["state"]))
         for name, value in state["settings"].items():
             if settings.get(name) != value:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_layout import user_file
 from warehouse_learning.marl.encoding import Encoder
 from warehouse_learning.marl.mlp import Mlp
 
@@ -73,7 +74,7 @@ def load(name: Any) -> GridPolicy:
     """Returns the policy of a file, or a shipped one by its name. Raises PolicyError."""
     path = find(str(name))
     try:
-        with np.load(path, allow_pickle=False) as content:
+        with user_file.opened(path) as file, np.load(file, allow_pickle=False) as content:
             about = json.loads(str(content["about"]))
             parameters = [content[f"p{i}"].astype(np.float32) for i in range(len(content) - 1)]
         if about.pop("format", None) != FORMAT:

@@ -6,6 +6,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
+from warehouse_layout import user_file
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
 VERSION = 2  # of what is kept; another one is simulated again
@@ -16,7 +17,7 @@ class Store:
 
     def __init__(self, folder: Path, *files: str) -> None:
         self._folder = folder
-        self._files = b"".join(Path(one).read_bytes() for one in files if one)
+        self._files = b"".join(user_file.read_bytes(one) for one in files if one)
 
     def get(self, point: Point) -> Record | None:
         """Returns the Record of a Point; None if there is none, or none that can be read."""

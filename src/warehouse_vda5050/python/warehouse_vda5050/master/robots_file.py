@@ -16,6 +16,7 @@ from typing import Any
 
 import yaml
 
+from warehouse_layout import user_file
 from warehouse_vda5050.master.frame import Frame
 from warehouse_vda5050.topics import Identity, TopicError
 
@@ -40,7 +41,7 @@ class RemoteRobot:
 def read(path: Path) -> list[RemoteRobot]:
     """Returns the robots of a file, by number. Raises RobotsFileError."""
     try:
-        told = yaml.safe_load(path.read_text(encoding="utf-8"))
+        told = yaml.safe_load(user_file.read_text(path))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RobotsFileError(f"{path}: {error}") from error
     if not isinstance(told, dict) or not told:

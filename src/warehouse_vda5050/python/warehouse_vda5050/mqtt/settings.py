@@ -4,6 +4,8 @@
 import pathlib
 from dataclasses import dataclass
 
+from warehouse_layout import user_file
+
 
 class BrokerError(ValueError):
     """No broker can be meant by this; the message names the argument and what was expected."""
@@ -51,6 +53,6 @@ def _password(file: str) -> str:
     if not file:
         return ""
     try:
-        return pathlib.Path(file).expanduser().read_text().strip("\r\n")
+        return user_file.read_text(pathlib.Path(file).expanduser()).strip("\r\n")
     except (OSError, UnicodeDecodeError) as error:
         raise BrokerError(f"password_file is {file!r}: {error}") from None

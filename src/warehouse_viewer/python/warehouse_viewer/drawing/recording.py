@@ -9,6 +9,7 @@ import rosbag
 from matplotlib import animation
 from PIL import Image
 
+from warehouse_layout import user_file
 from warehouse_viewer.drawing.drawing import Drawing, Moment
 
 PARTS = {
@@ -27,6 +28,7 @@ def moments(path: str, period: float) -> Iterator[Moment]:
     """Yields Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
     moment, due = Moment(), None
     try:
+        user_file.check(path)
         with rosbag.Bag(path) as bag:
             for topic, message, _ in bag.read_messages(topics=list(PARTS)):
                 setattr(moment, PARTS[topic], message)

@@ -7,6 +7,7 @@ from typing import Any
 
 import rosbag
 
+from warehouse_layout import user_file
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.drawing.recording import PARTS
 from warehouse_viewer.page.activities import wait_too_long
@@ -33,6 +34,7 @@ def convert(bag: Path, path: Path, progress: Callable[[float], None]) -> None:
     writer = FileWriter(path, {"name": bag.stem, "from": "bag"})
     conversion = _Conversion(writer)
     try:
+        user_file.check(bag)
         with rosbag.Bag(str(bag)) as opened:
             begin, end = opened.get_start_time(), opened.get_end_time()
             topics = [*PARTS, EVENTS, *FIGURES]

@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+from warehouse_layout import user_file
 from warehouse_viewer.page import protocol
 from warehouse_viewer.replay import blocks
 from warehouse_viewer.replay.blocks import Block, RecordingError
@@ -89,7 +90,7 @@ class FileRecording:
         self._scenes: dict[int, Block] = {}
         self.about: dict[str, Any] = {}
         try:
-            self._file = path.open("rb")
+            self._file = user_file.opened(path, None)
             found, self.cut = blocks.read_blocks(self._file, str(path))
         except OSError as error:
             raise RecordingError(f"{path}: {error.strerror}") from error

@@ -7,9 +7,10 @@ Never in a parameter or an argument: every ROS client and every user of the mach
 import os
 import re
 import secrets
-import stat
 from collections.abc import Mapping
 from pathlib import Path
+
+from warehouse_layout import user_file
 
 VARIABLE = "WAREHOUSE_TOKEN"
 
@@ -46,13 +47,10 @@ def find(
 def read(path: Path) -> str:
     """Returns the token in a file of mode 0600. Raises TokenError."""
     try:
-        with open(path, encoding="ascii", errors="replace") as file:
-            mode = os.fstat(file.fileno()).st_mode
-            if not stat.S_ISREG(mode):
-                raise TokenError(f"{path} is not a regular file")
-            if mode & 0o077:
+        with user_file.opened(path) as file:
+            if os.fstat(file.fileno()).st_mode & 0o077:
                 raise TokenError(f"{path} can be read by others: chmod 600 {path}")
-            return _checked(file.read(1000).strip(), path)
+            return _checked(file.read(1000).decode("ascii", "replace").strip(), path)
     except OSError as error:
         raise TokenError(f"{path}: {error.strerror}") from error
 
