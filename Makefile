@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps writable bench docs docs-test wheel lint tidy format install clean
+.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps usable bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -97,14 +97,16 @@ dev: packages  ## the same for work on the C++: a change in one file is compiled
 configured: packages
 	@[ -e build/build.ninja -o -e build/Makefile ] || scripts/configure
 
-writable:
+# rosrun and rostest of ROS itself take a path with a space for two.
+usable:
+	@case $$PWD in *[[:space:]]*) echo "$$PWD has a space in its path, where ROS can't run programs: clone it elsewhere" >&2; exit 1 ;; esac
 	@for folder in "$$PWD" "$$PWD/build"; do [ ! -e "$$folder" ] || [ -w "$$folder" ] || { \
 	echo "$$folder can't be written to, where a build lies: build in a clone or copy of your own" >&2; exit 1; }; done
 
-packages: writable  # without those that only tests and lint need
+packages: usable  # without those that only tests and lint need
 	@scripts/deps run
 
-deps: writable  ## install the Debian packages that are missing
+deps: usable  ## install the Debian packages that are missing
 	@scripts/deps
 
 docs: build  ## build the documentation into build/docs; a running viewer serves it at /docs/

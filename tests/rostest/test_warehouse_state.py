@@ -80,7 +80,7 @@ class State(unittest.TestCase):
         latched("/clock", Clock)
         known = dict(rospy.get_published_topics())
         for topic, kind in COMMANDS.items():
-            self.assertEqual(known.get(topic), kind._type)
+            self.assertEqual(known.get(f"/{topic}"), kind._type)
 
 
 if __name__ == "__main__":

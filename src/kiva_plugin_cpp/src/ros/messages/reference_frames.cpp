@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference_frames.h"
 
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+
 namespace kiva_ros {
 
 ScopedName splitScoped(const std::string& name) {
@@ -11,16 +16,46 @@ ScopedName splitScoped(const std::string& name) {
 
 namespace {
 
-/// Returns the first link of a model whose name, without those of the models inside that it belongs
-/// to, is this one. Returns nullptr if there is none.
-const kiva::Link* linkCalled(const kiva::ModelDescription& model, const std::string& name) {
-  for (const kiva::Link& link : model.links) {
-    const std::size_t scope = link.name.rfind("::");
-    const std::size_t begin = scope == std::string::npos ? 0 : scope + 2;
-    if (link.name.compare(begin, std::string::npos, name) == 0) return &link;
+/// The links that plain names mean. They are looked for once a change of the models, since that
+/// takes milliseconds in a large warehouse.
+class PlainLinks {
+ public:
+  /// Returns the link that a name means, or nullptr where it means a model or nothing.
+  const ScopedName* find(const kiva::World& world, const std::string& name) {
+    if (world_ != &world || revision_ != world.modelsRevision()) read(world);
+    const auto at = first_.find(name);
+    return at == first_.end() ? nullptr : &at->second;
   }
-  return nullptr;
-}
+
+ private:
+  void read(const kiva::World& world) {
+    world_ = &world;
+    revision_ = world.modelsRevision();
+    first_.clear();
+    std::unordered_set<std::string> models;              // that came before
+    std::shared_ptr<const kiva::ModelDescription> seen;  // instances of one file stand in a row
+    for (const std::string& model : world.modelNames()) {
+      models.insert(model);
+      const auto description = world.description(model);
+      if (description == seen) continue;
+      seen = description;
+      for (const kiva::Link& link : description->links) {
+        const std::string name = withoutScope(link.name);
+        if (!models.count(name)) first_.emplace(name, ScopedName(model, link.name));
+      }
+    }
+  }
+
+  /// Returns the name of a link without those of the models inside that it belongs to.
+  static std::string withoutScope(const std::string& link) {
+    const std::size_t at = link.rfind("::");
+    return at == std::string::npos ? link : link.substr(at + 2);
+  }
+
+  const kiva::World* world_ = nullptr;
+  std::uint64_t revision_ = 0;
+  std::unordered_map<std::string, ScopedName> first_;
+};
 
 }  // namespace
 
@@ -31,16 +66,9 @@ std::optional<ScopedName> findEntity(const kiva::World& world, const std::string
     if (model && model->findLink(scoped.second)) return scoped;
     return std::nullopt;
   }
-  std::shared_ptr<const kiva::ModelDescription> seen;  // instances of one file stand in a row
-  for (const std::string& model : world.modelNames()) {
-    if (model == name) return ScopedName(model, "");
-    const auto description = world.description(model);
-    if (description == seen) continue;
-    seen = description;
-    if (const kiva::Link* link = linkCalled(*description, name)) {
-      return ScopedName(model, link->name);
-    }
-  }
+  static thread_local PlainLinks links;
+  if (const ScopedName* link = links.find(world, name)) return *link;
+  if (world.has(name)) return scoped;
   return std::nullopt;
 }
 
