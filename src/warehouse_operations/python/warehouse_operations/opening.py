@@ -123,7 +123,7 @@ def _own_skus(orders: str, site: Site) -> Assortment | None:
         return None  # those that are drawn
     if len(lines) > len(site.items):
         raise DemandError(
-            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items), one"
-            " of each SKU at least was expected"
+            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items),"
+            " one of each SKU at least was expected"
         )
     return Assortment.of_lines(lines)

@@ -12,6 +12,7 @@ from warehouse_operations.limits import Limit, Window
 from warehouse_operations.report_figures import number
 from warehouse_operations.runs import Run
 
+DAY = 24  # hours of which a table stands open
 # Of kpis.json: name, words, unit, factor, digits.
 BIG: tuple[tuple[str, str, str, float, int], ...] = (
     ("item_throughput_per_hour", "pieces an hour", "", 1, 0),
@@ -104,7 +105,8 @@ def by_hour(group: Group) -> str:
     """Returns a table of the shift hour by hour: a mean of its runs."""
     head, *rows = report_exports.hours(group)
     shown = [[str(name), *(_cell(one) for one in cells)] for name, *cells in rows]
-    return page.table([str(one) for one in head], shown, "Hour by hour")
+    write = page.table if len(shown) <= DAY else page.behind
+    return write([str(one) for one in head], shown, "Hour by hour")
 
 
 def _cell(value: Any) -> str:

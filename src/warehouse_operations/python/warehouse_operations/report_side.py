@@ -35,8 +35,8 @@ SHORT = {
     "turnover_s": "time of an order, median",
 }
 METHOD = (
-    "p is corrected for the number of differences (Holm), and the interval alike; effect: over the standard deviation of"
-    " the pairs (Hedges' g)."
+    "p is corrected for the number of differences (Holm), and the interval alike; effect: over the"
+    " standard deviation of the pairs (Hedges' g)."
 )
 
 

@@ -227,9 +227,12 @@ def test_stations_without_room_are_told_quickly_on_a_large_floor():
         for i, (x, y) in enumerate(services)
     )
     lines = ["".join(line) for line in floor[::-1]]
-    began = time.monotonic()
+    began = time.process_time()
+    faults(*lines, more="storage_units: 0\n")
+    once = time.process_time() - began
     found = faults(*lines, stations=told, more="storage_units: 0\n")
-    assert time.monotonic() - began < 30
+    # Each station has some forty lanes to be tried: they are not checked on the whole floor each.
+    assert time.process_time() - began < 50 * once
     assert sum("has no room for a lane: a lane enters" in one.text for one in found) == 60
 
 

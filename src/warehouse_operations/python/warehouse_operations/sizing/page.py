@@ -27,10 +27,10 @@ MISSED = (
     "Late: of the orders that came after the warm-up, the part that was not completed in time; what"
     " is not due yet at the end of a shift is waited for. A point is met if the upper 95 %"
     " confidence limit of that part is at most what may be late, missed if the lower one is above"
-    " it or if open orders pile up by more, else undecided, and then not taken. Up to four times as many shifts as asked"
-    " for are simulated where it is undecided; each of three looks has a third of the risk"
-    " (Bonferroni). The warm-up takes two hours, or until MSER-5 has the open orders steady. All points have"
-    " the same seeds: the same orders come at the same moments."
+    " it or if open orders pile up by more, else undecided, and then not taken. Up to four times as"
+    " many shifts as asked for are simulated where it is undecided; each of three looks has a third"
+    " of the risk (Bonferroni). The warm-up takes two hours, or until MSER-5 has the open orders"
+    " steady. All points have the same seeds: the same orders come at the same moments."
 )
 
 
