@@ -22,6 +22,7 @@ from warehouse_fleet.robot_table import NOWHERE, REPORT
 from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_vda5050 import model
+from warehouse_vda5050.errors import Error
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Follow, Lift
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
@@ -101,13 +102,13 @@ def is_at(body, point):
 
 class Vehicle:
     """A vehicle of another maker, which takes orders to the letter. `turns`: it puts itself straight
-    where an order asks for it; else it tells that it is there. It begins no order elsewhere."""
+    where an order asks for it; else it tells that it is there. It refuses to begin elsewhere."""
 
     def __init__(self, x, y, turns):
         self.x, self.y, self.yaw, self.load = x, y, 0.0, ""
         self.turns, self.jumped = turns, False
         self.order, self.update, self.nodes, self.last = "", 0, [], 0
-        self.actions, self.refused = {}, ()
+        self.actions, self.errors = {}, ()
         self.orders = 0
 
     def take(self, message):
@@ -120,7 +121,13 @@ class Vehicle:
         is_new = message.id != self.order
         if (is_new and self.nodes) or (not is_new and message.update <= self.update):
             return
+        first = message.nodes[0].position
+        if is_new and math.dist((self.x, self.y), (first.x, first.y)) > 0.5:
+            refer = (("orderId", message.id), ("orderUpdateId", str(message.update)))
+            self.errors = (Error("noRouteError", description="it is elsewhere", references=refer),)
+            return
         self.orders += is_new
+        self.errors = ()
         self.order, self.update = message.id, message.update
         known = self.last if not is_new else -1
         self.nodes = [node for node in message.nodes if node.sequence > known]
@@ -160,6 +167,7 @@ class Vehicle:
             driving=bool(self.nodes) and not self.jumped,
             position=model.AgvPosition(self.x, self.y, self.yaw),
             loads=(model.Load(self.load),) if self.load else (),
+            errors=self.errors,
             header=model.Header(int(now * 1000), f"{now:09.3f}"),
         )
 
@@ -293,6 +301,8 @@ class Floor:
             if self.is_clear(x, y, yaw):
                 self.vehicle.x, self.vehicle.y, self.vehicle.yaw = x, y, yaw
                 self.vehicle.jumped = True
+                # What was released before it was known is for lasers to see.
+                self.master.take_state(self.vehicle.state(self.now + 1e-3), self.now + 1e-3)
                 return True
         return False
 
