@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A vehicle behind a broker that jumps at any moment, with and without a load, among robots of a
-fleet at work: whatever becomes of its order, nobody is driven into it, nor it into others.
+fleet at work: whatever becomes of its order, no robot is driven into it, nor it into others.
 
 VDA5050_HISTORIES says how many histories are played. Robots here are drawn on paper: they drive at
 once at their full speed, and see nothing.
@@ -9,7 +9,6 @@ once at their full speed, and see nothing.
 import math
 import os
 import random
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -101,8 +100,9 @@ def is_at(body, point):
 
 
 class Vehicle:
-    """A vehicle of another maker, which takes orders to the letter. `turns`: it puts itself straight
-    where an order asks for it; else it tells that it is there. It refuses to begin elsewhere."""
+    """A vehicle of another maker, which takes orders to the letter. `turns`: it puts itself
+    straight where an order asks for it; else it tells that it is there. It refuses to begin
+    elsewhere."""
 
     def __init__(self, x, y, turns):
         self.x, self.y, self.yaw, self.load = x, y, 0.0, ""
@@ -360,7 +360,7 @@ def overlap(one, other):
 
 @pytest.mark.parametrize("turns", [True, False])
 @pytest.mark.parametrize("seed", range(HISTORIES))
-def test_nobody_is_driven_into_a_vehicle_that_jumps(seed, turns):
+def test_no_robot_is_driven_into_a_vehicle_that_jumps(seed, turns):
     floor = Floor(seed, turns)
     jumps, next_jump = {True: 0, False: 0}, floor.chance.uniform(0.5, JUMPS)
     try:

@@ -229,9 +229,7 @@ def test_a_vehicle_that_jumps_off_its_path_is_stopped_and_told_of(bench, is_load
     bench.tell(position=AgvPosition(1.0, 2.0, 0.0), driving=True)
     assert bench.instants()[0].type == "cancelOrder"
     ((kind, text),) = bench.events()
-    assert kind == "BLOCKED" and text == (
-        "the vehicle jumped 2.2 m, from 0.00, 0.00 to 1.00, 2.00"
-    )
+    assert kind == "BLOCKED" and text == ("the vehicle jumped 2.2 m, from 0.00, 0.00 to 1.00, 2.00")
     assert bench.shadow.status == Status.BUSY  # until it has stopped
     assert (bench.shadow.x, bench.shadow.y) == (1.0, 2.0)
 
