@@ -7,7 +7,6 @@ import unittest
 import rospy
 import rostest
 from node_test import call, latched, wait_until
-
 from std_srvs.srv import Empty
 
 from warehouse_msgs.msg import CoordinatorState, Vda5050

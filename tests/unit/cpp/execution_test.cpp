@@ -524,6 +524,29 @@ TEST_F(ExecutionTest, OneThatJumpsOffItsPathHoldsWhereItIs) {
   EXPECT_EQ(execution_.holder(cell(4, 3)), robot);
 }
 
+/// As a vehicle does that tells a place a second, and no speed.
+TEST_F(ExecutionTest, OneThatIsSeenElsewhereAgainAndAgainMoves) {
+  const int robot = add(1, 1);
+  observe();
+  plan({straight(7)});
+  tick();
+  ASSERT_TRUE(robots_[robot].is_active);
+  observe();
+  Report& report = reports_[robot];
+  report.vx = 0;
+  const auto tell = [&](double step) {
+    now_ += kTick;
+    report.x += step;
+    execution_.update(now_, reports_);
+  };
+  for (int i = 0; i < 100; ++i) {
+    tell(i % 10 == 0 ? 0.05 : 0);
+    EXPECT_FALSE(execution_.isStalled(robot)) << now_;
+  }
+  for (int i = 0; i < 60; ++i) tell(0);
+  EXPECT_TRUE(execution_.isStalled(robot));
+}
+
 TEST_F(ExecutionTest, OneThatIsTakenAwayKeepsItsPathUntilThatIsOver) {
   const int robot = add(1, 1);
   observe();

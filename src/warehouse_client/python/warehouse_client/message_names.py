@@ -33,6 +33,7 @@ FAILURES = {
     FailRequest.LASER_BLIND: "laser blind",
     FailRequest.RADIO_LOST: "radio lost",
     FailRequest.WHEEL_SLIPS: "wheels slip",
+    6: "out of order",  # of a vehicle of another maker, which says itself why
 }
 
 

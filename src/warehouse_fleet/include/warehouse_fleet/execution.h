@@ -151,7 +151,7 @@ class Execution {
   double reachOf(int robot) const;
   void vacate(int robot);
   void withdraw(int robot);
-  void measure(int robot, double elapsed);
+  void measure(int robot, double elapsed, const Report& before);
   bool waitsAsPlanned(int robot) const;
   void endRun(Course& course) const;
 

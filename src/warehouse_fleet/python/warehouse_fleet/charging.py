@@ -117,11 +117,9 @@ class Charging:
 
     def kept(self) -> NDArray[np.bool_]:
         """Returns which robots get no work, (n,): those that charge, or must before anything
-        else."""
+        else, be it elsewhere."""
         charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
-        if not self.is_simulated:
-            return kept
         charging = list(self.cell_of)
         kept[charging] = ~self.policy.frees(charge[charging])
         return kept | self.policy.spares(charge)

@@ -9,7 +9,7 @@ import numpy as np
 import rospy
 
 from warehouse_fleet.controller import FleetController
-from warehouse_fleet.failures import names_of
+from warehouse_fleet.failures import OUT_OF_ORDER, names_of
 from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.obstacles import in_the_way
 from warehouse_fleet.robot_table import NOWHERE
@@ -25,6 +25,7 @@ class Watch(Protocol):
 
     collisions: int
     objects: Any  # WarehouseObjects
+    reasons: dict[str, str]  # why robots are broken, in their own words, by model
 
     @property
     def by_hand(self) -> Collection[str]:
@@ -81,7 +82,7 @@ def state_message(
     state.collisions, state.blocked = watch.collisions, traffic.blocked
     state.watchdog = traffic.watchdog.count
     state.alarms = [
-        *_alarms(controller),
+        *_alarms(controller, watch.reasons),
         *waiting.for_people(),
         *_fallen(watch.objects),
         *in_the_way(transports),
@@ -101,10 +102,13 @@ def _count_modes(state: CoordinatorState, controller: FleetController) -> None:
     state.manual, state.out_of_service = len(state.manual_kiva), len(state.out_of_service_kiva)
 
 
-def _alarms(controller: FleetController) -> Iterable[str]:
+def _alarms(controller: FleetController, reasons: dict[str, str]) -> Iterable[str]:
     robots = controller.robots
     for robot in np.flatnonzero(robots.failures):
-        yield f"kiva{robots.kiva_ids[robot]}: {names_of(robots.failures[robot])}"
+        name, what = f"kiva{robots.kiva_ids[robot]}", names_of(robots.failures[robot])
+        if robots.failures[robot] >> OUT_OF_ORDER & 1 and name in reasons:
+            what = f"{what} ({reasons[name]})"
+        yield f"{name}: {what}"
     for kiva in robots.kiva_ids[robots.stalled & ~robots.broken].tolist():
         yield f"kiva{kiva} does not move"
     for kiva in robots.kiva_ids[robots.lost].tolist():

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from warehouse_fleet.message_enums import EventKind, FailureKind
 
-# Bits of FleetState.failures are the kinds of failures, and this one.
+# Bits of FleetState.failures are the kinds of failures, and these.
 EMPTY = 0
+OUT_OF_ORDER = 6  # of a vehicle of another maker, which says itself why
 NAMES: dict[int, str] = {
     EMPTY: "battery empty",
     FailureKind.MOTOR: "drive without torque",
@@ -19,12 +20,17 @@ NAMES: dict[int, str] = {
     FailureKind.LASER_BLIND: "laser blind",
     FailureKind.RADIO_LOST: "radio lost",
     FailureKind.WHEEL_SLIPS: "wheels slip",
+    OUT_OF_ORDER: "out of order",
 }
 MISHAPS = {EventKind.LOST: "lost their way", EventKind.TIPPED: "lost their load, which tipped"}
 # Masks of failures: the robot can't drive or can't be sent orders, can't lift, does no work.
 # A robot whose wheels slip works, slowly.
 STANDS = (
-    1 << EMPTY | 1 << FailureKind.MOTOR | 1 << FailureKind.LASER_BLIND | 1 << FailureKind.RADIO_LOST
+    1 << EMPTY
+    | 1 << FailureKind.MOTOR
+    | 1 << FailureKind.LASER_BLIND
+    | 1 << FailureKind.RADIO_LOST
+    | 1 << OUT_OF_ORDER
 )
 LIFTS_NOT = 1 << FailureKind.LIFT_STUCK
 DOWN = STANDS | LIFTS_NOT

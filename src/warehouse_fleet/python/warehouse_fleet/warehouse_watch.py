@@ -42,6 +42,7 @@ class WarehouseWatch:
         self.people = People()
         self.by_hand: frozenset[str] = frozenset()
         self.collisions = 0
+        self.reasons: dict[str, str] = {}  # why robots are broken, in their own words, by model
         self._refused: list[str] = []
         subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         subscribe(
@@ -78,6 +79,10 @@ class WarehouseWatch:
             self.collisions += 1
         elif event.kind == Event.REFUSED and event.model.startswith("kiva"):
             self._refused.append(event.model)
+        elif event.kind == Event.FAILED:
+            self.reasons[event.model] = event.text
+        elif event.kind in (Event.REPAIRED, Event.DELETED):
+            self.reasons.pop(event.model, None)
 
     def take_refused(self) -> list[str]:
         """Returns the models of robots that refused a path since the last call."""

@@ -15,6 +15,7 @@ namespace {
 constexpr int kInsists = 3;        // refusals after which a path can't begin where it does
 constexpr double kSettled = 1;     // after which nothing that was sent is on its way any more [s]
 constexpr double kBlockedFor = 1;  // after which a robot is sent another way [s]
+constexpr double kNoWay = 0.001;   // between two reports of a robot that stands [m]
 constexpr double kStalledFor = 5;  // after which a robot is taken to be broken [s]
 
 }  // namespace
@@ -49,7 +50,7 @@ void Execution::update(double time, std::vector<Report> reports) {
     if (!course.isMember()) continue;
     follow(robot);
     if (course.isMember()) keepAround(robot);
-    measure(robot, elapsed);
+    measure(robot, elapsed, before[robot]);
   }
   for (int robot = 0; robot < robots; ++robot) {
     if (courses_[robot].isMember()) continue;
@@ -219,13 +220,15 @@ void Execution::finish(int robot) {
   course.finish(at);
 }
 
-void Execution::measure(int robot, double elapsed) {
+void Execution::measure(int robot, double elapsed, const Report& before) {
   Course& course = courses_[robot];
   if (!course.isMember()) return;
   const bool is_still =
       speedOf(robot) < kStandstill && reports_[robot].state != RobotState::kRotating;
   if (!course.travels || !is_still) course.still_since = now_;
-  if (!is_still || course.reached == course.points()) course.moved = now_;
+  // One that is elsewhere tells no speed, but other places.
+  const double way = std::hypot(reports_[robot].x - before.x, reports_[robot].y - before.y);
+  if (!is_still || way > kNoWay || course.reached == course.points()) course.moved = now_;
   if (!course.travels) return;
   course.journey.driven += elapsed;
   if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;

@@ -16,6 +16,8 @@ constexpr int kRefuges = 1;        // cells around a robot in which it may come 
 constexpr double kFindsBack = 30;  // time in which one that was pushed does [s]
 constexpr double kAgain = 2;       // between attempts that ended where they began [s]
 constexpr double kReach = 0.43;    // of a robot with its load, from its centre along x and y [m]
+constexpr double kInside = 0.37;   // of that which is beyond no cell that it was released [m]
+constexpr double kTurning = 0.05;  // from the middle of a cell, in which robots turn [m]
 constexpr double kPassing = 0.07;  // of that which may reach into a cell where others pass [m]
 constexpr double kHalf = 0.4;      // of the length and the width of a load [m]
 constexpr double kSweep = 0.58;    // around a load that turns, with a little room [m]
@@ -52,9 +54,18 @@ void Execution::keepAround(int robot) {
   if (course.is_astray || isOffItsPath(robot)) cover(robot);
 }
 
+/// Returns whether a robot reaches into a cell that it does not hold. One that turns in the middle
+/// of its cell is kept clear of others by mayTurn().
 bool Execution::isOffItsPath(int robot) const {
-  const Cell at = frame_.cellAt(reports_[robot].x, reports_[robot].y);
-  return at != kNowhere && holders_.holder(at) != robot;
+  if (!isSquare(robot) && !isCentred(robot, kTurning)) return true;
+  const double reach = kInside * motion_.spacing;
+  for (const double x : {-reach, reach}) {
+    for (const double y : {-reach, reach}) {
+      const Cell cell = frame_.cellAt(reports_[robot].x + x, reports_[robot].y + y);
+      if (cell != kNowhere && holders_.holder(cell) != robot) return true;
+    }
+  }
+  return false;
 }
 
 /// Returns how far a robot reaches from its centre along x and y with its load, which may stand

@@ -37,6 +37,7 @@ export const FAILURE = byNumber({
   [FailureKind.LASER_BLIND]: 'laser blind',
   [FailureKind.RADIO_LOST]: 'radio lost',
   [FailureKind.WHEEL_SLIPS]: 'wheels slip',
+  6: 'out of order',
 });
 /** What the coordinator has robots do, in the order of a transport; `idle` robots have no transport. */
 export const WORK = ['fetching', 'ready', 'lifting', 'bringing', 'waiting', 'storing', 'dropping', 'idle'];

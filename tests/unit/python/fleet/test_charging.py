@@ -4,12 +4,14 @@ few minutes; what robots use and take up is what the real ones do.
 """
 
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.charging import Opportunity, Threshold
+from warehouse_fleet.controller import FleetController
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_layout.floor_plan import FloorPlan
@@ -28,6 +30,15 @@ def test_one_place_in_five_charges(size, robots):
     plan = FloorPlan.of_world(World.preset(size))
     assert len(plan.charging) == np.ceil(robots / 5)
     assert plan.parking.ravel()[plan.charging].all()
+
+
+def test_a_robot_that_is_charged_elsewhere_gets_no_work_below_a_charge():
+    world = World.preset("small")
+    plan = replace(FloorPlan.of_world(world), charging=np.zeros(0, np.int32))
+    controller = FleetController(plan, world.fleet.kiva_id)
+    controller.robots.charge = np.array([0.04, 0.14, 0.16, 1.0], np.float32)
+    assert controller.transports.charging.kept().tolist() == [True, True, False, False]
+    controller.close()
 
 
 def test_a_threshold_is_one():

@@ -20,7 +20,8 @@ def sent(bench, version="2.1.0", edge=None, place=None, actions=None, cells=None
     """Returns the state after an order with further fields in its last edge or nodePosition."""
     codec = codec_for(version)
     value = codec.to_json(order("o", cells or row(0, 2), actions=actions))
-    value["edges"][-1].update(edge or {})
+    if edge:
+        value["edges"][-1].update(edge)
     value["nodes"][-1]["nodePosition"].update(place or {})
     message, unknown = codec.decode(Kind.ORDER, json.dumps({**value, **fields}).encode())
     bench.vehicle.on_order(message, bench.now, unknown)
@@ -109,6 +110,17 @@ def test_the_vehicle_has_to_assume_the_theta_angle_on_this_node(place, is_taken)
     """7.1, nodePosition. The robot comes in the direction of the edge."""
     state = sent(Bench(), place=place)
     assert (state.order_id == "o", not state.errors) == (is_taken, is_taken)
+
+
+@pytest.mark.parametrize("allowed,is_taken", [(0.05, False), (0.3, True), (0.0, True)])
+def test_the_vehicle_is_in_the_deviation_range_of_the_first_node(allowed, is_taken):
+    """6.6.1: otherwise it does not begin there."""
+    bench = Bench()
+    bench.robot.extra = {"x": 0.2}
+    bench.tick()
+    state = sent(bench, cells=[(0, 0)], place={"allowedDeviationXY": allowed})
+    assert (state.order_id == "o") is is_taken
+    assert [error.type for error in state.errors] == ["noRouteError"] * (not is_taken)
 
 
 def test_the_heading_is_that_of_the_last_edge():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A vehicle behind a broker takes the commands of this project."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -181,7 +182,7 @@ def test_what_can_not_be_said_is_refused(bench, command, why):
     bench.follow()
     bench.events()
     bench.vehicle.command(command)
-    ((kind, text),) = bench.events()
+    kind, text = bench.events()[-1]
     assert kind == "REFUSED"
     assert why in text
     assert bench.sent() == []
@@ -196,8 +197,101 @@ def test_a_refused_update_leaves_what_the_vehicle_has(bench):
     assert bench.events()[-1] == ("REFUSED", "orderUpdateError: no")
     bench.tell(errors=())
     bench.vehicle.command(Follow(9, 0, (), 3))
-    again = bench.order()
+    again = bench.order(wait=1.0)
     assert (again.update, again.nodes[0].id, len(again.base)) == (2, "c6_5", 2)
+
+
+def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
+    bench.follow(2)
+    times = []
+    for _ in range(1200):
+        bench.vehicle.command(Follow(9, 0, (), 4))  # as the coordinator does
+        for order in [one for one in bench.sent(0.1) if isinstance(one, Order)]:
+            times.append(bench.now)
+            refer = (("orderId", order.id), ("orderUpdateId", str(order.update)))
+            bench.tell(errors=(Error("orderUpdateError", description="no", references=refer),))
+            bench.tell(errors=())
+    gaps = [b - a for a, b in zip(times, times[1:])]
+    assert len(times) <= 9 and gaps == sorted(gaps) and gaps[-1] <= 31
+    assert all(kind != "BLOCKED" for kind, _ in bench.events())
+    bench.vehicle.command(Follow(9, 0, (), 4))
+    bench.take(bench.order(wait=31.0))
+    bench.vehicle.command(Follow(9, 4, ((2.0, 2.0),), 5))
+    assert bench.order()  # it accepted one, and is not waited for any more
+
+
+@pytest.mark.parametrize("is_loaded", [False, True])
+def test_a_vehicle_that_jumps_off_its_path_is_stopped_and_told_of(bench, is_loaded):
+    if is_loaded:
+        bench.tell(loads=(Load("storage_unit12"),))
+    bench.follow(4)
+    bench.events()
+    bench.tell(position=AgvPosition(1.0, 2.0, 0.0), driving=True)
+    assert bench.instants()[0].type == "cancelOrder"
+    ((kind, text),) = bench.events()
+    assert kind == "BLOCKED" and text == ("the vehicle jumped 2.2 m, from 0.00, 0.00 to 1.00, 2.00")
+    assert bench.shadow.status == Status.BUSY  # until it has stopped
+    assert (bench.shadow.x, bench.shadow.y) == (1.0, 2.0)
+
+
+def test_a_vehicle_that_was_pushed_off_its_path_is_stopped(bench):
+    bench.follow(4)
+    bench.tell(position=AgvPosition(0.4, 0.3, 0.2))
+    assert not bench.instants()
+    bench.now += 1
+    bench.tell(position=AgvPosition(0.4, 0.6, 0.2))
+    assert bench.instants()[0].type == "cancelOrder"
+    assert "0.6 m off its path" in bench.events()[-1][1]
+
+
+def test_an_idle_vehicle_that_jumps_is_told_of(bench):
+    bench.tell(position=AgvPosition(30.0, 0.0, 0.0))
+    assert bench.events() == [
+        ("BLOCKED", "the vehicle jumped 30.0 m, from 0.00, 0.00 to 30.00, 0.00")
+    ]
+    bench.now += 20
+    bench.tell(position=AgvPosition(10.0, 0.0, 0.0))
+    assert bench.events() == []  # that it may have driven
+
+
+def test_a_path_of_one_point_puts_the_vehicle_straight():
+    """Without a heading and deviations a vehicle takes the node as reached, and does not move."""
+    bench = Bench(replace(ROBOT, frame=Frame(0.0, 0.0, math.pi / 2)))
+    bench.tell(position=AgvPosition(0.0, 0.2, 0.3))
+    bench.events()
+    here = (-0.0, 0.0)
+    bench.vehicle.command(Follow(9, 0, (here,), 1))
+    order = bench.order()
+    (node,) = order.nodes
+    assert abs(node.position.theta) < 1e-9  # in its own frame
+    assert dict(node.demands) == {"allowedDeviationXY": 0.05, "allowedDeviationTheta": 0.05}
+    bench.take(order)  # it says to be there
+    assert bench.events()[-1] == (
+        "BLOCKED",
+        "the vehicle ended its order 0.20 m off the node and 0.30 rad askew",
+    )
+    bench.vehicle.command(Follow(10, 0, (here,), 1))
+    bench.take(bench.order(), at=-1)
+    bench.tell(nodes=(), last_node_sequence=0, position=AgvPosition(0.0, 0.01, 0.01))
+    assert bench.events()[-1] == ("DONE", "done: follow path 10")
+
+
+def test_longer_paths_leave_the_heading_to_the_vehicle(bench):
+    assert all(n.position.theta is None and not n.demands for n in bench.follow(4).nodes)
+
+
+@pytest.mark.parametrize(
+    "type,bit",
+    [("motorError", 1), ("batteryEmpty", 0), ("laserScanner", 3), ("eStopPressed", 6)],
+)
+def test_what_breaks_is_told_in_the_vehicles_own_words(bench, type, bit):
+    error = Error(type, ErrorLevel.FATAL, "line 7: it is stuck")
+    for _ in range(2):
+        bench.tell(errors=(error,))
+    assert bench.shadow.failures == 1 << bit
+    assert bench.events() == [("FAILED", f"{type}: line 7: it is stuck")]
+    bench.tell(errors=())
+    assert bench.shadow.failures == 0 and bench.events()[0][0] == "REPAIRED"
 
 
 def test_a_refused_order_is_over(bench):
@@ -329,7 +423,7 @@ def test_an_order_of_an_earlier_run_is_cancelled(bench):
 def test_a_vehicle_that_can_not_is_given_no_order(bench, state, why):
     bench.tell(**state)
     bench.vehicle.command(Follow(9, 0, WAY, 2))
-    ((kind, text),) = bench.events()
+    kind, text = bench.events()[-1]
     assert kind == "REFUSED"
     assert why in text
 

@@ -99,6 +99,8 @@ class CodecV3(CodecV2):
             _part_actions(value, message.actions)
             for told, error in zip(value["errors"], message.errors):
                 _tell_error(told, error)
+        for node in value.get("nodes", ()):
+            _give_axes(node.get("nodePosition", {}))
         for edge in value.get("edges", ()):
             edge.pop("startNodeId", None), edge.pop("endNodeId", None)
         if isinstance(message, Factsheet):
@@ -144,6 +146,13 @@ def _word(key: str, item: Any, names: dict[str, str], values: dict[str, dict[str
     if words and isinstance(item, str):
         return words.get(item, item)
     return item if key == "actionParameters" else _renamed(item, names, values)
+
+
+def _give_axes(position: dict[str, Any]) -> None:
+    """Makes a radius the ellipse that 3.0 has for it."""
+    radius = position.get("allowedDeviationXY")
+    if isinstance(radius, (int, float)):
+        position["allowedDeviationXY"] = {"a": radius, "b": radius, "theta": 0.0}
 
 
 def _tell_error(told: dict[str, Any], error: Error) -> None:

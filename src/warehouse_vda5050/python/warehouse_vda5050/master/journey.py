@@ -2,12 +2,15 @@
 """A path as orders: point i is node 2i, the way from it to the next one is edge 2i + 1."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.master.commands import Follow, RefusedError
+from warehouse_vda5050.master.whereabouts import NEAR, SQUARE
 from warehouse_vda5050.model import Action, Edge, Node, Order, Position
 
+# A vehicle takes a node as reached that is within its deviation: without these it does not move.
+EXACTLY = (("allowedDeviationXY", NEAR), ("allowedDeviationTheta", SQUARE))
 PlaceNode = Callable[[Point], tuple[str, Position]]  # node id, and where the vehicle has it
 
 
@@ -30,6 +33,7 @@ class Journey:
     is_changed: bool = True  # since then
     sent: Order | None = field(default=None, repr=False)
     actions: tuple[Action, ...] = ()  # at the last point
+    heading: float | None = None  # of a path that is to put the vehicle straight [rad]
 
     def change(self, command: Follow) -> None:
         """Takes in what is released or planned now. Raises RefusedError, with nothing changed."""
@@ -52,6 +56,11 @@ class Journey:
         self.points, self.released, self.is_changed = points, command.released, True
 
     @property
+    def straightens(self) -> bool:
+        """Whether the vehicle is to stand straight in the middle of the path's only point."""
+        return self.heading is not None and len(self.points) == 1
+
+    @property
     def awaits_answer(self) -> bool:
         """Whether the vehicle has not told yet that it has the last order sent."""
         return self.sent is not None
@@ -62,12 +71,15 @@ class Journey:
         whole = self.released == len(self.points)
         return whole and not self.is_changed and not self.awaits_answer
 
-    def confirm(self, update: int) -> None:
-        """Notes the update of this order that a vehicle tells it has."""
-        if self.sent and update == self.update:
-            self.had = (self.sent.base[-1].sequence // 2) + 1
-            self.had_update, self.end = update, self.sent.nodes[-1].sequence
-            self.sent = None
+    def confirm(self, update: int) -> bool:
+        """Notes the update of this order that a vehicle tells it has. Returns whether it is the one
+        that was awaited."""
+        if not self.sent or update != self.update:
+            return False
+        self.had = (self.sent.base[-1].sequence // 2) + 1
+        self.had_update, self.end = update, self.sent.nodes[-1].sequence
+        self.sent = None
+        return True
 
     def is_cut_short(self, update: int, sequence: int) -> bool:
         """Returns whether a vehicle that has nothing left to drive stands before the end of what
@@ -96,17 +108,22 @@ class Journey:
     def _node(self, i: int, place: PlaceNode) -> Node:
         name, position = place(self.points[i])
         actions = self.actions if i == len(self.points) - 1 else ()
-        return Node(name, 2 * i, i < self.released, position, actions)
+        demands: tuple[tuple[str, float], ...] = ()
+        if self.straightens:
+            position, demands = replace(position, theta=self.heading), EXACTLY
+        return Node(name, 2 * i, i < self.released, position, actions, demands=demands)
 
     def _edge(self, i: int, place: PlaceNode) -> Edge:
         start, end = (place(point)[0] for point in self.points[i : i + 2])
         return Edge(f"{start}-{end}", 2 * i + 1, i + 1 < self.released, start, end)
 
 
-def begin(command: Follow, order_id: str) -> Journey:
-    """Returns the journey of a new path. Raises RefusedError."""
+def begin(command: Follow, order_id: str, heading: float) -> Journey:
+    """Returns the journey of a new path; heading: of a vehicle that stands straight where it
+    begins [rad]. Raises RefusedError."""
     if command.first != 0 or not command.points:
         raise RefusedError("a new path begins with point 0, where the robot stands")
     if not 1 <= command.released <= len(command.points):
         raise RefusedError(f"{command.released} of {len(command.points)} points can't be released")
-    return Journey(command.path_id, order_id, list(command.points), command.released)
+    points = list(command.points)
+    return Journey(command.path_id, order_id, points, command.released, heading=heading)

@@ -5,6 +5,7 @@ Commands and states go in; orders and instant actions, reports and events come o
 clock [s] of any zero.
 """
 
+import math
 import re
 from dataclasses import dataclass
 from enum import Enum
@@ -17,6 +18,7 @@ from warehouse_vda5050.master.instant import MOST_TIMES, RESEND, InstantRequests
 from warehouse_vda5050.master.journey import Journey
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import VehicleView
+from warehouse_vda5050.master.whereabouts import jumped, left_way, missed, square
 from warehouse_vda5050.model import (
     Action,
     ActionStatus,
@@ -29,7 +31,8 @@ from warehouse_vda5050.model import (
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
-NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
+NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand, and to its path while it drives
+BACK_OFF = (1.0, 30.0)  # the first and the longest wait after an order that was refused [s]
 
 
 class EventKind(Enum):
@@ -41,6 +44,8 @@ class EventKind(Enum):
     BLOCKED = "BLOCKED"
     LIFTED = "LIFTED"
     DROPPED = "DROPPED"
+    FAILED = "FAILED"
+    REPAIRED = "REPAIRED"
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,8 @@ class RemoteVehicle:
         self._lift: Lift | None = None  # that the journey is made for
         self._cancelling, self._cancel_id = False, ""
         self._sent_at, self._times = 0.0, 0
+        self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
+        self._fatal: frozenset[str] = frozenset()  # what it told last
         self._events: list[Happened] = []
         self.load = 0  # the number of the unit that it carries
         self.path_id = self.reached = 0
@@ -86,14 +93,18 @@ class RemoteVehicle:
 
     def take_state(self, state: State, now: float) -> None:
         """Takes in what the vehicle tells; what is older than what it told before is dropped."""
+        before, heard_at, was_there = self.view.pose, self.view.heard_at, self.view.is_there
         if not self.view.take_state(state, now):
             return
         self._instants.take(state)
         self._take_load(state)
+        self._take_errors()
         if self._cancelling and not self._journey and self._is_cancelled(state):
             self._cancelling = False
         if self._journey:
-            self._advance(self._journey, state)
+            self._advance(self._journey, state, now)
+        if was_there:
+            self._check_place(jumped(before, self.view.pose, now - heard_at))
         self._end_foreign(state)
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
@@ -165,7 +176,8 @@ class RemoteVehicle:
         self._check_ready()
         if command.path_id == 0:
             raise RefusedError("path_id must not be 0")
-        way = journey.begin(command, self._next_id())
+        heading = square(self.view.pose[2]) - self.robot.frame.theta
+        way = journey.begin(command, self._next_id(), math.remainder(heading, math.tau))
         self._check_start(way.points[0])
         self._begin(way, None, f"follow path {way.path_id}")
         self.path_id, self.reached = way.path_id, 1
@@ -243,6 +255,8 @@ class RemoteVehicle:
             return None
         if way.awaits_answer:
             return self._again(way, now)
+        if now < self._not_before:
+            return None
         order = way.next_order(self._place)
         if order is not None:
             self._sent_at, self._times = now, 0
@@ -275,10 +289,10 @@ class RemoteVehicle:
         if not way.had:
             self._journey = self._lift = None
 
-    def _advance(self, way: Journey, state: State) -> None:
-        if state.order_id == way.order_id:
-            way.confirm(state.order_update)
-        self._note_refusal(way, state)
+    def _advance(self, way: Journey, state: State, now: float) -> None:
+        if state.order_id == way.order_id and way.confirm(state.order_update):
+            self._refusals = 0
+        self._note_refusal(way, state, now)
         if self._journey is None or state.order_id != way.order_id:
             if self._cancelling and self._is_cancelled(state):
                 self._end(EventKind.DONE, "cancelled")
@@ -310,6 +324,9 @@ class RemoteVehicle:
 
     def _finish(self, way: Journey) -> None:
         lift = self._lift
+        if way.straightens and (why := missed(self.view.pose, way.points[0])):
+            self._end(EventKind.BLOCKED, why)
+            return
         if lift:
             self._happened(EventKind.LIFTED if lift.up else EventKind.DROPPED, "", lift.shelf_id)
         else:
@@ -325,7 +342,7 @@ class RemoteVehicle:
         self.last_end = kind
         self._happened(kind, text)
 
-    def _note_refusal(self, way: Journey, state: State) -> None:
+    def _note_refusal(self, way: Journey, state: State, now: float) -> None:
         """Takes an error that names the order for its refusal, as long as it is not confirmed."""
         if not way.awaits_answer:
             return
@@ -333,8 +350,32 @@ class RemoteVehicle:
             told = dict(error.references)
             update = told.get("orderUpdateId", str(way.update))
             if told.get("orderId") == way.order_id and update == str(way.update):
+                wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
+                self._refusals, self._not_before = self._refusals + 1, now + wait
                 self._give_up(way, f"{error.type}: {error.description}")
                 return
+
+    # --- what befalls it
+
+    def _take_errors(self) -> None:
+        """Tells in the vehicle's own words what a person has to come for."""
+        fatal = frozenset(self.view.fatal)
+        for text in sorted(fatal - self._fatal):
+            self._happened(EventKind.FAILED, text)
+        if self._fatal and not fatal:
+            self._happened(EventKind.REPAIRED, "the vehicle tells no fatal error any more")
+        self._fatal = fatal
+
+    def _check_place(self, jump: str) -> None:
+        """Ends the path of a vehicle that is not on it any more: others may drive where it is."""
+        way = self._journey
+        if way and way.had and not self._lift and not self._cancelling:
+            within = NEAR * self._grid.spacing
+            if off := left_way(self.view.pose, way.points[: way.released], within):
+                self._end(EventKind.BLOCKED, jump or off)
+                self._ask_to_cancel()
+        elif jump and not way:
+            self._happened(EventKind.BLOCKED, jump)
 
     # --- what others did
 

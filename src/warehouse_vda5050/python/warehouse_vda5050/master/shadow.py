@@ -4,10 +4,18 @@
 import math
 from dataclasses import dataclass
 
+from warehouse_fleet.failures import EMPTY, OUT_OF_ORDER
 from warehouse_fleet.message_enums import EventKind as Ended
 from warehouse_fleet.message_enums import FailureKind, State, Status
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
 
+# What breaks, by words in the types that makers give their errors.
+WORDS = (
+    ("motor", FailureKind.MOTOR),
+    ("battery", EMPTY),
+    ("laser", FailureKind.LASER_BLIND),
+    ("lift", FailureKind.LIFT_STUCK),
+)
 LAST_END = {None: 0, EventKind.DONE: int(Ended.DONE), EventKind.BLOCKED: int(Ended.BLOCKED)}
 
 
@@ -71,8 +79,10 @@ def _status(vehicle: RemoteVehicle) -> tuple[int, int]:
 def _failures(vehicle: RemoteVehicle, now: float) -> int:
     """The bits of FleetState.failures."""
     view, failures = vehicle.view, 0
-    if view.fatal or not view.is_localized:
-        failures |= 1 << FailureKind.MOTOR
+    for type in view.fatal_types:
+        failures |= 1 << next((bit for word, bit in WORDS if word in type.lower()), OUT_OF_ORDER)
+    if not view.is_localized:
+        failures |= 1 << OUT_OF_ORDER
     if view.is_silent(now):
         failures |= 1 << FailureKind.RADIO_LOST
     return failures

@@ -85,6 +85,12 @@ class VehicleView:
         return [f"{e.type}: {e.description}" for e in errors if e.level == ErrorLevel.FATAL]
 
     @property
+    def fatal_types(self) -> list[str]:
+        """The types of the errors that a person has to come for."""
+        errors = self.state.errors if self.state else ()
+        return [e.type for e in errors if e.level == ErrorLevel.FATAL]
+
+    @property
     def takes_orders(self) -> bool:
         """Whether its mode is one in which it takes orders."""
         return self.state is not None and self.state.mode in TAKES_ORDERS

@@ -163,14 +163,21 @@ def _theta(theta: float, allowed: float, heading: float, sheet: Factsheet) -> st
 
 def _deviation(value: Any, sheet: Factsheet) -> str:
     """A radius [m], or the axes of an ellipse; 0 is whatever the robot keeps."""
-    axes: list[Any] = [value.get("a"), value.get("b")] if isinstance(value, dict) else [value]
-    for axis in axes:
-        if isinstance(axis, bool) or not isinstance(axis, (int, float)) or axis < 0:
-            return "a radius, or an ellipse of a and b, was expected"
-    least = min(axes)
+    least = radius(value)
+    if least is None:
+        return "a radius, or an ellipse of a and b, was expected"
     if least == 0 or least >= sheet.precision:
         return ""
     return f"the robot keeps {sheet.precision:g} m"
+
+
+def radius(value: Any) -> float | None:
+    """Returns the least that a deviation allows [m]; None for what is none."""
+    axes: list[Any] = [value.get("a"), value.get("b")] if isinstance(value, dict) else [value]
+    for axis in axes:
+        if isinstance(axis, bool) or not isinstance(axis, (int, float)) or axis < 0:
+            return None
+    return float(min(axes))
 
 
 def _apart(a: float, b: float) -> float:

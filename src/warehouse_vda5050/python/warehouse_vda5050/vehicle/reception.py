@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -12,7 +13,7 @@ from warehouse_vda5050.grid import Cell
 from warehouse_vda5050.model import MAP_ID, OperatingMode, Order
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.actions import check_actions
-from warehouse_vda5050.validation.demands import Robot, check_demands, check_maps
+from warehouse_vda5050.validation.demands import Robot, check_demands, check_maps, radius
 from warehouse_vda5050.validation.orders import cells_of, check_form
 from warehouse_vda5050.vehicle.complaints import references
 from warehouse_vda5050.vehicle.progress import OrderProgress
@@ -139,6 +140,12 @@ class Reception:
                 f"the first node, {order.nodes[0].id}, is not where the robot stands:"
                 f" {grid.node_id(here)}"
             )
+            _refuse(order, text, ErrorType.NO_ROUTE, Predefined.START_NODE_OUT_OF_RANGE)
+        allowed = radius(dict(order.nodes[0].demands).get("allowedDeviationXY"))
+        x, y = grid.position(cell)
+        far = math.hypot(report.x - x, report.y - y)
+        if allowed and far > allowed:
+            text = f"the robot is {far:.3f} m off the first node; allowedDeviationXY is {allowed:g}"
             _refuse(order, text, ErrorType.NO_ROUTE, Predefined.START_NODE_OUT_OF_RANGE)
 
 
