@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same world and commands give the same states in any process, whatever lies where in its memory."""
+"""The same world and commands give the same states in any process, wherever memory lies."""
 
 import os
 import subprocess
@@ -15,8 +15,10 @@ from kiva_plugin_cpp import World
 ballast = [bytearray(n) for n in range(0, int(sys.argv[1]), 97)]
 world = World.preset("small", seed=3, threads=int(sys.argv[2]))
 world.spawn(open(sys.argv[3]).read(), "rover", (2.5, 2.5, 0.3, 0.4))
-ball = "<sdf version='1.9'><model name='ball'><link name='l'><collision name='c'><geometry><sphere>" \\
-       "<radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"
+ball = (
+    "<sdf version='1.9'><model name='ball'><link name='l'><collision name='c'><geometry>"
+    "<sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"
+)
 for i in range(20):
     world.spawn(ball, f"ball{i}", (3 + 0.05 * i, 3, 0.5 + 0.3 * i, 0))
 for i in range(8):
