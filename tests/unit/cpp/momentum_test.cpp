@@ -40,9 +40,11 @@ TEST(Momentum, ATorqueAndAForceAtACornerGiveWhatTheyAmountTo) {
 TEST(Momentum, WheelsBearWhatTheCentreOfMassLaysOnThem) {
   const auto wheel = [](const std::string& name, const std::string& y) {
     return "<link name='" + name + "'><pose>0 " + y +
-           " 0.1 1.5707963 0 0</pose><inertial><mass>1</mass><inertia><ixx>.004</ixx><iyy>.004</iyy>"
+           " 0.1 1.5707963 0 "
+           "0</pose><inertial><mass>1</mass><inertia><ixx>.004</ixx><iyy>.004</iyy>"
            "<izz>.004</izz></inertia></inertial><collision name='tyre'><geometry><cylinder><radius>"
-           "0.1</radius><length>0.04</length></cylinder></geometry></collision></link><joint name='" +
+           "0.1</radius><length>0.04</length></cylinder></geometry></collision></link><joint "
+           "name='" +
            name + "_joint' type='revolute'><parent>body</parent><child>" + name +
            "</child><axis><xyz>0 0 1</xyz></axis></joint>";
   };

@@ -2,7 +2,9 @@
 //
 // What robots say of their own odometry: as uncertain as it is.
 #include <array>
+#include <memory>
 
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -136,6 +138,68 @@ TEST_F(Odometries, AreExactWhereLocalisationIsIdeal) {
   EXPECT_EQ(o.speed, w->speed(1));
   for (const double variance : o.pose_covariance) EXPECT_EQ(variance, 0);
   for (const double variance : o.twist_covariance) EXPECT_EQ(variance, 0);
+}
+
+/// UMBmark (Borenstein and Feng 1996): a square of 4 m and back, by dead reckoning.
+class Umbmark : public ::testing::Test {
+ protected:
+  static constexpr double kSide = 4;  // [m]
+
+  Umbmark() : w(plan()) { w.spawn("kiva", "kiva1", 0, 0); }
+  static Floorplan plan() {
+    Floorplan plan{100};
+    LocalisationRealism& real = plan.options.realism.emplace().localisation;
+    real = {true, 0.003, 0.005, 0, 0, 0, 1, 1000};  // wheels off, no slip, no codes
+    return plan;
+  }
+  const DriveSizes& believed() { return insideOf(w.world).fleet.localisation[0].believed; }
+
+  /// Where wheels of the true sizes take it that are turned as the believed ones demand.
+  Pose expected(int direction) {
+    const DriveParameters& drive = w.robot(1).drive;
+    Pose at;
+    const auto go = [&](double way, double turn) {
+      double rolled[2];
+      for (int wheel = 0; wheel < 2; ++wheel) {
+        const double side = wheel == 0 ? -1 : 1;
+        rolled[wheel] = (way + side * turn * believed().separation / 2) * drive.wheel_radius /
+                        believed().radius[wheel];
+      }
+      const double gone = way == 0 ? 0 : (rolled[0] + rolled[1]) / 2;
+      const double turned = (rolled[1] - rolled[0]) / drive.wheel_separation;
+      const double chord = turned == 0 ? gone : 2 * gone / turned * std::sin(turned / 2);
+      at = at * Pose(0, 0, 0, 0, 0, turned / 2) * Pose(chord, 0, 0, 0, 0, turned / 2);
+    };
+    for (int leg = 0; leg < 4; ++leg) {
+      go(kSide, 0);
+      if (leg < 3) go(0, direction * kQuarter);
+    }
+    return at;
+  }
+  void driveSquare(int direction) {
+    w.mov(1, kSide, 0);
+    w.runUntilIdle(1);
+    w.mov(1, kSide, direction * kSide);
+    w.runUntilIdle(1);
+    w.mov(1, 0, direction * kSide);
+    w.runUntilIdle(1);
+    w.mov(1, 0, 0);
+    w.runUntilIdle(1);
+  }
+
+  Warehouse w;
+};
+
+TEST_F(Umbmark, ASquareEndsWhereWheelsOfOtherSizesTakeIt) {
+  for (const int direction : {kLeft, kRight}) {
+    w.world.setState("kiva1", {Pose::Zero, {}});
+    const Pose there = expected(direction);
+    EXPECT_GT(there.Pos().Length(), 0.01);
+    driveSquare(direction);
+    EXPECT_NEAR(w.x(1), there.X(), 0.002) << direction;
+    EXPECT_NEAR(w.y(1), there.Y(), 0.002) << direction;
+    EXPECT_NEAR(std::remainder(w.yaw(1) - there.Rot().Yaw(), 2 * M_PI), 0, 0.001) << direction;
+  }
 }
 
 }  // namespace

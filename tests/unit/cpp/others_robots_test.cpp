@@ -7,9 +7,9 @@
 namespace kiva::test {
 namespace {
 
-constexpr double kRadius = 0.1;  // of driven wheels [m]
-constexpr double kEffort = 30;   // of their motors [Nm]
-constexpr double kChassis = 60;  // [kg]
+constexpr double kRadius = 0.1;       // of driven wheels [m]
+constexpr double kEffort = 30;        // of their motors [Nm]
+constexpr double kChassis = 60;       // [kg]
 constexpr double kStiffness = 10000;  // of a strut's spring [N/m]
 
 std::string inertial(double mass, double moment, const std::string& at = "0 0 0") {
@@ -56,9 +56,7 @@ std::string base(const std::string& more = "") {
   return link("base", inertial(kChassis, 3) + box("0.8 0.5 0.2", "0 0 0.06") + more);
 }
 
-std::string robot(const std::string& content) {
-  return "<robot name='r'>" + content + "</robot>";
-}
+std::string robot(const std::string& content) { return "<robot name='r'>" + content + "</robot>"; }
 
 /// Two driven wheels in the middle, a caster at each corner: the base's origin is 0.1 m up.
 std::string withCasters() {
@@ -178,8 +176,7 @@ TEST_F(OthersRobots, SprungWheelsLetItStandAndDrive) {
 }
 
 TEST_F(OthersRobots, ASpringCarriesItsLoadWhereForcesAreEven) {
-  const std::string bob = "<robot name='r'><link name='world'/>" +
-                          link("bob", inertial(2, 0.01)) +
+  const std::string bob = "<robot name='r'><link name='world'/>" + link("bob", inertial(2, 0.01)) +
                           joint("bob", "prismatic", "world", "0 0 1", "0 0 1",
                                 "<limit lower='-1' upper='1' effort='0' velocity='9'/>"
                                 "<dynamics damping='20'/>") +

@@ -111,7 +111,8 @@ bool wantsToMove(const Model& model) {
   });
 }
 
-/// No stiffer than the step can follow (the symplectic Euler method is stable up to four times that).
+/// No stiffer than the step can follow (the symplectic Euler method is stable up to four times
+/// that).
 void spring(const Mount& mount, const Joint& joint, double position, double dt) {
   const bool slides = isSlider(joint);
   const double stiffness = std::min(joint.stiffness, inertiaOf(mount, slides) / (dt * dt));

@@ -33,9 +33,9 @@ class ArticulatedSolver {
   /// A row that may give way: of a contact, of friction, of a motor, of a limit.
   struct Yielding {
     btSolverConstraint* row;
-    double least, most;     ///< Bounds of its impulse, without friction's [N s, Nm s].
-    int normal = -1;        ///< Of the first row of friction: its contact's.
-    double friction = 0;    ///< Its Coulomb coefficient.
+    double least, most;   ///< Bounds of its impulse, without friction's [N s, Nm s].
+    int normal = -1;      ///< Of the first row of friction: its contact's.
+    double friction = 0;  ///< Its Coulomb coefficient.
   };
   enum class Hold : char { kFree, kAtLeast, kAtMost };
 
@@ -59,9 +59,9 @@ class ArticulatedSolver {
   std::vector<Yielding> yielding_;
   std::vector<Kind> kinds_;
   Ldl joints_;
-  SquareMatrix a_;               ///< What an impulse of a yielding row changes of another's velocity.
-  std::vector<double> b_, x_;    ///< Velocity that is missing; impulses to add.
-  std::vector<double> missing_;  ///< Of holding rows, multiplied by L⁻¹.
+  SquareMatrix a_;             ///< What an impulse of a yielding row changes of another's velocity.
+  std::vector<double> b_, x_;  ///< Velocity that is missing; impulses to add.
+  std::vector<double> missing_;               ///< Of holding rows, multiplied by L⁻¹.
   std::vector<std::vector<double>> through_;  ///< Of each yielding row: L⁻¹ of its couplings.
   std::vector<Hold> hold_;
 };

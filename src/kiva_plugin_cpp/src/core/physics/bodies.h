@@ -10,20 +10,11 @@
 #include <vector>
 
 #include "core/physics/body_parts.h"
+#include "core/physics/collision_groups.h"
 #include "core/physics/conversions.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
-
-/// Collision filter groups: which bodies touch which others. Bodies of one model touch each other
-/// only where one of them is of `kSelfCollidingGroup` too.
-enum CollisionGroup : int {
-  kFloorGroup = 1,
-  kStaticGroup = 2,
-  kDynamicGroup = 4,
-  kRobotGroup = 8,
-  kSelfCollidingGroup = 16
-};
 
 /// Third user index of a body that was put somewhere, with a velocity, since the last step.
 constexpr int kPlaced = 1;

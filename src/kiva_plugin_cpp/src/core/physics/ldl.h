@@ -16,7 +16,9 @@ class SquareMatrix {
   }
   int size() const { return size_; }
   double* operator[](int row) { return &values_[static_cast<std::size_t>(row) * size_]; }
-  const double* operator[](int row) const { return &values_[static_cast<std::size_t>(row) * size_]; }
+  const double* operator[](int row) const {
+    return &values_[static_cast<std::size_t>(row) * size_];
+  }
 
  private:
   int size_ = 0;

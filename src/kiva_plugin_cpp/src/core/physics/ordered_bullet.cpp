@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/physics/bodies.h"
+#include "core/physics/collision_groups.h"
 #include "core/physics/parting.h"
 #include "core/physics/planar_solver.h"
 

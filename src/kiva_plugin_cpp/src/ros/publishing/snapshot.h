@@ -35,13 +35,13 @@ struct Scan {
 
 struct RobotPose {
   int kiva_id = 0;
-  kiva::Pose base;                 ///< In world.
-  kiva::Twist twist;               ///< In base_link.
-  bool is_exact = true;            ///< What follows is 0 then: pose and twist are true.
+  kiva::Pose base;                           ///< In world.
+  kiva::Twist twist;                         ///< In base_link.
+  bool is_exact = true;                      ///< What follows is 0 then: pose and twist are true.
   std::array<double, 9> pose_covariance{};   ///< Of x, y, yaw.
   std::array<double, 4> twist_covariance{};  ///< Of speed ahead and turn rate.
-  double wheel_angle[2] = {0, 0};  ///< Left, right [rad].
-  double tower = 0;                ///< Above its rest [m].
+  double wheel_angle[2] = {0, 0};            ///< Left, right [rad].
+  double tower = 0;                          ///< Above its rest [m].
 };
 
 /// The states of all models, or of all links.
