@@ -31,17 +31,22 @@ def shifted(mask: np.ndarray, step: tuple[int, int]) -> np.ndarray:
     return moved
 
 
-def opened(free: np.ndarray, gap: int) -> np.ndarray:
-    """Returns the cells that are covered by a free square of `gap` x `gap` cells."""
-    nx, ny = free.shape
-    if min(nx, ny) < gap:
-        return np.zeros_like(free)
-    fits = np.ones((nx - gap + 1, ny - gap + 1), bool)
-    for i, j in np.ndindex(gap, gap):
-        fits &= free[i : nx - gap + 1 + i, j : ny - gap + 1 + j]
-    out = np.zeros_like(free)
-    for i, j in np.ndindex(gap, gap):
-        out[i : nx - gap + 1 + i, j : ny - gap + 1 + j] |= fits
+def squares(free: np.ndarray, side: int) -> np.ndarray:
+    """Returns where a square of `side` x `side` cells is free, by its lowest cell: a mask of
+    (nx - side + 1, ny - side + 1)."""
+    nx, ny = (max(size - side + 1, 0) for size in free.shape)
+    fits = np.ones((nx, ny), bool)
+    for i, j in np.ndindex(side, side):
+        fits &= free[i : nx + i, j : ny + j]
+    return fits
+
+
+def covered(fits: np.ndarray, side: int) -> np.ndarray:
+    """Returns the cells of squares of `side` x `side` cells, given their lowest cells."""
+    nx, ny = fits.shape
+    out = np.zeros((nx + side - 1, ny + side - 1), bool)
+    for i, j in np.ndindex(side, side):
+        out[i : nx + i, j : ny + j] |= fits
     return out
 
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Chooses where a warehouse stands on the floor of another world: in a room, or in the open.
 
-A building on a plain has doors, which connect its rooms with the outside. Gaps
-narrower than DOORS cells are closed, one width after the other, by an opening of the free cells
-(those covered by a free square of that width); what can't be reached then from the edge of the
-floor is inside. A part that is inside is a room if walls make up most of its border: between the
-pillars of a forest there are no rooms.
+A building on a plain has doors, which connect its rooms with the outside. Gaps narrower than DOORS
+cells are closed, one width after the other: what a free square of that width can't come to, moved
+from the edge of the floor, is inside. A part that is inside is a room if walls make up most of its
+border: between the pillars of a forest there are no rooms.
 """
 
 from dataclasses import dataclass
@@ -77,16 +76,18 @@ def _inside(free: np.ndarray, gap: int) -> np.ndarray:
 
     A gap is narrow if it is less than `gap` cells wide.
     """
-    wide = masks.opened(free, gap)
-    edge = np.ones_like(free)
-    edge[1:-1, 1:-1] = False
-    outside = np.zeros_like(free)
-    for part in masks.parts(wide):
-        if part[edge].any():
-            outside |= part
+    if min(free.shape) < gap:
+        return free
+    # Squares are joined by steps of a cell. Two that only touch, in a gate of a wall that runs
+    # aslant, may be inside and outside.
+    fits = masks.squares(free, gap)
+    labels = masks.labelled(fits)
+    at_edge = np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])
+    is_outside = fits & np.isin(labels, at_edge)
     # What is narrow goes with what is nearest, doors with the outside.
-    inside = wide & ~outside
-    left = free & ~wide
+    outside = masks.covered(is_outside, gap)
+    inside = masks.covered(fits & ~is_outside, gap) & ~outside
+    left = free & ~outside & ~inside
     while True:
         new = masks.grown(outside) & left
         outside |= new
@@ -99,10 +100,12 @@ def _inside(free: np.ndarray, gap: int) -> np.ndarray:
 
 
 def _is_room(part: np.ndarray, free: np.ndarray, inside: np.ndarray) -> bool:
-    """Tells whether a part is large enough, with walls along most of its border."""
+    """Tells whether a part is large enough, with walls along most of its border. Pillars within it
+    are no walls."""
     if part.sum() < LEAST:
         return False
-    padded, open_ = np.pad(part, 1), np.pad(free & ~inside, 1)
+    around = masks.labelled(~np.pad(part, 1))
+    padded, open_ = around != around[0, 0], np.pad(free & ~inside, 1)
     border = doors = 0
     for step in STEPS:
         beside = np.roll(padded, step, (0, 1)) & ~padded

@@ -67,6 +67,40 @@ def test_the_fleet_works_in_it_without_contact(hall, size):
     assert driver.watchdog == 0
 
 
+WALL = '<collision name="{name}"><pose>{x} {y} 1.5 0 0 {yaw}</pose><geometry><box>\
+<size>{length} 0.2 3</size></box></geometry></collision>'
+
+
+def walls_with_gates(yaw, gap):
+    """A hall of 34 x 26 m around (5, 3), turned by yaw [rad], with a gate in each wall."""
+    walls = []
+    for quarter, (far, length) in enumerate([(13, 34), (17, 26)] * 2):
+        half = (length - gap) / 2
+        for along in ((gap + half) / 2, -(gap + half) / 2):
+            turn = yaw + quarter * np.pi / 2
+            x = 5 + along * np.cos(turn) - far * np.sin(turn)
+            y = 3 + along * np.sin(turn) + far * np.cos(turn)
+            name = f"wall{len(walls)}"
+            walls.append(WALL.format(name=name, x=x, y=y, yaw=turn, length=half))
+    return f"""<sdf version="1.6"><world name="default">
+      <include><uri>model://ground_plane</uri></include>
+      <model name="hall"><static>true</static><link name="link">{"".join(walls)}</link></model>
+    </world></sdf>"""
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.3, 0.785, 1.2])
+@pytest.mark.parametrize("gap", [2.0, 2.5])
+def test_a_hall_with_gates_is_a_room_however_it_is_turned(tmp_path, yaw, gap):
+    path = tmp_path / "hall.world"
+    path.write_text(walls_with_gates(yaw, gap))
+    x, y, _, occupancy = World(path).occupancy()
+    layout = fit(resolve("small"), Cells(round(x), round(y), np.asarray(occupancy).T >= 100))
+    points = np.concatenate([layout.robots[:, :2], layout.units, layout.belts[:, :2]]) - (5, 3)
+    along = points @ (np.cos(yaw), np.sin(yaw))
+    across = points @ (-np.sin(yaw), np.cos(yaw))
+    assert (abs(along) < 17).all() and (abs(across) < 13).all(), layout.where
+
+
 @pytest.mark.parametrize("hall", HALLS)
 def test_a_shift_works_in_it(hall):
     world = World.of_layout(laid_out(hall, "fit"), world=file_of(hall))
