@@ -106,6 +106,9 @@ def _check_file(path: Path) -> None:
     if path.is_dir():
         raise schema.SchemaError("is a folder; the path of an SQLite file was expected")
     if path.exists():
+        # Its lock, and what SQLite keeps beside it, go by the name.
+        if path.stat().st_nlink > 1:
+            raise schema.SchemaError("has another name too (a hard link); a copy was expected")
         with user_file.opened(path, None) as file:
             begin = file.read(len(MAGIC))
         if begin and begin != MAGIC:

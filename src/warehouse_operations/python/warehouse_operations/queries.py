@@ -12,6 +12,7 @@ from warehouse_operations import schema
 from warehouse_operations.message_enums import OrderState
 
 MOST_ROWS = 10_000  # in an answer
+LONGEST = 1000  # characters of a search: no order has a longer reference
 LARGEST = 2**63 - 1  # the largest number that a query may hold
 
 
@@ -30,7 +31,7 @@ def find_orders(
     order_id: 0: any. search: a part of the reference, or a whole SKU. late_at: only orders that
     are past their due time at this simulated time [s], or were completed after their due time.
     """
-    if not (0 <= order_id <= LARGEST and search.isprintable()):
+    if not (0 <= order_id <= LARGEST and search.isprintable() and len(search) <= LONGEST):
         return 0, []
     orders, lines = schema.orders, schema.order_line
     query = select(orders)

@@ -188,6 +188,6 @@ def follow(ros: Any, kind: Any, prefix: str) -> None:
             work_left = tracker.go_on()
         if tracker.count > limit:
             ros.logwarn_once(
-                f"{limit} of {tracker.count} objects have topics of their own; {prefix} tells of all."
+                f"{limit} of {tracker.count} objects have a topic of their own; {prefix} has all."
                 " More need a larger ~max_topics, or limit of open files (ulimit -Hn)"
             )

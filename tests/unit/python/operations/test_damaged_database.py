@@ -172,3 +172,10 @@ def test_a_new_database_is_its_owners_alone(tmp_path):
         os.umask(before)
     assert len(modes) == 4, modes  # -wal, -shm and the lock beside it
     assert set(modes.values()) == {0o600}, modes
+
+
+def test_a_database_with_two_names_is_refused(database, tmp_path):
+    """Its lock goes by the name: two shifts could work in it."""
+    os.link(database, tmp_path / "other.db")
+    with pytest.raises(DatabaseError, match="has another name too"):
+        open_engine(database)

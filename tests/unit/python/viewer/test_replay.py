@@ -2,7 +2,9 @@
 """What was shown is recorded, found by its time, and played; damaged files say where they are."""
 
 import json
+import math
 import os
+import random
 import signal
 import struct
 import subprocess
@@ -310,6 +312,42 @@ def test_a_bag_with_nothing_to_play_says_what_is_missing(tmp_path):
         open_recording(path, tmp_path)
     path.write_bytes(b"no bag")
     with pytest.raises(RecordingError, match="empty.bag"):
+        open_recording(path, tmp_path)
+
+
+def small_bag(path, compression):
+    with rosbag.Bag(str(path), "w", compression=compression) as bag:
+        for topic, message in (("objects", objects()), ("scenery", scenery())):
+            bag.write(f"/warehouse/{topic}", message, rospy.Time(1))
+        bag.write("/warehouse/unit_states", states(), rospy.Time(1))
+        for stamp in range(1, 4):
+            bag.write("/warehouse/fleet", fleet(x=(stamp, 1.0), stamp=stamp), rospy.Time(stamp))
+    return path.read_bytes()
+
+
+@pytest.mark.parametrize("compression", ["none", "bz2", "lz4"])
+def test_a_damaged_bag_is_played_or_refused_in_a_sentence(tmp_path, compression):
+    path, chosen = tmp_path / "shift.bag", random.Random(1)
+    whole = small_bag(path, compression)
+    refused = 0
+    for _ in range(60):
+        damaged = bytearray(whole)
+        at = chosen.randrange(len(damaged))
+        damaged[at : at + 4] = chosen.choice((b"\xff" * 4, bytes(4), chosen.randbytes(4)))
+        path.write_bytes(damaged)
+        try:
+            open_recording(path, tmp_path)
+        except RecordingError as error:
+            assert str(error).startswith(str(path))
+            refused += 1
+    assert refused > 20
+
+
+def test_a_bag_whose_messages_are_not_sound_is_refused(tmp_path):
+    path = tmp_path / "shift.bag"
+    with rosbag.Bag(str(path), "w") as bag:
+        bag.write("/warehouse/fleet", fleet(x=(math.nan, 1.0)), rospy.Time(3))
+    with pytest.raises(RecordingError, match="/warehouse/fleet at 3.000 s: x is nan"):
         open_recording(path, tmp_path)
 
 

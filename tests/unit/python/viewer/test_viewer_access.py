@@ -119,3 +119,19 @@ def test_layouts_may_be_longer_than_other_bodies(path):
     for size, expected in ((MOST_BODY + 1, 200), (MOST_LAYOUT + 1, 413)):
         headers = LOCAL | {"content-length": str(size)}
         assert request(AccessControl(echo), path, headers=headers).status == expected
+
+
+def test_an_address_that_guesses_tokens_waits():
+    now = [0.0]
+    access = AccessControl(echo, TOKEN, rate=1000)
+    access._guesses = RateLimit(1, clock=lambda: now[0], burst=10)
+
+    def bearing(token):
+        return status(access, AWAY | {"authorization": f"Bearer {token}"})
+
+    assert [bearing(f"guess{n}") for n in range(12)] == [401] * 10 + [429] * 2
+    assert bearing(TOKEN) == 429  # else the answer would tell a right guess
+    assert status(access, AWAY) == 401  # who brings none does not guess
+    now[0] += 5
+    assert bearing(TOKEN) == 200
+    assert status(AccessControl(echo, TOKEN), AWAY | {"authorization": f"Bearer {TOKEN}"}) == 200

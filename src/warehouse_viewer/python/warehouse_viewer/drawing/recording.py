@@ -5,11 +5,10 @@ import shutil
 from collections.abc import Iterator
 from typing import Any
 
-import rosbag
 from matplotlib import animation
 from PIL import Image
 
-from warehouse_layout import user_file
+from warehouse_viewer import bag_reader
 from warehouse_viewer.drawing.drawing import Drawing, Moment
 
 PARTS = {
@@ -27,18 +26,13 @@ class RecordingError(ValueError):
 def moments(path: str, period: float) -> Iterator[Moment]:
     """Yields Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
     moment, due = Moment(), None
-    try:
-        user_file.check(path)
-        with rosbag.Bag(path) as bag:
-            for topic, message, _ in bag.read_messages(topics=list(PARTS)):
-                setattr(moment, PARTS[topic], message)
-                now = moment.fleet.stamp.to_sec() if moment.complete else None
-                if now is None or (due is not None and due - 10 * period < now < due):
-                    continue
-                due = now + period
-                yield moment
-    except (rosbag.ROSBagException, OSError) as error:
-        raise RecordingError(f"{path}: {error}") from error
+    for one in bag_reader.messages(path, list(PARTS), RecordingError):
+        setattr(moment, PARTS[one.topic], one.message)
+        now = moment.fleet.stamp.to_sec() if moment.complete else None
+        if now is None or (due is not None and due - 10 * period < now < due):
+            continue
+        due = now + period
+        yield moment
     if due is None:
         needed = ", ".join(list(PARTS)[:3])
         raise RecordingError(f"{path}: no picture in it; record at least {needed}")

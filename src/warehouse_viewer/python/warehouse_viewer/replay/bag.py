@@ -5,9 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import rosbag
-
-from warehouse_layout import user_file
+from warehouse_viewer import bag_reader
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.drawing.recording import PARTS
 from warehouse_viewer.page.activities import wait_too_long
@@ -33,16 +31,9 @@ def convert(bag: Path, path: Path, progress: Callable[[float], None]) -> None:
     """
     writer = FileWriter(path, {"name": bag.stem, "from": "bag"})
     conversion = _Conversion(writer)
-    try:
-        user_file.check(bag)
-        with rosbag.Bag(str(bag)) as opened:
-            begin, end = opened.get_start_time(), opened.get_end_time()
-            topics = [*PARTS, EVENTS, *FIGURES]
-            for topic, message, at in opened.read_messages(topics=topics):
-                conversion.take(topic, message, at.to_sec())
-                progress((at.to_sec() - begin) / max(end - begin, 1e-9))
-    except (rosbag.ROSBagException, OSError) as error:
-        raise RecordingError(f"{bag}: {error}") from error
+    for one in bag_reader.messages(bag, [*PARTS, EVENTS, *FIGURES], RecordingError):
+        conversion.take(one.topic, one.message, one.time)
+        progress(one.part)
     if not conversion.count:
         needed = ", ".join(PARTS)
         raise RecordingError(f"{bag}: nothing to play; at least {needed} were expected in it")

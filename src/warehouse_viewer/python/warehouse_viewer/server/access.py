@@ -40,24 +40,39 @@ def most_body(scope: Any) -> int:
     return MOST_LAYOUT if takes_layouts else MOST_BODY
 
 
+AGAIN = [(b"retry-after", b"1")]
+GUESSED = "too many wrong tokens came from this address; wait a while"
+GUESSES, FIRST_GUESSES = 1.0, 10  # wrong tokens a second of each address, and at once
+
+
 class RateLimit:
-    """So many requests a second of each address, and as many at once as two seconds bring."""
+    """So many requests a second of each address, and at once `burst` (what two seconds bring)."""
 
     MOST_ADDRESSES = 10000
 
-    def __init__(self, rate: float, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        rate: float,
+        clock: Callable[[], float] = time.monotonic,
+        burst: float | None = None,
+    ) -> None:
         self._rate, self._clock = rate, clock
+        self._burst = 2 * rate if burst is None else burst
         self._left: dict[Hashable, tuple[float, float]] = {}
 
     def allows(self, address: Hashable) -> bool:
         """Counts a request; returns whether the address may send it."""
-        now = self._clock()
-        left, then = self._left.get(address, (2 * self._rate, now))
-        left = min(2 * self._rate, left + (now - then) * self._rate)
+        left = self.left(address)
         if len(self._left) > self.MOST_ADDRESSES:
             self._left.clear()
-        self._left[address] = (max(0, left - 1), now)
+        self._left[address] = (max(0, left - 1), self._clock())
         return left >= 1
+
+    def left(self, address: Hashable) -> float:
+        """Returns how many requests the address may send now."""
+        now = self._clock()
+        left, then = self._left.get(address, (self._burst, now))
+        return min(self._burst, left + (now - then) * self._rate)
 
 
 class Refusal(Exception):  # noqa: N818 (an answer)
@@ -75,11 +90,13 @@ class AccessControl:
 
     The latter keeps a foreign page from reaching the server under a name of its own that leads to
     127.0.0.1. A browser gives the token once, in a form (token_page) or as ?token=…, and a cookie
-    from then on; programs send `Authorization: Bearer …`.
+    from then on; programs send `Authorization: Bearer …`. An address that guesses waits: its tokens
+    are not looked at in between, also where one is right.
     """
 
     def __init__(self, app: Any, token: str = "", rate: float = 100) -> None:
         self._app, self._token, self._limit = app, token, RateLimit(rate)
+        self._guesses = RateLimit(GUESSES, burst=FIRST_GUESSES)
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -102,14 +119,15 @@ class AccessControl:
             await _limited(self._app, scope, receive, send)
 
     def _check(self, scope, headers):
-        address = scope["client"][0] if scope.get("client") else ""
-        if not self._limit.allows(address):
-            raise Refusal(429, "too many requests; slow down", [(b"retry-after", b"1")])
+        if not self._limit.allows(_address(scope)):
+            raise Refusal(429, "too many requests; slow down", AGAIN)
         if int(headers.get("content-length", "0") or 0) > most_body(scope):
             raise Refusal(413, f"the body is larger than {most_body(scope)} bytes")
         self._check_origin(headers)
         if not self._is_form(scope):
             self._check_token(scope, headers)
+        elif self._guesses.left(_address(scope)) < 1:
+            raise Refusal(429, GUESSED, AGAIN)
 
     def _is_form(self, scope):
         """Whether a person sends the token."""
@@ -122,7 +140,7 @@ class AccessControl:
             message = await receive()
             body, more = body + message.get("body", b""), message.get("more_body", False)
         given, to = token_page.parse(body[: token_page.MOST_FORM])
-        if hmac.compare_digest(given.encode(), self._token.encode()):
+        if self._is_right(scope, given):
             await _keep_token(send, self._token, to)
         else:
             await _ask(scope, send, to, wrong=True)
@@ -142,13 +160,26 @@ class AccessControl:
         scheme, _, given = headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer":
             given = _cookie(headers) or _query_token(scope)
-        if not hmac.compare_digest(given.encode(), self._token.encode()):
+        if given and self._guesses.left(_address(scope)) < 1:
+            raise Refusal(429, GUESSED, AGAIN)
+        if not self._is_right(scope, given):
             challenge = [(b"www-authenticate", b"Bearer")]
             raise Refusal(401, "give the token: ?token=… or Authorization: Bearer …", challenge)
+
+    def _is_right(self, scope, given):
+        """Whether this is the token; counts it if not."""
+        is_right = hmac.compare_digest(given.encode(), self._token.encode())
+        if given and not is_right:
+            self._guesses.allows(_address(scope))
+        return is_right
 
     def _brings_token(self, scope):
         """Whether a browser comes with the token in its address, where it should not stay."""
         return self._token and scope["path"] == "/" and _query_token(scope)
+
+
+def _address(scope):
+    return scope["client"][0] if scope.get("client") else ""
 
 
 def _split(address):
