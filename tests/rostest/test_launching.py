@@ -3,9 +3,11 @@
 """At a terminal: launching refuses what is wrong, and events tell what happens."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
+import tempfile
 import unittest
 import xmlrpc.client
 from pathlib import Path
@@ -77,11 +79,14 @@ class Launching(unittest.TestCase):
             self.assertTrue(said.rstrip().splitlines()[-1].startswith("warehouse.launch: "), said)
 
     def test_a_broken_world_ends_without_a_traceback(self):
-        broken = WORLDS / "invalid_no_world.sdf"
+        folder = Path(tempfile.mkdtemp(prefix="für-"))
+        broken = folder / "broken.sdf"
+        shutil.copy(WORLDS / "invalid_no_world.sdf", broken)
         _, said = launch("-p", str(free_port()), f"world:={broken}")
         # Of no node: an interpreter that is stopped before it comes to one's code has its own.
         self.assertNotRegex(said, r'File "/[^"]*/warehouse_')
         self.assertIn(f"{broken}:", said)
+        shutil.rmtree(folder)
 
 
 class Events(unittest.TestCase):

@@ -61,7 +61,9 @@ class Namespaces(unittest.TestCase):
             ready(namespace)
 
     def test_nothing_lies_outside(self):
-        published, _, services = rosgraph.Master("/test").getSystemState()
+        published, subscribed, services = rosgraph.Master("/test").getSystemState()
+        heard = [name for name, nodes in subscribed if set(nodes) != {rospy.get_name()}]
+        self.assertEqual(strangers(heard), [])
         self.assertEqual(strangers(name for name, _ in published), [])
         self.assertEqual(strangers(name for name, _ in services), [])
         self.assertEqual(strangers(rosgraph.Master("/test").getParamNames()), [])

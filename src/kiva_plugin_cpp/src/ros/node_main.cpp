@@ -4,6 +4,7 @@
 #include <malloc.h>
 #include <ros/ros.h>
 
+#include <clocale>
 #include <csignal>
 #include <cstdio>
 #include <optional>
@@ -175,6 +176,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
 
 int main(int argc, char** argv) {
   mallopt(M_ARENA_MAX, kHeaps);
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // else the log has `?` for each letter that is not ASCII
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // so that a log file gets each line at once
   if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   std::vector<char*> arguments = {argv, argv + argc};

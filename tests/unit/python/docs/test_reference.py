@@ -82,6 +82,18 @@ def named():
     return found - OTHERS
 
 
+def test_names_are_relative_so_that_a_namespace_holds_them():
+    makes = r"(?:Subscriber|Publisher|Service|ServiceProxy|advertise\w*|subscribe|follow|publish"
+    makes += r"|wait_for_\w+|\w+_param|is_offered)(?:<[^>]*>)?"
+    absolute = [
+        (source.name, name)
+        for source in SOURCES
+        if source.is_file()
+        for name in re.findall(makes + r'\((?:\w+, )?\s*f?"(/[^"]*)"', source.read_text())
+    ]
+    assert absolute == []
+
+
 def test_each_topic_and_service_is_listed():
     parameters = {name for found in launching.asked().values() for name in found} | set(
         launching.SHARED
