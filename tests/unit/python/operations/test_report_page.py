@@ -152,7 +152,7 @@ def test_a_report_without_the_font_is_a_report(monkeypatch, tmp_path):
 def test_a_workbook_has_the_figures(runs, file):
     workbook = zipfile.ZipFile(file.with_suffix(".xlsx"))
     names = re.findall(r'<sheet name="(\w+)"', workbook.read("xl/workbook.xml").decode())
-    assert names == ["figures", "throughput", "stations"]
+    assert names == ["figures", "throughput", "stations", "hours"]
     figures = workbook.read("xl/worksheets/sheet1.xml").decode()
     assert f"<v>{runs[0].kpis['items_picked'] * 4}</v>" in figures  # in a quarter of an hour
     assert sheets.to_xlsx({"a": [["b"], ["=1+1"]]}) == sheets.to_xlsx({"a": [["b"], ["=1+1"]]})
