@@ -23,8 +23,9 @@ from floor import cells_of, trips
 from warehouse_msgs.msg import FleetState
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.demo_master import DemoMaster, order_of
+from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.fetch_trip import wait_for_warehouse
-from warehouse_vda5050.model import Action, BlockingType, ErrorLevel, Header, InstantActions
+from warehouse_vda5050.model import Action, BlockingType, Header, InstantActions
 from warehouse_vda5050.mqtt.broker import OwnBroker
 from warehouse_vda5050.mqtt.loop import Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings, read_settings
