@@ -45,7 +45,7 @@ HOSTILE = {  # by a part of what is told of each
     "an object was expected": b"5",
     "can't decode byte": b"\xff\xfe\x00",
     "orderId is": b'{"orderId": 7, "orderUpdateId": "x", "nodes": {}, "edges": 1}',
-    "Expecting value": b"",
+    "Expecting value": b" ",
 }
 
 
@@ -128,7 +128,7 @@ class Site:
         self.master = Master(settings, CODEC, TOPICS, lambda _: None)
         stack.callback(self.master.close)
         self.master.all_are(True, self.robots)
-        self.master.wait_for_vehicles()
+        self.master.wait_for_vehicles(len(self.robots))
 
     def order(self, name, cells, **action):
         action = {len(cells) - 1: Action(**action)} if action else {}
