@@ -23,8 +23,9 @@ from floor import cells_of, trips
 from warehouse_msgs.msg import FleetState
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.demo_master import DemoMaster, order_of
+from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.fetch_trip import wait_for_warehouse
-from warehouse_vda5050.model import Action, BlockingType, ErrorLevel, Header, InstantActions
+from warehouse_vda5050.model import Action, BlockingType, Header, InstantActions
 from warehouse_vda5050.mqtt.broker import OwnBroker
 from warehouse_vda5050.mqtt.loop import Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings, read_settings
@@ -44,7 +45,7 @@ HOSTILE = {  # by a part of what is told of each
     "an object was expected": b"5",
     "can't decode byte": b"\xff\xfe\x00",
     "orderId is": b'{"orderId": 7, "orderUpdateId": "x", "nodes": {}, "edges": 1}',
-    "Expecting value": b"",
+    "Expecting value": b" ",
 }
 
 
@@ -127,7 +128,7 @@ class Site:
         self.master = Master(settings, CODEC, TOPICS, lambda _: None)
         stack.callback(self.master.close)
         self.master.all_are(True, self.robots)
-        self.master.wait_for_vehicles()
+        self.master.wait_for_vehicles(len(self.robots))
 
     def order(self, name, cells, **action):
         action = {len(cells) - 1: Action(**action)} if action else {}
