@@ -16,10 +16,10 @@ constexpr int kMaxTurnTicks = 2;
 
 /// Edges as they are now: what is closed taken away, and what each costs.
 struct Edges {
-  std::vector<Cell> next[2];    ///< by deck; by cell and heading
-  std::vector<int> against[2];  ///< those of them that lead against a one-way street, by deck
+  std::vector<Cell> next[2];  ///< by deck; by cell and heading
   const std::vector<std::uint8_t>* costs;
   std::vector<std::uint8_t> is_tight;  ///< by cell: a load can't be turned there; empty: nowhere
+  std::vector<int> against[2] = {};    ///< those of `next` against a one-way street, by deck
 
   bool mayTurnEverywhere(Deck deck) const { return deck == Deck::kUnder || is_tight.empty(); }
   bool mayTurn(Deck deck, Cell cell) const { return mayTurnEverywhere(deck) || !is_tight[cell]; }
