@@ -45,9 +45,7 @@ class WarehouseWatch:
         self.reasons: dict[str, str] = {}  # why robots are broken, in their own words, by model
         self._refused: list[str] = []
         subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
-        subscribe(
-            rospy, "warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1
-        )
+        subscribe(rospy, "warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
         subscribe(rospy, "warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
         subscribe(rospy, "warehouse/people", People, self._keep, "people", queue_size=1)
         subscribe(rospy, "warehouse/events", Event, self._on_event, queue_size=10000)
