@@ -56,6 +56,9 @@ class FakeRos:
 
     logwarn_once = logwarn
 
+    def get_namespace(self):
+        return "/"
+
     @staticmethod
     def resolve_name(name):
         return f"/{name.lstrip('/')}"

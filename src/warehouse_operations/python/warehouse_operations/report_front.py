@@ -101,12 +101,12 @@ def _reason(found: Limit, then: Window) -> str:
     }[found]
 
 
-def by_hour(group: Group) -> str:
-    """Returns a table of the shift hour by hour: a mean of its runs."""
+def by_hour(group: Group, label: str) -> str:
+    """Returns a table of the shift hour by hour: a mean of its runs. label: its accessible name."""
     head, *rows = report_exports.hours(group)
     shown = [[str(name), *(_cell(one) for one in cells)] for name, *cells in rows]
     write = page.table if len(shown) <= DAY else page.behind
-    return write([str(one) for one in head], shown, "Hour by hour")
+    return write([str(one) for one in head], shown, label)
 
 
 def _cell(value: Any) -> str:

@@ -25,6 +25,8 @@ def messages(path: str | Path, topics: Sequence[str], error: type[Exception]) ->
     try:
         user_file.check(path)
         with rosbag.Bag(str(path)) as bag:
+            if bag.get_message_count() == 0:  # it has no times either
+                return
             begin, end = bag.get_start_time(), bag.get_end_time()
             for topic, message, at in bag.read_messages(topics=[*topics]):
                 if reason := message_check.fault(message):

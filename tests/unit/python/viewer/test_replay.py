@@ -330,7 +330,7 @@ def test_a_damaged_bag_is_played_or_refused_in_a_sentence(tmp_path, compression)
     path, chosen = tmp_path / "shift.bag", random.Random(1)
     whole = small_bag(path, compression)
     refused = 0
-    for _ in range(60):
+    for _ in range(120):
         damaged = bytearray(whole)
         at = chosen.randrange(len(damaged))
         damaged[at : at + 4] = chosen.choice((b"\xff" * 4, bytes(4), chosen.randbytes(4)))

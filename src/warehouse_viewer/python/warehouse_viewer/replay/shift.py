@@ -81,7 +81,7 @@ def figures(ops: Operations) -> dict[str, Any]:
 def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
     """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
     RunFeed.objects."""
-    watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects)
+    watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 
