@@ -15,7 +15,7 @@ void Drive::openTopics(const kiva::Parameters& p) {
   odometry_frame_ = frame(p.text("odometryFrame", "odom"));
   base_frame_ = frame(p.text("robotBaseFrame", "base_footprint"));
   odometry_ = advertise<nav_msgs::Odometry>(p.text("odometryTopic", "odom"));
-  transforms_ = advertise<tf2_msgs::TFMessage>("tf", 100);
+  transforms_ = advertise<tf2_msgs::TFMessage>(shared("tf"), 100);
   commands_ = subscribe<geometry_msgs::Twist>(p.text("commandTopic", "cmd_vel"));
 }
 

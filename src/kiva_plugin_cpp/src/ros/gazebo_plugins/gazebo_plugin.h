@@ -93,6 +93,8 @@ class GazeboPlugin : public kiva::Plugin {
     throw kiva::DescriptionError("topic '" + node_->resolveName(topic) +
                                  "' is published with another type");
   }
+  /// Returns the name of a topic that all robots of the world share, whatever their namespaces.
+  std::string shared(const std::string& topic) const { return root_.resolveName(topic); }
   template <typename Message>
   PluginInput<Message> subscribe(const std::string& topic) {
     return inputs_.subscribe<Message>(node(), topic);
