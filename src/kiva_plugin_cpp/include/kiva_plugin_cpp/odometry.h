@@ -11,7 +11,7 @@ namespace kiva {
 /// localisation is realistic.
 struct Odometry {
   Vector3 pose;                              ///< (x, y, yaw) in world [m, rad], yaw unwrapped.
-  std::array<double, 9> pose_covariance{};   ///< Of x, y, yaw, row by row.
+  std::array<double, 9> pose_covariance{};   ///< Covariance of x, y, yaw, row by row.
   double speed = 0;                          ///< Ahead [m/s].
   double turn_rate = 0;                      ///< [rad/s]
   std::array<double, 4> twist_covariance{};  ///< Of speed and turn rate, row by row.

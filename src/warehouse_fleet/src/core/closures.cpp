@@ -69,7 +69,7 @@ bool Closures::isWaitedFor(Cell unit, const Fleet& fleet) const {
   return false;
 }
 
-/// Returns the cells that have been closed for so long that robots had better turn back.
+/// Returns the cells whose closure has lasted long enough for robots to turn back.
 Closures::Closed Closures::lasting(const Closed& now) {
   std::map<Cell, int> since;
   const auto chosen = [&](const std::vector<Cell>& cells) {

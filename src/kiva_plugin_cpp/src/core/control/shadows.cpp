@@ -34,14 +34,14 @@ int findLoad(const ModelView& world, int robot, int shelf_id) {
   return at->second;
 }
 
-/// What is told of a shadow is published as what is so of a robot. Where it may be is the models'
-/// to say.
-void checkTold(const ShadowReport& told) {
-  const RobotReport& report = told.report;
+/// Refuses a report whose fields no robot could have: a shadow's report is published as a robot's
+/// state. The pose is checked where the model is placed.
+void checkReport(const ShadowReport& shadow) {
+  const RobotReport& report = shadow.report;
   if (!(std::isfinite(report.x) && std::isfinite(report.y) && std::isfinite(report.yaw))) {
     fail("the pose of a shadow must be finite");
   }
-  if (!(told.charge >= 0 && told.charge <= 1)) fail("the charge of a shadow must be 0 to 1");
+  if (!(shadow.charge >= 0 && shadow.charge <= 1)) fail("the charge of a shadow must be 0 to 1");
   const auto end = static_cast<EventKind>(report.last_end);
   if (report.last_end != 0 && end != EventKind::kDone && end != EventKind::kBlocked) {
     fail("the last end of a shadow must be 0, DONE or BLOCKED");
@@ -92,7 +92,7 @@ bool isThere(const Fleet& f, int robot, const RobotReport& report) {
 }  // namespace
 
 void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& told) {
-  checkTold(told);
+  checkReport(told);
   const int robot = findRobot(world, kiva_id);
   const int unit = findLoad(world, robot, told.report.shelf_id);
   if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, told.report)) {

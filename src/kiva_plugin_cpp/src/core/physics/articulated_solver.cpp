@@ -10,7 +10,7 @@ namespace kiva {
 namespace {
 
 constexpr int kMostRows = 400;          // of either kind: a direct solution takes their cube
-constexpr double kNoBound = 1e15;       // an impulse that is beyond is none
+constexpr double kNoBound = 1e15;       // larger limits of an impulse count as unlimited
 constexpr double kSharing = 1e-9;       // see Ldl
 constexpr double kInert = 1e-6;         // least share of its mobility that joints left of a row
 constexpr double kNearlyStill = 1e-12;  // [m/s, rad/s]

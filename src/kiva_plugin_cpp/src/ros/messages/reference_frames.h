@@ -20,7 +20,7 @@ ScopedName splitScoped(const std::string& name);
 
 /// Returns the model or link that a name means, as Gazebo's World::EntityByName does: by its scoped
 /// name, or the first called so, each model before its links, models in the order in which they
-/// were added. Returns nothing if there is none.
+/// were added. Returns nullopt for an unknown name.
 std::optional<ScopedName> findEntity(const kiva::World& world, const std::string& name);
 
 /// Returns the model and the name in it of a joint, given as `model::joint` or by its name alone,

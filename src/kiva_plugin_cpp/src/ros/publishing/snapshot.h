@@ -38,7 +38,7 @@ struct RobotPose {
   kiva::Pose base;                           ///< In world.
   kiva::Twist twist;                         ///< In base_link.
   bool is_exact = true;                      ///< What follows is 0 then: pose and twist are true.
-  std::array<double, 9> pose_covariance{};   ///< Of x, y, yaw.
+  std::array<double, 9> pose_covariance{};   ///< Covariance of x, y, yaw.
   std::array<double, 4> twist_covariance{};  ///< Of speed ahead and turn rate.
   double wheel_angle[2] = {0, 0};            ///< Left, right [rad].
   double tower = 0;                          ///< Above its rest [m].

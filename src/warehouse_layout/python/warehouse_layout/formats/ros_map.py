@@ -31,7 +31,7 @@ from warehouse_layout.layout_file import LayoutFile
 
 SPECK = 0.12  # what is smaller than this along x and y is noise [m]
 OFF = 1.5  # pixels that walls are off their axis at their ends, at most, where an angle was found
-CLEAR = math.radians(0.5)  # an angle that is right within this is told without a doubt
+CLEAR = math.radians(0.5)  # an angle known within this is given without its uncertainty
 ISLAND = 4  # cells of floor that are joined to no other: fewer are noise
 
 MODES = TRINARY, SCALE, RAW = "trinary", "scale", "raw"

@@ -31,7 +31,7 @@ class Prices:
     hours: float = 20_000.0
 
     def per_hour(self, robots: int, stations: int, units: int) -> float:
-        """Returns what so many of each cost an hour; stations: picking and replenishing ones."""
+        """Returns the cost of these counts an hour; stations: picking and replenishing stations."""
         bought = self.robot * robots + self.station * stations + self.unit * units
         return bought / self.hours + self.hour * stations
 
