@@ -124,8 +124,9 @@ std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
   return std::nullopt;
 }
 
-/// Looks for gaps in floors of several parts, unless these are so large that it takes long.
-void warnOfGaps(ModelView& world) {
+/// Returns whether gaps are looked for: not in planes, nor where the floor is so large that the
+/// search takes long.
+bool mayHaveGaps(const Scene& world) {
   int parts = 0;
   bool has_plane = false;
   forSurfaces(world, [&](const LevelSurface& surface) {
@@ -137,8 +138,11 @@ void warnOfGaps(ModelView& world) {
   const double cell = world.settings.grid_spacing;
   const double cells =
       (extent.max_x - extent.min_x) * (extent.max_y - extent.min_y) / (cell * cell);
-  if (has_plane || parts == 0 || cells > kMostCells) return;
-  const std::optional<PathPoint> gap = findGap(world, FloorCover(world));
+  return !has_plane && parts > 0 && cells <= kMostCells;
+}
+
+void warnOfGaps(ModelView& world, const FloorCover& cover) {
+  const std::optional<PathPoint> gap = findGap(world, cover);
   if (!gap) return;
   std::ostringstream text;
   text << "the floor has a gap beside (" << gap->x << ", " << gap->y
@@ -198,13 +202,17 @@ void findFloorParts(ModelView& world) {
   const double usual = std::min(holds, world.floor.friction);
   if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(world.log, usual);
   warnOfBumps(world);
-  warnOfGaps(world);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;
     if (differs && isAtFloor(world.floor, surface)) is_alike = false;
   });
-  world.floor.cover = is_alike ? nullptr : std::make_shared<const FloorCover>(world);
+  world.floor.cover = nullptr;
+  const bool is_searched = mayHaveGaps(world);
+  if (is_alike && !is_searched) return;
+  const auto cover = std::make_shared<const FloorCover>(world);
+  if (is_searched) warnOfGaps(world, *cover);
+  if (!is_alike) world.floor.cover = cover;
 }
 
 }  // namespace kiva

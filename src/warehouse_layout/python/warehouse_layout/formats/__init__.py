@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and writes layouts in the formats of others, told apart by what files hold.
+"""Reads and writes layouts in the formats of others, recognised by the content of a file.
 
-Where that does not tell, the end of the name does; what is written goes by the name.
+Where the content is ambiguous, the suffix decides; what is written goes by the name.
 
     told = formats.convert(Path("hall.dxf"), Path("hall.layout.yaml"))
     for sentence in told:                          # what could not be carried over

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads plant models of openTCS, `.xml`: points become cells, paths the directions of streets.
 
-Locations are served at the points that they are linked to; what they are for is told by the words
-in their names and types, and by the operations that these allow.
+Locations are served at the points that they are linked to. Their purpose follows from the words in
+their names and types, and from the operations that these allow.
 """
 
 import math
