@@ -22,7 +22,7 @@ import rospy
 import rosservice
 
 from gazebo_msgs.srv import GetModelState
-from warehouse_layout import request
+from warehouse_layout.file import request
 from warehouse_msgs.msg import WarehouseState
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.tracker import topics_allowed

@@ -18,7 +18,7 @@ import time
 
 import numpy as np
 
-from warehouse_fleet.scorer import linear
+from warehouse_fleet.planners.scorer import linear
 from warehouse_learning.operations_env import KivaOperationsEnv, run_shift, usual
 from warehouse_operations.policies.decisions import FEATURES, SHORTLIST
 from warehouse_operations.policies.learned import best_of

@@ -18,12 +18,13 @@ import argparse
 import numpy as np
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import Rules, epibt, scorer
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.learned_planner import ROLE, Learned, Rollout
-from warehouse_fleet.local_view import LocalView
-from warehouse_fleet.plan_loop import GUIDANCE, HORIZON
-from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet import Rules, epibt
+from warehouse_fleet.planners import scorer
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.planners.learned_planner import ROLE, Learned, Rollout
+from warehouse_fleet.planners.local_view import LocalView
+from warehouse_fleet.planners.plan_loop import GUIDANCE, HORIZON
+from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_learning.marl.mlp import Adam, log_softmax
 
 BATCH, RATE = 512, 3e-3

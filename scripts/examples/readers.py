@@ -81,7 +81,8 @@ def _found(folder):
 
 
 def _layout(file):
-    from warehouse_layout import file_check, layout_file
+    from warehouse_layout.file import layout_file
+    from warehouse_layout.place import file_check
 
     faults = file_check.faults(layout_file.read(file))
     if faults:
@@ -102,13 +103,13 @@ def _realism(file):
 
 
 def _sweep(file):
-    from warehouse_operations import sweep
+    from warehouse_operations.runs import sweep
 
     sweep.read(file)
 
 
 def _layers(file):
-    from warehouse_layout.formats import dxf_layers
+    from warehouse_layout.convert.dxf import layers as dxf_layers
 
     dxf_layers.read(file)
 
@@ -123,7 +124,7 @@ def _planner(file):
     import numpy as np
 
     from warehouse_fleet import Floor, Rules
-    from warehouse_fleet.planner_plugins import make_planner
+    from warehouse_fleet.planners.planner_plugins import make_planner
 
     with _found("src/warehouse_fleet/examples"):
         make_planner(Floor(np.ones((4, 4), bool)), Rules(), 1, yaml.safe_load(file.read_text()))

@@ -9,9 +9,11 @@ import subprocess
 import sys
 import tempfile
 
-from warehouse_layout import drawn_floor, formats, generator, station_lanes
-from warehouse_layout.placement import plan_of
-from warehouse_layout.request import PRESETS
+from warehouse_layout import convert as formats
+from warehouse_layout.file import drawn_floor, station_lanes
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
+from warehouse_layout.place.placement import plan_of
 
 READ = pathlib.Path(__file__).with_name("read_lif.py")
 AREAS = ("exits", "passable", "storage", "parking")

@@ -15,7 +15,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 import warehouse_learning  # noqa: E402, F401  registers the environment
 from warehouse_learning.operations_env import KivaOperationsEnv, run_shift, usual  # noqa: E402
 from warehouse_learning.warehouses import ActionError  # noqa: E402
-from warehouse_operations import simulation  # noqa: E402
+from warehouse_operations.runs import simulation  # noqa: E402
 
 ALL = ("orders", "units", "robots")
 OPTIONS = {"size": "small", "minutes": 5, "robots": 3}

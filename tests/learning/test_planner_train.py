@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("gymnasium", reason="gymnasium is missing: scripts/learning_packages")
 
 from kiva_plugin_cpp import World  # noqa: E402
-from warehouse_fleet.fleet_driver import FleetDriver  # noqa: E402
+from warehouse_fleet.hosts.fleet_driver import FleetDriver  # noqa: E402
 
 EXAMPLE = Path(__file__).parents[2] / "examples/planner_train.py"
 

@@ -17,7 +17,7 @@ from nav_msgs.srv import GetMap
 from node_test import call, latched, pid, wait_until
 from warehouse_test import Collector, Commander
 
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_msgs.msg import (
     CoordinatorState,
     Event,

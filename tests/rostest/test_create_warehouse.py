@@ -11,7 +11,7 @@ from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
 from warehouse_client.routes import point
-from warehouse_layout.models import KINDS, kind_and_number
+from warehouse_layout.models.models import KINDS, kind_and_number
 from warehouse_msgs.msg import WarehouseObjects
 
 

@@ -12,8 +12,8 @@ from warehouse_test import Commander, pose, state, world
 
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
-from warehouse_layout.cells import Cells
-from warehouse_layout.models import KINDS, MARKINGS, kind_and_number
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.models.models import KINDS, MARKINGS, kind_and_number
 from warehouse_msgs.msg import Event
 
 

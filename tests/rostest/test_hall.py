@@ -9,7 +9,7 @@ import rostest
 from node_test import PATIENCE, Listener, create, latched
 from warehouse_test import state, world
 
-from warehouse_layout.models import KINDS, kind_and_number
+from warehouse_layout.models.models import KINDS, kind_and_number
 from warehouse_msgs.msg import CoordinatorState, Event, Kpis
 
 

@@ -30,8 +30,8 @@ from warehouse_msgs.srv import (
     SubmitOrder,
     Transport,
 )
-from warehouse_operations import check, schema
-from warehouse_operations.database import open_engine
+from warehouse_operations.store import check, schema
+from warehouse_operations.store.database import open_engine
 
 AUTOMATIC, MANUAL = SetStationRequest.AUTOMATIC, SetStationRequest.MANUAL
 LONG = 120.0  # [s, wall]

@@ -30,8 +30,8 @@ from work_page import (
     submit,
 )
 
-from warehouse_operations import check, schema
-from warehouse_operations.database import open_engine
+from warehouse_operations.store import check, schema
+from warehouse_operations.store.database import open_engine
 
 MANY = 10_000  # orders
 FIRST = 10**6  # their ids

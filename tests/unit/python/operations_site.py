@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.stations import PICK, REPLENISH, Station
-from warehouse_operations.site import Site
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.stations import PICK, REPLENISH, Station
+from warehouse_operations.stock.site import Site
 
 BLOCK, LANE = 5, 5  # cells
 

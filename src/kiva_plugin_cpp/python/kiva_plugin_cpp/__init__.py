@@ -39,8 +39,8 @@ from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionEr
 from kiva_plugin_cpp.message_enums import EventKind, FailureKind, State, Status
 
 if TYPE_CHECKING:
-    from warehouse_layout.layout import Layout
-    from warehouse_layout.layout_file import LayoutFile
+    from warehouse_layout.file.layout_file import LayoutFile
+    from warehouse_layout.place.layout import Layout
 
 AnyPath = str | os.PathLike[str]
 
@@ -193,7 +193,9 @@ class World(_core.World):
 
         ValueError if the items don't fit or a number is negative or beyond the limits.
         """
-        from warehouse_layout import generated, layout, request
+        from warehouse_layout.file import request
+        from warehouse_layout.generate import generated
+        from warehouse_layout.place import layout
 
         wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
         plan = generated.plan(wanted, options.get("seed", layout.SEED))
@@ -215,12 +217,12 @@ class World(_core.World):
 
     @classmethod
     def of_layout(cls, laid: "Layout", *, own_models: bool = False, **options: Any) -> "World":
-        """Returns a warehouse as warehouse_layout.layout.plan() lays it out; options as of World.
+        """Builds what warehouse_layout.place.layout.plan() laid out; options as of World.
 
         Models of robots and units in model_paths replace those of worlds/models, unless own_models.
         """
         from kiva_plugin_cpp import layouts
-        from warehouse_layout import models
+        from warehouse_layout.models import models
 
         world = cls(**options)
         if laid.has_own_floor:

@@ -5,9 +5,11 @@ import os
 import tempfile
 from typing import TYPE_CHECKING, Any
 
-from warehouse_layout import layout_choice, layout_world, models, placement
-from warehouse_layout.layout import SEED, Layout
-from warehouse_layout.layout_file import LayoutFile
+from warehouse_layout.file.layout_file import LayoutFile
+from warehouse_layout.generate import layout_choice, layout_world
+from warehouse_layout.models import models
+from warehouse_layout.place import placement
+from warehouse_layout.place.layout import SEED, Layout
 
 if TYPE_CHECKING:
     from kiva_plugin_cpp import World

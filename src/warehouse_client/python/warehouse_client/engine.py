@@ -14,7 +14,7 @@ from gazebo_msgs.srv import (
     GetWorldProperties,
     SpawnModel,
 )
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 
 WAIT = 30.0  # for the world to come up [s, wall]
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from nav_msgs.srv import GetMap
 
-from warehouse_layout.floor_plan import FloorError, FloorPlan
+from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import Station
 
 

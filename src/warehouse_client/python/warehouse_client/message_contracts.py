@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from warehouse_client import message_names
-from warehouse_layout.models import KINDS
+from warehouse_layout.models.models import KINDS
 from warehouse_msgs.msg import Event, Look, OrderEvent, OrderStatus, Station, StationState, Vda5050
 
 Kinds = Mapping[Any, str]  # the values that a message defines, and their names

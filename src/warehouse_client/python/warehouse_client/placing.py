@@ -6,9 +6,9 @@ from itertools import count
 
 from warehouse_client import survey
 from warehouse_client.engine import Engine
-from warehouse_layout import models
-from warehouse_layout.cells import Cells
-from warehouse_layout.request import LIMITS, RequestError
+from warehouse_layout.file.request import LIMITS, RequestError
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.models import models
 
 NEAR = 0.95  # [m]: another robot that is no further along x and y is on the same cell
 OFF = 1e-3  # as much as a place may be off the grid [m], or a heading off a quarter turn [rad]

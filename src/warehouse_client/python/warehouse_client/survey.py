@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 from warehouse_client import routes
 from warehouse_client.engine import Engine
-from warehouse_layout import files, models
-from warehouse_layout.cells import Cells
+from warehouse_layout.file import files
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.models import models
 
 BELT = files.box_size("conveyor_belt")[:2]  # length and width [m]
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import TrackedObject
 
 

@@ -9,7 +9,7 @@ from nav_msgs.srv import GetMap
 
 from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, People, Scenery, UnitStates, WarehouseObjects
 
 

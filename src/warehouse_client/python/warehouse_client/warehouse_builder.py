@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from warehouse_client.engine import Engine, EngineError
-from warehouse_layout import models
-from warehouse_layout.layout import Layout
+from warehouse_layout.models import models
+from warehouse_layout.place.layout import Layout
 
 PROGRESS_EVERY = 3.0  # [s, wall]
 

@@ -11,6 +11,15 @@
 
 A cell is a number, y * width + x; a heading counts quarter turns from +x towards +y. A tick is the
 time of one cell at top speed, or of a quarter turn.
+
+Rooms, from the lowest; a module imports from its own room and from lower ones:
+
+    robots      what robots report, how they move and fail
+    planners    which cell each robot enters next
+    traffic     from goals to released cells
+    transports  requests and records of transports, and the phases of the dispatcher
+    hosts       the coordinator's node, and a fleet in one process with its world
+    league      problems and plans of the League of Robot Runners
 """
 
 from enum import IntEnum

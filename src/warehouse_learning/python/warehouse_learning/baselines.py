@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.transports import Kind
-from warehouse_layout.stations import PICK
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.transports.transports import Kind
+from warehouse_layout.floor.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import SIZES, Options

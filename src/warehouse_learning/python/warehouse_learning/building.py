@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from kiva_plugin_cpp import World, Worlds, layouts, worlds_folder
-from warehouse_layout import generated, layout, layout_choice, layout_world, placement, request
+from warehouse_layout.file import request
+from warehouse_layout.generate import generated, layout_choice, layout_world
+from warehouse_layout.place import layout, placement
 from warehouse_learning.options import Options
 
 

@@ -9,10 +9,10 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.transports import NOWHERE, Kind
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.stations import PICK
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.transports.transports import NOWHERE, Kind
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.fields import Field
 from warehouse_learning.grid import Grid

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 from warehouse_learning.options import Options
 
 FORMAT = "kiva-episode 1"

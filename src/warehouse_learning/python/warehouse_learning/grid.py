@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout.stations import PICK
+from warehouse_layout.floor.stations import PICK
 from warehouse_learning._core import Floor
 
 

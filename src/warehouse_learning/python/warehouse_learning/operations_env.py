@@ -12,10 +12,10 @@ import numpy as np
 from gymnasium import spaces
 
 from warehouse_learning.warehouses import ActionError
-from warehouse_operations import simulation
-from warehouse_operations.operations import Operations
 from warehouse_operations.policies.decisions import FEATURES, SHORTLIST, Decision
 from warehouse_operations.policies.learned import Orders, Robots, Units
+from warehouse_operations.runs import simulation
+from warehouse_operations.runs.operations import Operations
 
 ROLES = {"orders": Orders, "units": Units, "robots": Robots}
 DECIDES = ("units",)
@@ -29,8 +29,9 @@ class KivaOperationsEnv(gymnasium.Env):
     decides: the roles that are decided by actions, of `orders` (which order a station takes on),
     `units` (which unit is brought to it) and `robots` (which robot fetches it); the others have
     their default policies, or those of `policies`, as in a policy file. minutes: of a shift, which
-    is an episode. Other options as of warehouse_operations.simulation.Description: size or layout,
-    physics (False: ideal robots, hundreds of times as fast), orders, robots, stations, realism.
+    is an episode. Other options as of warehouse_operations.runs.simulation.Description: size or
+    layout, physics (False: ideal robots, hundreds of times as fast), orders, robots, stations,
+    realism.
 
     Observations are a dictionary: `role`, one hot in the order above, `candidates` (16, 8), a row
     for each that may be chosen, zeros beyond, and `mask` (16,), 1 where there is one. The reward is
@@ -80,7 +81,7 @@ class KivaOperationsEnv(gymnasium.Env):
     ) -> tuple[Any, dict[str, Any]]:
         """Begins a shift; the same seed begins the same one. Returns (observation, info).
 
-        Raises what a wrong description raises; see warehouse_operations.simulation.ERRORS.
+        Raises what a wrong description raises; see warehouse_operations.runs.simulation.ERRORS.
         """
         super().reset(seed=seed)
         self.close()

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from warehouse_layout import layout_choice, placement
-from warehouse_layout.layout_file import LayoutFileError
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.generate import layout_choice
+from warehouse_layout.place import placement
 
 REWARDS = {
     "delivered": 1.0,  # a requested unit stands at a station: its robot

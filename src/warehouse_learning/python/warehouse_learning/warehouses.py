@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_learning import building
 from warehouse_learning._core import Task
 from warehouse_learning.grid import Grid

@@ -7,11 +7,23 @@ from warehouse_operations import Operations
 ops = Operations(World.preset("large"), orders="fill", seed=1, physics=False)
 ops.run(hours=1)
 print(ops.kpis()["item_score"])
+
+Rooms, from the lowest; a module imports from its own room and from lower ones:
+
+    stock     SKUs, bins, orders, stations, where units stand
+    policies  decisions: which order, unit, bin, place, robot
+    shift     a shift at work: picking, replenishing, visits, manual stations
+    store     the database: written, read back, searched, checked
+    fleets    robots for a shift in one process: ideal ones, or those of a simulated world
+    runs      whole shifts in folders: simulate, sweep
+    reports   figures, comparisons, charts, pages
+    sizing    how many robots and stations a wish takes
+    ros       the nodes
 """
 
-from warehouse_operations.operations import Operations
 from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.shift import Settings, Shift
-from warehouse_operations.site import Site
+from warehouse_operations.runs.operations import Operations
+from warehouse_operations.shift.shift import Settings, Shift
+from warehouse_operations.stock.site import Site
 
 __all__ = ["Operations", "Policies", "PolicyError", "Settings", "Shift", "Site"]

@@ -18,8 +18,8 @@ from warehouse_client.message_check import subscribe
 from warehouse_client.routes import goals, route
 from warehouse_client.services import is_offered
 from warehouse_client.survey import Survey
-from warehouse_layout import poses
-from warehouse_layout.layout import Floor
+from warehouse_layout.floor import poses
+from warehouse_layout.place.layout import Floor
 from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.missions import Map, meeting, two_missions

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from warehouse_client.message_names import EVENT
-from warehouse_layout.models import kind_and_number
+from warehouse_layout.models.models import kind_and_number
 from warehouse_msgs.msg import Event
 
 _GREEN, _YELLOW, _RED, _BLUE, _DIM = 32, 33, 31, 34, 2

@@ -15,8 +15,8 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from warehouse_client import MOST_THREADS
-from warehouse_layout import world_file
-from warehouse_layout.request import FIT, LIMITS, PRESETS
+from warehouse_layout.file.request import FIT, LIMITS, PRESETS
+from warehouse_layout.models import world_file
 from warehouse_sim import layout_argument
 from warehouse_viewer.server import token
 
@@ -189,7 +189,7 @@ def _shift_takes(name: str) -> Check:
     """Accepts what a shift takes for its argument of that name."""
 
     def check(text: str, place: Place) -> str:
-        from warehouse_operations.simulation import ERRORS
+        from warehouse_operations.runs.simulation import ERRORS
 
         try:
             _of_the_shift(name, text, place)
@@ -204,7 +204,7 @@ def _of_the_shift(name: str, text: str, place: Place) -> str:
     # Most launches pass one of these.
     if text in ("", "fill", "none"):
         return text
-    from warehouse_operations import arguments
+    from warehouse_operations.ros import arguments
 
     return getattr(arguments, name)(text, place.cwd)
 

@@ -12,7 +12,7 @@ from xmlrpc.client import ServerProxy
 
 import rosgraph
 
-from warehouse_layout import files
+from warehouse_layout.file import files
 from warehouse_sim import launch_arguments
 from warehouse_sim.launch_arguments import Place
 

@@ -5,8 +5,9 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from warehouse_layout import layout_choice, layout_world, placement
-from warehouse_layout.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.generate import layout_choice, layout_world
+from warehouse_layout.place import placement
 
 NONE = "none"
 
@@ -26,7 +27,7 @@ def fault(text: str, cwd: Path) -> str:
 def _fault_of_shift(file: LayoutFile) -> str:
     if not file.policies:
         return ""
-    from warehouse_operations import layout_site
+    from warehouse_operations.runs import layout_site
 
     return layout_site.fault(file)
 

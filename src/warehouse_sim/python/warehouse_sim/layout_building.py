@@ -6,10 +6,13 @@ import os
 import numpy as np
 
 from warehouse_client.engine import Engine
-from warehouse_layout import files, layout_choice, layout_file, layout_world, models, placement
-from warehouse_layout.floor_plan import UNIT, occupancy_of
-from warehouse_layout.layout import SEED, Layout
-from warehouse_layout.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.file import files, layout_file
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.floor.floor_plan import UNIT, occupancy_of
+from warehouse_layout.generate import layout_choice, layout_world
+from warehouse_layout.models import models
+from warehouse_layout.place import placement
+from warehouse_layout.place.layout import SEED, Layout
 
 TAKEN = 100  # in the world's map: by what belongs to no warehouse
 

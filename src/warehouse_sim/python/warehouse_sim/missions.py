@@ -11,7 +11,7 @@ from typing import Any
 
 from warehouse_client.routes import STEPS, Grid, NoRouteError, covered, point, route
 from warehouse_client.survey import BELT, Survey
-from warehouse_layout.layout import Floor
+from warehouse_layout.place.layout import Floor
 
 # So many robots, units of each and belts of each unit are tried; the optimum is not needed.
 TRIES = 6

@@ -12,13 +12,13 @@ from warehouse_client import identity, survey
 from warehouse_client.build_transaction import BuildTransaction
 from warehouse_client.engine import Engine, EngineError
 from warehouse_client.warehouse_builder import UndoneError, WarehouseBuilder
-from warehouse_layout import models
-from warehouse_layout.cells import Cells
-from warehouse_layout.fit import fit, fit_largest
-from warehouse_layout.generated import plan
-from warehouse_layout.layout import SEED, Layout
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_layout.request import FIT, Request, RequestError, resolve
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.file.request import FIT, Request, RequestError, resolve
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.generate.fit import fit, fit_largest
+from warehouse_layout.generate.generated import plan
+from warehouse_layout.models import models
+from warehouse_layout.place.layout import SEED, Layout
 from warehouse_msgs.srv import CreateWarehouseResponse
 from warehouse_sim import hints
 from warehouse_sim.layout_building import LayoutBuilding

@@ -6,7 +6,7 @@ from typing import Any
 
 from warehouse_client.engine import Engine
 from warehouse_client.message_check import subscribe
-from warehouse_layout import models
+from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, MoveAlong
 
 PITCH = 3  # of the robots [m]; each needs the metre before it

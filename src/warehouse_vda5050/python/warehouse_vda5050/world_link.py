@@ -15,7 +15,7 @@ from warehouse_client.commands import COMMANDS
 from warehouse_client.message_check import wait_for
 from warehouse_client.services import is_offered
 from warehouse_client.unit_messages import unit_ids, unit_poses
-from warehouse_layout.floor_plan import FloorError, FloorPlan
+from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import (
     Event,
     FleetFollow,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import rosbag
 
 from warehouse_client import message_check
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 
 
 class Recorded(NamedTuple):

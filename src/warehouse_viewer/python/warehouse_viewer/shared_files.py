@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from warehouse_layout import files
+from warehouse_layout.file import files
 
 SHARE = files.share(__file__)
 WEB = SHARE / "web"  # the page

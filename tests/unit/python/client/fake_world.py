@@ -10,7 +10,8 @@ from geometry_msgs.msg import Pose
 from nav_msgs.srv import GetMapResponse
 
 from warehouse_client import tracking
-from warehouse_layout import models, poses
+from warehouse_layout.floor import poses
+from warehouse_layout.models import models
 
 
 class FakeWorld(FakeRos):

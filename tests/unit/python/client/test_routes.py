@@ -6,7 +6,7 @@ import math
 import pytest
 
 from warehouse_client.routes import Grid, NoRouteError, covered, elbow, goals, route
-from warehouse_layout.layout import Floor
+from warehouse_layout.place.layout import Floor
 
 FLOOR = Floor(-0.5, 5.5, -0.5, 4.5)  # points 0…5 x 0…4
 

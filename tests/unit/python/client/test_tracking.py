@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from warehouse_client import tracking
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import UnitStates, WarehouseObjects
 
 

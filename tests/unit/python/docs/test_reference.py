@@ -295,7 +295,7 @@ def test_each_advice_leads_to_a_place(told):
 
 def test_each_key_of_a_layout_file_is_listed():
     text = (ROOT / "doc/reference/layouts.md").read_text()
-    from warehouse_layout import layout_reader
+    from warehouse_layout.file import layout_reader
 
     for key in (*layout_reader._KEYS, *layout_reader._STATION_KEYS):
         assert f"`{key}`" in text or f"{{{key}:" in text, key

@@ -4,9 +4,9 @@
 import numpy as np
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import reports_of
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.robots.robot_table import reports_of
 
 BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
   <collision name="body"><pose>0 0 0.3 0 0 0</pose>

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from warehouse_fleet.robot_table import REPORT
+from warehouse_fleet.robots.robot_table import REPORT
 
 DELIVERY = 0.02  # between two looks whether messages have arrived [s]
 

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.charging import Opportunity, Threshold
-from warehouse_fleet.controller import FleetController
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_fleet.hosts.controller import FleetController
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.transports.charging import Opportunity, Threshold
+from warehouse_layout.floor.floor_plan import FloorPlan
 
 LONG = float(os.environ.get("CHARGING_MINUTES", "0"))
 MINUTES = LONG or 8

@@ -9,10 +9,11 @@ from operations_site import site
 from test_failures import Fleet
 
 from kiva_plugin_cpp import EventKind, World
-from warehouse_operations import Operations, check
-from warehouse_operations.database import open_engine
-from warehouse_operations.report import page
-from warehouse_operations.runs import read, write
+from warehouse_operations import Operations
+from warehouse_operations.reports.report import page
+from warehouse_operations.runs.run_files import read, write
+from warehouse_operations.store import check
+from warehouse_operations.store.database import open_engine
 
 FAST = 0.85, 1.0  # [m/s]: a unit that is stopped at once does not tip yet
 LOOSE = {"item_friction_least": 0.03, "item_friction_most": 0.03, "pick_up_after": 0}

@@ -8,12 +8,12 @@ import pytest
 from paths import ROOT
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.message_enums import Mode
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import NOWHERE, REPORT, RobotTable
-from warehouse_fleet.transports import STAY, Kind, Step
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.robots.message_enums import Mode
+from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
+from warehouse_fleet.transports.transports import STAY, Kind, Step
+from warehouse_layout.floor.floor_plan import FloorPlan
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 

@@ -6,9 +6,9 @@ import json
 import numpy as np
 import pytest
 
-from warehouse_fleet import problem
-from warehouse_fleet.drive_order import order_of
-from warehouse_fleet.league_plan import read_plan
+from warehouse_fleet.league import problem
+from warehouse_fleet.league.drive_order import order_of
+from warehouse_fleet.league.league_plan import read_plan
 
 FLOOR = ["....", ".@..", "...."]
 GOOD = {

@@ -5,13 +5,14 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import Action, Fleet, Rules, scorer, validate
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.learned_planner import ROLE
-from warehouse_fleet.local_view import LocalView
-from warehouse_fleet.planner_plugins import PlannerError, make_planner, read_spec
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.transports import Kind
+from warehouse_fleet import Action, Fleet, Rules, validate
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.planners import scorer
+from warehouse_fleet.planners.learned_planner import ROLE
+from warehouse_fleet.planners.local_view import LocalView
+from warehouse_fleet.planners.planner_plugins import PlannerError, make_planner, read_spec
+from warehouse_fleet.transports.transports import Kind
 from warehouse_layout import Floor
 
 LEARNED = {"planner": "learned"}
@@ -93,7 +94,9 @@ def test_lanes_are_no_short_cuts():
 )
 def test_wrong_options_are_told(options, said):
     floor = Floor(np.ones((2, 2)))
-    with pytest.raises(PlannerError, match="planner 'warehouse_fleet.learned_planner:Learned'"):
+    with pytest.raises(
+        PlannerError, match="planner 'warehouse_fleet.planners.learned_planner:Learned'"
+    ):
         make_planner(floor, Rules(), 1, LEARNED | {"options": options})
     with pytest.raises(PlannerError, match=said):
         make_planner(floor, Rules(), 1, LEARNED | {"options": options})

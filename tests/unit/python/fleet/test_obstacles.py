@@ -10,10 +10,10 @@ import pytest
 from fault_site import BOX, Site
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.obstacles import in_the_way
-from warehouse_fleet.transports import Kind
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.stations import STEPS
+from warehouse_fleet.traffic.obstacles import in_the_way
+from warehouse_fleet.transports.transports import Kind
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.stations import STEPS
 
 FREE = 900  # within which no robot is near a cell [s]
 STANDS = 60  # for which something is in the way [s]

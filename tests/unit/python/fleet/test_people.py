@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from test_failures import Fleet
 
-from warehouse_fleet.people import PeopleLog, people_in, zone_around
+from warehouse_fleet.traffic.people import PeopleLog, people_in, zone_around
 
 CROSSINGS = int(os.environ.get("CROSSINGS", "0"))
 WARM_UP = 30  # [s]

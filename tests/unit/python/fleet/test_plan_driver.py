@@ -5,14 +5,15 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import Rules, drive_report, generator
-from warehouse_fleet.drive_order import order_of
-from warehouse_fleet.league_floor import layout_of
-from warehouse_fleet.league_plan import ACTIONS, HEADINGS, LeaguePlan
-from warehouse_fleet.lifelong import Lifelong, floor_of
-from warehouse_fleet.plan_driver import Cause, PlanDriver, upright
-from warehouse_fleet.planner_plugins import make_planner
-from warehouse_fleet.problem import Problem
+from warehouse_fleet import Rules
+from warehouse_fleet.league import drive_report, generator
+from warehouse_fleet.league.drive_order import order_of
+from warehouse_fleet.league.league_floor import layout_of
+from warehouse_fleet.league.league_plan import ACTIONS, HEADINGS, LeaguePlan
+from warehouse_fleet.league.lifelong import Lifelong, floor_of
+from warehouse_fleet.league.plan_driver import Cause, PlanDriver, upright
+from warehouse_fleet.league.problem import Problem
+from warehouse_fleet.planners.planner_plugins import make_planner
 
 
 def plan_of(floor, starts, paths):

@@ -8,7 +8,12 @@ import pytest
 from paths import ROOT
 
 from warehouse_fleet import Action, Fleet, Rules, epibt, validate
-from warehouse_fleet.planner_plugins import PlannerError, PlanRefusedError, make_planner, read_spec
+from warehouse_fleet.planners.planner_plugins import (
+    PlannerError,
+    PlanRefusedError,
+    make_planner,
+    read_spec,
+)
 from warehouse_layout import Floor, FloorError
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from paths import ROOT
 
-from warehouse_fleet import Rules, delays, generator, problem, result_check
+from warehouse_fleet import Rules
+from warehouse_fleet.league import delays, generator, problem, result_check
 
 PLAN = ROOT / "src/warehouse_fleet/nodes/plan"
 STEPS = {0: (0, 1), 1: (1, 0), 2: (0, -1), 3: (-1, 0)}  # east, south, west, north: row, column

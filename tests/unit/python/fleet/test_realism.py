@@ -6,8 +6,8 @@ import pytest
 from test_failures import Fleet
 
 from kiva_plugin_cpp import DescriptionError, EventKind, Status, World, worlds_folder
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
 
 KIVA = (worlds_folder() / "models" / "kiva" / "model.sdf").read_text()
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from warehouse_fleet.ring_breaking import NO_ROBOT, RingBreaker, rings_of
+from warehouse_fleet.league.ring_breaking import NO_ROBOT, RingBreaker, rings_of
 
 ROWS, COLUMNS = 5, 6
 SQUARE = (7, 8, 14, 13)  # cells of a ring, in its order

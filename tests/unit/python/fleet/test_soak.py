@@ -10,8 +10,8 @@ import os
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
 
 SEEDS = range(1, 1 + int(os.environ.get("SOAK_SEEDS", "0")))
 LAYOUTS = ("medium", "large", "huge")  # 20, 100 and 1,000 robots

@@ -6,9 +6,11 @@ import pytest
 from paths import ROOT
 
 from kiva_plugin_cpp import World
-from warehouse_layout import generator, layout_file, placement
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.request import PRESETS
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.generate import generator
+from warehouse_layout.place import placement
 
 LAYOUTS = ROOT / "tests" / "layouts"
 NORTH, IN_HALL = LAYOUTS / "north.layout.yaml", LAYOUTS / "in_hall.layout.yaml"

@@ -6,9 +6,9 @@ import pytest
 from nav_msgs.msg import OccupancyGrid
 
 from warehouse_client.routes import STEPS
-from warehouse_layout.cells import Cells
-from warehouse_layout.fit import fit
-from warehouse_layout.request import PRESETS, Request, RequestError, resolve
+from warehouse_layout.file.request import PRESETS, Request, RequestError, resolve
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.generate.fit import fit
 
 
 def cells(width, height, taken=()):

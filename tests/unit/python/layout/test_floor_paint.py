@@ -7,8 +7,8 @@ from nav_msgs.msg import OccupancyGrid
 from test_floor_plan import same
 
 from kiva_plugin_cpp import World
-from warehouse_layout import floor_markings, painted
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.floor import floor_markings, painted
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
 from warehouse_viewer.drawing import markers
 from warehouse_viewer.drawing.drawing import Drawing, Moment

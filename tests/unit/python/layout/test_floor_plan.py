@@ -7,11 +7,14 @@ import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, Rules, epibt
-from warehouse_layout import FloorError, floor_markings, generated, models
-from warehouse_layout.floor_plan import FloorPlan
-from warehouse_layout.layout import plan
-from warehouse_layout.request import PRESETS, resolve
-from warehouse_layout.world_file import insertable
+from warehouse_layout import FloorError
+from warehouse_layout.file.request import PRESETS, resolve
+from warehouse_layout.floor import floor_markings
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.generate import generated
+from warehouse_layout.models import models
+from warehouse_layout.models.world_file import insertable
+from warehouse_layout.place.layout import plan
 
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {

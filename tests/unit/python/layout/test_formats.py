@@ -7,9 +7,10 @@ import time
 import numpy as np
 import pytest
 
-from warehouse_layout import formats, layout_file
-from warehouse_layout.formats import FormatError
-from warehouse_layout.layout_file import lines_of
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import lines_of
 
 LEAGUE = """type octile
 height 8

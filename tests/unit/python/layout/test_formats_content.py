@@ -5,10 +5,12 @@ import shutil
 
 import pytest
 
-from warehouse_layout import formats, generator, layout_file
-from warehouse_layout.formats import FormatError
-from warehouse_layout.layout_file import lines_of
-from warehouse_layout.request import Request
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import lines_of
+from warehouse_layout.file.request import Request
+from warehouse_layout.generate import generator
 
 WRITTEN = [".layout.yaml", ".lif.json", ".sdf", ".map"]
 

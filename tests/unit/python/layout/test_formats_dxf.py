@@ -6,9 +6,9 @@ import math
 import ezdxf
 import pytest
 
-from warehouse_layout import formats
-from warehouse_layout.formats import FormatError
-from warehouse_layout.layout_file import lines_of
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.file.layout_file import lines_of
 
 FLOOR = [
     "##############",

@@ -6,11 +6,14 @@ import json
 
 import pytest
 
-from warehouse_layout import drawn_floor, file_check, formats, generator, station_lanes
-from warehouse_layout.formats import FormatError
-from warehouse_layout.layout_file import lines_of
-from warehouse_layout.placement import plan_of
-from warehouse_layout.request import PRESETS
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.file import drawn_floor, station_lanes
+from warehouse_layout.file.layout_file import lines_of
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
+from warehouse_layout.place import file_check
+from warehouse_layout.place.placement import plan_of
 
 
 def plan(file):

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from paths import ROOT
 
-from warehouse_layout import drawn_floor, file_check, formats, layout_file, station_lanes
-from warehouse_layout.formats import FormatError
-from warehouse_layout.formats.rawsim_instance import read_floor
-from warehouse_layout.placement import plan_of
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.convert.rawsim.instance import read_floor
+from warehouse_layout.file import drawn_floor, layout_file, station_lanes
+from warehouse_layout.place import file_check
+from warehouse_layout.place.placement import plan_of
 
 sys.path.append(str(ROOT / "tests/unit/python/operations"))
 from instance_file import write_hall_instance, write_instance  # noqa: E402

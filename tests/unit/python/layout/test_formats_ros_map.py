@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from warehouse_layout import formats, placement
-from warehouse_layout.formats import FormatError
+from warehouse_layout import convert as formats
+from warehouse_layout.convert import FormatError
+from warehouse_layout.place import placement
 
 RESOLUTION = 0.05
 ROOM = (12.0, 8.0)  # inner size [m]
@@ -259,7 +260,7 @@ def server(path, occupied=0.65, free=0.196, mode="trinary", negate=False):
 def test_pixels_are_read_as_map_server_does(tmp_path, mode, negate, kind):
     from PIL import Image
 
-    from warehouse_layout.formats import images, ros_map
+    from warehouse_layout.convert.maps import images, ros_map
 
     colours, suffix = kind.split()
     shape = (16, 16) if colours == "L" else (16, 16, len(colours))

@@ -6,12 +6,12 @@ import pytest
 from paths import WORLDS
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_layout import rooms
-from warehouse_layout.cells import Cells
-from warehouse_layout.fit import fit, fit_largest
-from warehouse_layout.request import RequestError, resolve
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_layout.file.request import RequestError, resolve
+from warehouse_layout.generate import rooms
+from warehouse_layout.generate.cells import Cells
+from warehouse_layout.generate.fit import fit, fit_largest
 from warehouse_operations import Operations
 
 # Where the walls are: x from, to, y from, to [m].

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from warehouse_client.routes import Grid, covered, point
-from warehouse_layout import generated
-from warehouse_layout.items import BOARDS, CAPACITY, PLACES, spread
-from warehouse_layout.layout import plan
-from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS, resolve
+from warehouse_layout.file.items import BOARDS, CAPACITY, PLACES, spread
+from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, resolve
+from warehouse_layout.generate import generated
+from warehouse_layout.place.layout import plan
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 

@@ -6,8 +6,10 @@ import time
 import numpy as np
 import pytest
 
-from warehouse_layout import Floor, drawn_floor, file_check, layout_faults
-from warehouse_layout import layout_file as lf
+from warehouse_layout import Floor, layout_faults
+from warehouse_layout.file import drawn_floor
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.place import file_check
 
 
 def drawn(*lines, stations="", more=""):

@@ -12,9 +12,9 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from paths import ROOT
 
-from warehouse_layout import generator
-from warehouse_layout import layout_file as lf
-from warehouse_layout.request import PRESETS
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
 
 PROGRAM = ROOT / "src" / "warehouse_layout" / "nodes" / "layout"
 

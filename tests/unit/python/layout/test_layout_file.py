@@ -6,7 +6,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from warehouse_layout import layout_file as lf
+from warehouse_layout.file import layout_file as lf
 
 TEXT = """layout: 1
 name: north hall

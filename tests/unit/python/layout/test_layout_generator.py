@@ -7,10 +7,11 @@ import re
 import numpy as np
 import pytest
 
-from warehouse_layout import compact, file_check, generator, placement
-from warehouse_layout import layout as regular
-from warehouse_layout import layout_file as lf
-from warehouse_layout.request import PRESETS, Request, RequestError, resolve
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.file.request import PRESETS, Request, RequestError, resolve
+from warehouse_layout.generate import compact, generator
+from warehouse_layout.place import file_check, placement
+from warehouse_layout.place import layout as regular
 
 ARRAYS = ("robots", "units", "places", "item_unit", "item_place", "belts", "drops")
 PLAN = ("passable", "storage", "parking", "exits")

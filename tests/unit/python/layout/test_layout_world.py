@@ -9,10 +9,14 @@ import pytest
 from paths import ROOT
 
 from kiva_plugin_cpp import World
-from warehouse_layout import compact, drawn_floor, from_world, generator, placement, world_export
-from warehouse_layout import layout_file as lf
-from warehouse_layout.floor_plan import BELT, FloorPlan
-from warehouse_layout.request import PRESETS, Request
+from warehouse_layout.convert import from_world
+from warehouse_layout.file import drawn_floor
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.file.request import PRESETS, Request
+from warehouse_layout.floor.floor_plan import BELT, FloorPlan
+from warehouse_layout.generate import compact, generator
+from warehouse_layout.models import world_export
+from warehouse_layout.place import placement
 
 HALL = """layout: 1
 name: north hall

@@ -3,8 +3,8 @@
 
 import pytest
 
-from warehouse_layout.items import CAPACITY
-from warehouse_layout.request import (
+from warehouse_layout.file.items import CAPACITY
+from warehouse_layout.file.request import (
     LIMITS,
     MOST_STATIONS,
     PRESETS,

@@ -7,8 +7,8 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from warehouse_layout._core import Floor, routes, ways
-from warehouse_layout.layout import plan
-from warehouse_layout.request import resolve
+from warehouse_layout.file.request import resolve
+from warehouse_layout.place.layout import plan
 
 STEP, TURN = 2 / 3, 2.125  # [s]
 

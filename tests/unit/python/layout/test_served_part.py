@@ -5,11 +5,11 @@ rest."""
 import numpy as np
 import pytest
 
-from warehouse_fleet.robot_table import RobotTable
-from warehouse_fleet.transports import Transports
+from warehouse_fleet.robots.robot_table import RobotTable
+from warehouse_fleet.transports.transports import Transports
 from warehouse_layout import FloorError
-from warehouse_layout.floor_plan import PICK, FloorPlan, Station
-from warehouse_layout.served_part import served_part
+from warehouse_layout.floor.floor_plan import PICK, FloorPlan, Station
+from warehouse_layout.floor.served_part import served_part
 
 EVERY_WAY = 0b1111
 

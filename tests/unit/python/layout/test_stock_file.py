@@ -3,8 +3,9 @@
 
 import pytest
 
-from warehouse_layout import layout_file, placement, stock_file
-from warehouse_layout.stock_file import StockFileError, StockRow
+from warehouse_layout.file import layout_file, stock_file
+from warehouse_layout.file.stock_file import StockFileError, StockRow
+from warehouse_layout.place import placement
 
 HEAD = "sku,quantity,storage_unit\n"
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from warehouse_layout import walls
+from warehouse_layout.file import walls
 
 
 def drawn(*lines):

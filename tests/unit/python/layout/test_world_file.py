@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from warehouse_layout.world_file import WorldFileError, find, insertable
+from warehouse_layout.models.world_file import WorldFileError, find, insertable
 
 WORLD = """<sdf version="1.9"><world name="w">
   <gravity>0 0 -9.81</gravity>

@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from warehouse_layout import layout_file as lf
-from warehouse_layout.layout_file import LayoutFile, StationEntry
-from warehouse_layout.stations import STEPS
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.file.layout_file import LayoutFile, StationEntry
+from warehouse_layout.floor.stations import STEPS
 
 LOWEST = "A"
 

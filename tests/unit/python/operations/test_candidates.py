@@ -5,10 +5,10 @@ finds."""
 import numpy as np
 import pytest
 
-from warehouse_operations.candidates import Candidates
-from warehouse_operations.inventory import Bin, Inventory, Reason
-from warehouse_operations.orders import Order
-from warehouse_operations.units_by_id import UnitSet
+from warehouse_operations.stock.candidates import Candidates
+from warehouse_operations.stock.inventory import Bin, Inventory, Reason
+from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.units_by_id import UnitSet
 
 SKUS = [f"sku-{i}" for i in range(6)]
 

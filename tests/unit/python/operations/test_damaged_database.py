@@ -11,10 +11,11 @@ import pytest
 from operations_site import site
 from sqlalchemy import text
 
-from warehouse_operations import Operations, check
-from warehouse_operations.database import DatabaseError, open_engine
-from warehouse_operations.engines import lock
-from warehouse_operations.returning import SiteError
+from warehouse_operations import Operations
+from warehouse_operations.store import check
+from warehouse_operations.store.database import DatabaseError, open_engine
+from warehouse_operations.store.engines import lock
+from warehouse_operations.store.returning import SiteError
 
 PAGE = 4096
 

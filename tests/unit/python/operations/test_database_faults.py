@@ -13,8 +13,9 @@ from paths import HELPERS
 from postgres import running, server
 from sqlalchemy import func, select
 
-from warehouse_operations import Operations, check, schema
-from warehouse_operations.database import DatabaseError, open_engine
+from warehouse_operations import Operations
+from warehouse_operations.store import check, schema
+from warehouse_operations.store.database import DatabaseError, open_engine
 
 # Dies when its writer has sent all rows of a transaction and is about to commit it.
 KILLED = """

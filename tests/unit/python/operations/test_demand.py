@@ -6,9 +6,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from warehouse_operations.assortment import Assortment
-from warehouse_operations.demand import Customers, Poisson, make_demand
-from warehouse_operations.order_file import DemandError, Wanted, parse_csv, read_csv
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.demand import Customers, Poisson, make_demand
+from warehouse_operations.stock.order_file import DemandError, Wanted, parse_csv, read_csv
 
 GOOD = "reference,sku,quantity,at,due,priority\n"
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from operations_site import site
 
-from warehouse_fleet.kinematics import Kinematics
-from warehouse_fleet.transports import STAY, Kind
-from warehouse_layout import layout
-from warehouse_layout.request import PRESETS
-from warehouse_operations.ideal import IdealFleet
-from warehouse_operations.travel import Travel
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.transports.transports import STAY, Kind
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.place import layout
+from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.stock.travel import Travel
 
 
 def run(fleet, until):

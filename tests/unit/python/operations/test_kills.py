@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy import text
 
-from warehouse_operations import check
-from warehouse_operations.database import open_engine
+from warehouse_operations.store import check
+from warehouse_operations.store.database import open_engine
 
 KILLS = int(os.environ.get("KILLS", "0"))
 PATIENCE = 180.0  # [s, wall]

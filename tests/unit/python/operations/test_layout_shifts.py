@@ -7,13 +7,15 @@ from pathlib import Path
 import pytest
 from paths import ROOT
 
-from warehouse_layout import file_check, layout_file
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_operations import runs, simulation, sweep
-from warehouse_operations.locks import InUseError
-from warehouse_operations.rawsim import InstanceError
-from warehouse_operations.simulation import Description, open_operations, simulate
-from warehouse_operations.sweep import SweepError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.place import file_check
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs import simulation, sweep
+from warehouse_operations.runs.rawsim import InstanceError
+from warehouse_operations.runs.simulation import Description, open_operations, simulate
+from warehouse_operations.runs.sweep import SweepError
+from warehouse_operations.store.locks import InUseError
 
 NORTH = str(ROOT / "tests" / "layouts" / "north.layout.yaml")
 

@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 from operations_site import site
 
-from warehouse_fleet import scorer
-from warehouse_operations import Operations, Policies, PolicyError, simulation
+from warehouse_fleet.planners import scorer
+from warehouse_operations import Operations, Policies, PolicyError
 from warehouse_operations.policies import decisions, learned
-from warehouse_operations.protocols import Task
+from warehouse_operations.runs import simulation
+from warehouse_operations.stock.protocols import Task
 
 ROLES = "orders", "units", "robots"
 

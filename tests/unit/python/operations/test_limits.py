@@ -8,9 +8,10 @@ import sqlite3
 import pytest
 from instance_file import write_instance
 
-from warehouse_operations import comparison, limits, report_front
-from warehouse_operations.limits import Window, when
-from warehouse_operations.simulation import Description, simulate
+from warehouse_operations.reports import comparison, limits
+from warehouse_operations.reports import front as report_front
+from warehouse_operations.reports.limits import Window, when
+from warehouse_operations.runs.simulation import Description, simulate
 
 HOURS, QUIET, PEAK = 6, 60, 420  # orders an hour; the peak is the third and fourth hour
 

@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 from operations_site import site
 
-from warehouse_operations import Operations, check
-from warehouse_operations.changes import ChangeJournal
-from warehouse_operations.database import open_engine
-from warehouse_operations.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
-from warehouse_operations.message_enums import Mode
-from warehouse_operations.queries import find_orders
+from warehouse_operations import Operations
+from warehouse_operations.fleets.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
+from warehouse_operations.shift.changes import ChangeJournal
+from warehouse_operations.stock.message_enums import Mode
+from warehouse_operations.store import check
+from warehouse_operations.store.database import open_engine
+from warehouse_operations.store.queries import find_orders
 
 REPLENISH = "replenish3"
 

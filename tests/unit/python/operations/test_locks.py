@@ -12,9 +12,10 @@ from operations_site import site
 from paths import HELPERS
 from postgres import server
 
-from warehouse_operations import Operations, check
-from warehouse_operations.database import DatabaseError, open_engine
-from warehouse_operations.locks import FileLock, InUseError
+from warehouse_operations import Operations
+from warehouse_operations.store import check
+from warehouse_operations.store.database import DatabaseError, open_engine
+from warehouse_operations.store.locks import FileLock, InUseError
 
 SINCE = r"since \d{4}-\d\d-\d\d \d\d:\d\d:\d\d"
 HOLDER = """

@@ -12,11 +12,11 @@ from instance_file import write_instance
 from mutations import mutated
 
 from kiva_plugin_cpp import DescriptionError, World
-from warehouse_operations import sweep
-from warehouse_operations.demand import DemandError, read_csv
 from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.rawsim import InstanceError, read_instance
-from warehouse_operations.rawsim_settings import read_settings
+from warehouse_operations.runs import sweep
+from warehouse_operations.runs.rawsim import InstanceError, read_instance
+from warehouse_operations.runs.rawsim_settings import read_settings
+from warehouse_operations.stock.demand import DemandError, read_csv
 
 COUNT = int(os.environ.get("MUTATIONS", "60"))
 SETTINGS = """<?xml version="1.0"?>

@@ -4,8 +4,9 @@
 import pytest
 from operations_site import site
 
-from warehouse_operations import Operations, order_table
-from warehouse_operations.queries import matching
+from warehouse_operations import Operations
+from warehouse_operations.shift import order_table
+from warehouse_operations.store.queries import matching
 
 TWO = "reference,sku,quantity,due,priority\nA,sku-1,2,1800,3\nA,sku-2,1,1800,3\nB,sku-3,1,,\n"
 

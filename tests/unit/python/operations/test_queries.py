@@ -7,9 +7,9 @@ import pytest
 from operations_site import site
 
 from warehouse_operations import Operations
-from warehouse_operations.database import open_engine
-from warehouse_operations.message_enums import OrderState
-from warehouse_operations.queries import find_orders, find_stock
+from warehouse_operations.stock.message_enums import OrderState
+from warehouse_operations.store.database import open_engine
+from warehouse_operations.store.queries import find_orders, find_stock
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,10 @@ from random_layout import layout
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Operations
-from warehouse_layout import file_check, layout_file
-from warehouse_operations import layout_site
-from warehouse_operations.site import Site
+from warehouse_layout.file import layout_file
+from warehouse_layout.place import file_check
+from warehouse_operations.runs import layout_site
+from warehouse_operations.stock.site import Site
 
 LAYOUTS = int(os.environ.get("LAYOUTS", "30"))
 WITH_PHYSICS = 10 if LAYOUTS <= 30 else 1  # of so many, one is run with physics too

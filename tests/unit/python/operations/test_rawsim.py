@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from instance_file import write_hall_instance, write_instance
 
-from warehouse_operations import Operations, rawsim_policies, simulation
-from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.rawsim import InstanceError, read_instance
-from warehouse_operations.rawsim_settings import read_settings
-from warehouse_operations.simulation import Description, open_operations, simulate
+from warehouse_operations import Operations
+from warehouse_operations.policies import Policies, PolicyError, rawsim_policies
+from warehouse_operations.runs import simulation
+from warehouse_operations.runs.rawsim import InstanceError, read_instance
+from warehouse_operations.runs.rawsim_settings import read_settings
+from warehouse_operations.runs.simulation import Description, open_operations, simulate
 
 
 @pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])

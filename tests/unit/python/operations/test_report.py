@@ -18,10 +18,13 @@ import pytest
 from instance_file import write_instance
 from paths import ROOT
 
-from warehouse_fleet.kinematics import Kinematics
-from warehouse_operations import Settings, bar_charts, charts, comparison, report, runs, sweep
-from warehouse_operations.kpis import upper_bound
-from warehouse_operations.simulation import Description, simulate
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_operations import Settings
+from warehouse_operations.reports import bar_charts, charts, comparison, report
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs import sweep
+from warehouse_operations.runs.simulation import Description, simulate
+from warehouse_operations.shift.kpis import upper_bound
 
 SOURCES = ROOT / "src"
 KPIS = re.findall(

@@ -15,10 +15,10 @@ import pytest
 from browser import browser
 from instance_file import write_instance
 
-from warehouse_layout import page_font
-from warehouse_operations import report
+from warehouse_layout.drawing import page_font
 from warehouse_operations.document import canvas, page, sheets, tokens
-from warehouse_operations.simulation import Description, simulate
+from warehouse_operations.reports import report
+from warehouse_operations.runs.simulation import Description, simulate
 
 DESIGN = paths.ROOT / "src" / "warehouse_viewer" / "web" / "design.css"
 SIZE = paths.ROOT / "src" / "warehouse_operations" / "nodes" / "size"

@@ -10,9 +10,9 @@ import pytest
 from operations_site import site
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.transports import STAY, Kind, Step
-from warehouse_operations.ideal import IdealFleet
+from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.transports.transports import STAY, Kind, Step
+from warehouse_operations.fleets.ideal import IdealFleet
 
 UNIT, STATION = 2, "pick1"
 PATIENCE = 600  # [s]

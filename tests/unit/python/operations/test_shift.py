@@ -17,12 +17,14 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
-from warehouse_operations import Operations, check, demand, queries, stored
-from warehouse_operations.database import DatabaseError, open_engine
-from warehouse_operations.inventory import Reason
-from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
-from warehouse_operations.returning import SiteError
-from warehouse_operations.settings import Settings
+from warehouse_operations import Operations
+from warehouse_operations.stock import demand
+from warehouse_operations.stock.inventory import Reason
+from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.store import check, queries, stored
+from warehouse_operations.store.database import DatabaseError, open_engine
+from warehouse_operations.store.returning import SiteError
 
 PICK, REPLENISH = "pick1", "replenish3"
 
@@ -290,7 +292,7 @@ def test_a_bin_that_is_gone_from_the_floor_is_written_off(tmp_path):
 
 
 def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_path):
-    from warehouse_operations import schema
+    from warehouse_operations.store import schema
 
     engine = open_engine(tmp_path / "run.db")
     steps = {schema.VERSION: lambda c: c.execute(text("ALTER TABLE unit ADD COLUMN colour TEXT"))}

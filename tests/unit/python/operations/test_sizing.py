@@ -17,12 +17,10 @@ import pytest
 from paths import ROOT
 from scipy import stats
 
-from warehouse_layout import generator, layout_choice, layout_file
-from warehouse_layout.request import Request
-from warehouse_operations import comparison, order_mix, warm_up
-from warehouse_operations.assortment import Assortment
-from warehouse_operations.demand import make_demand
-from warehouse_operations.order_file import DemandError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.request import Request
+from warehouse_layout.generate import generator, layout_choice
+from warehouse_operations.reports import comparison, warm_up
 from warehouse_operations.sizing import point, prices, sites, table
 from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.point import SERIES, Record
@@ -31,6 +29,10 @@ from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.study import Study, choose
 from warehouse_operations.sizing.verdict import RISK, Verdict, difference
 from warehouse_operations.sizing.wish import ImpossibleError, Wish, WishError
+from warehouse_operations.stock import order_mix
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.demand import make_demand
+from warehouse_operations.stock.order_file import DemandError
 
 NODE = ROOT / "src" / "warehouse_operations" / "nodes" / "size"
 COMMON = ("--orders-per-hour", 120, "--hours", 1, "--seeds", 3, "--late", "20%", "--robots", 6)

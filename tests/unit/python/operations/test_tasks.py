@@ -6,12 +6,13 @@ from dataclasses import replace
 import pytest
 from operations_site import site
 
-from warehouse_operations import Operations, check, stored
-from warehouse_operations.database import open_engine
-from warehouse_operations.message_enums import Mode, OrderState, Outcome
-from warehouse_operations.orders import Bundle, Order
-from warehouse_operations.tasks import UNDO_WITHIN, Report
-from warehouse_operations.totes import Totes
+from warehouse_operations import Operations
+from warehouse_operations.shift.tasks import UNDO_WITHIN, Report
+from warehouse_operations.stock.message_enums import Mode, OrderState, Outcome
+from warehouse_operations.stock.orders import Bundle, Order
+from warehouse_operations.stock.totes import Totes
+from warehouse_operations.store import check, stored
+from warehouse_operations.store.database import open_engine
 
 PICK, REPLENISH = "pick1", "replenish3"
 

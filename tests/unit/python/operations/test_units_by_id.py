@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from warehouse_operations.units_by_id import UnitCells, UnitSet
+from warehouse_operations.stock.units_by_id import UnitCells, UnitSet
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -8,8 +8,9 @@ import pytest
 from instance_file import write_instance
 from scipy import stats
 
-from warehouse_operations import comparison, report, runs, verdicts
-from warehouse_operations.simulation import Description, simulate
+from warehouse_operations.reports import comparison, report, verdicts
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.simulation import Description, simulate
 
 FILLS = 30  # minutes until the shifts below are at work
 

@@ -10,8 +10,8 @@ import yaml
 
 from warehouse_client.routes import Grid, covered, elbow, point
 from warehouse_client.survey import BELT, Survey, of_models
-from warehouse_layout.layout import plan
-from warehouse_layout.request import PRESETS, resolve
+from warehouse_layout.file.request import PRESETS, resolve
+from warehouse_layout.place.layout import plan
 from warehouse_sim import hints
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from warehouse_layout import files
+from warehouse_layout.file import files
 from warehouse_sim import launch_arguments, launching
 from warehouse_sim.launching import Caller, LaunchError, master_of
 

@@ -4,7 +4,7 @@
 import pytest
 from paths import ROOT
 
-from warehouse_layout import files
+from warehouse_layout.file import files
 from warehouse_sim import layout_argument
 
 LAYOUTS = ROOT / "tests" / "layouts"

@@ -4,9 +4,9 @@
 import pytest
 from operations_site import site
 
-from warehouse_layout import files
+from warehouse_layout.file import files
 from warehouse_operations import Operations
-from warehouse_operations.locks import FileLock
+from warehouse_operations.store.locks import FileLock
 from warehouse_sim.launch_arguments import Place, faults, value
 
 

@@ -7,7 +7,7 @@ import pytest
 import rospy
 from fake_ros import FakeRos, fleet_state
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim.state import StatePublisher
 

@@ -12,7 +12,7 @@ from rospy.topics import _PublisherImpl
 
 from warehouse_client import tracking
 from warehouse_client.latest import LatestMessages, LazyPublisher
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 from warehouse_sim import tracker
 

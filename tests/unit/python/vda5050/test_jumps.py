@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.controller import FleetController, Observation
-from warehouse_fleet.message_enums import Mode, State, Status
-from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import NOWHERE, REPORT
-from warehouse_fleet.unit_map import UnitPoses
-from warehouse_layout.floor_plan import FloorPlan
+from warehouse_fleet.hosts.controller import FleetController, Observation
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.robots.message_enums import Mode, State, Status
+from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
+from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_vda5050 import model
 from warehouse_vda5050.errors import Error
 from warehouse_vda5050.grid import Grid

@@ -14,8 +14,8 @@ sys.path.append(str(paths.ROOT / "tests" / "rostest"))
 
 from browser import browser  # noqa: E402, F401 (for the tests)
 
-from warehouse_layout import layout_file  # noqa: E402
-from warehouse_layout.request import PRESETS  # noqa: E402
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.request import PRESETS  # noqa: E402
 
 PATIENCE = 60.0  # with a machine that has much to do [s, wall]
 EDIT = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "edit"

@@ -8,12 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from warehouse_fleet import league_plan, planner_plugins, problem, scorer
-from warehouse_layout import csv_table, layout_file, sdf_world, user_file, world_file
-from warehouse_layout.formats import common, rawsim_xml, ros_map
+from warehouse_fleet.league import league_plan, problem
+from warehouse_fleet.planners import planner_plugins, scorer
+from warehouse_layout.convert import common
+from warehouse_layout.convert.maps import ros_map
+from warehouse_layout.convert.rawsim import xml_fields as rawsim_xml
+from warehouse_layout.file import csv_table, layout_file, user_file
+from warehouse_layout.models import sdf_world, world_file
 from warehouse_learning import episodes
 from warehouse_learning.marl import policy
-from warehouse_operations import engines, yaml_file
+from warehouse_operations.stock import yaml_file
+from warehouse_operations.store import engines
 from warehouse_vda5050.master import robots_file
 from warehouse_vda5050.mqtt import settings
 from warehouse_viewer.drawing import recording

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 from warehouse_learning.marl.mlp import Adam
 
 KINDS = "weight", "mean", "square"

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from warehouse_layout import drawn_floor, layout_choice, placement, station_lanes
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_layout.stations import PICK
+from warehouse_layout.file import drawn_floor, station_lanes
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.floor.stations import PICK
+from warehouse_layout.generate import layout_choice
+from warehouse_layout.place import placement
 
 AISLE = 3  # a column of shelves is two cells wide, with a highway beside it
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kiva_plugin_cpp import COMMAND, EventKind, Kind, Status, World, Worlds
-from warehouse_layout import layout
+from warehouse_layout.place import layout
 from warehouse_learning import building
 from warehouse_learning.rware.task import Action, Direction, Task
 

@@ -14,7 +14,7 @@ from matplotlib import font_manager
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from warehouse_layout import page_font
+from warehouse_layout.drawing import page_font
 from warehouse_operations.document import tokens
 
 WIDE, NARROW = 680, 350  # [px]

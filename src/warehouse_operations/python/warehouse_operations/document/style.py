@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a report looks: on a screen of any width, dark and light, and on A4."""
 
-from warehouse_layout import page_font
+from warehouse_layout.drawing import page_font
 from warehouse_operations.document import tokens
 
 NARROW = 620  # [px] below which charts are drawn narrow

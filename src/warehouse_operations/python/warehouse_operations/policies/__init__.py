@@ -17,27 +17,27 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from warehouse_fleet import charging
-from warehouse_layout.formats.rawsim_xml import InstanceError
-from warehouse_operations import rawsim_policies
-from warehouse_operations.inventory import Bin
-from warehouse_operations.orders import Bundle, Line, Order
+from warehouse_fleet.transports import charging
+from warehouse_layout.convert.rawsim.xml_fields import InstanceError
 from warehouse_operations.policies import (
     bins,
     idle,
     learned,
     order_assignment,
+    rawsim_policies,
     replenishment,
     robots,
     storage,
     unit_choice,
 )
-from warehouse_operations.protocols import Task
-from warehouse_operations.stations import WorkStation
-from warehouse_operations.yaml_file import read_yaml
+from warehouse_operations.stock.inventory import Bin
+from warehouse_operations.stock.orders import Bundle, Line, Order
+from warehouse_operations.stock.protocols import Task
+from warehouse_operations.stock.stations import WorkStation
+from warehouse_operations.stock.yaml_file import read_yaml
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 
 class OrderAssignment(Protocol):

@@ -4,11 +4,11 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from warehouse_operations.inventory import Bin
-from warehouse_operations.orders import Bundle
+from warehouse_operations.stock.inventory import Bin
+from warehouse_operations.stock.orders import Bundle
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 
 class Random:

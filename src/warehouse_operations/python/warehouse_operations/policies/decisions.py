@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from warehouse_operations.candidates import Candidates
-from warehouse_operations.orders import Order
 from warehouse_operations.policies.order_assignment import PileOn
 from warehouse_operations.policies.unit_choice import MostLines
-from warehouse_operations.protocols import Task
-from warehouse_operations.stations import WorkStation
+from warehouse_operations.stock.candidates import Candidates
+from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.protocols import Task
+from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 SHORTLIST = 16  # candidates that are looked at
 FEATURES = 8

@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.scorer import Scorer, linear, load
-from warehouse_operations.candidates import Candidates
-from warehouse_operations.orders import Order
+from warehouse_fleet.planners.scorer import Scorer, linear, load
 from warehouse_operations.policies.decisions import (
     FEATURES,
     Decision,
@@ -22,11 +20,13 @@ from warehouse_operations.policies.decisions import (
     decision_on_robot,
     decision_on_unit,
 )
-from warehouse_operations.protocols import Task
-from warehouse_operations.stations import WorkStation
+from warehouse_operations.stock.candidates import Candidates
+from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.protocols import Task
+from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 # Straight weights that come along, learnt from the default policies by
 # examples/operations_train.py --size medium --robots 8 --imitated 4 --generations 0.

@@ -4,11 +4,11 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from warehouse_operations.orders import Order
-from warehouse_operations.stations import WorkStation
+from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 
 class Random:

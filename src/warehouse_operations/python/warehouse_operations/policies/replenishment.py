@@ -4,10 +4,10 @@
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from warehouse_operations.demand import BUNDLE_LEAST, BUNDLE_MOST
+from warehouse_operations.stock.demand import BUNDLE_LEAST, BUNDLE_MOST
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 AHEAD = 10 * BUNDLE_MOST  # most pieces of a SKU that wait for bins while orders lack more
 

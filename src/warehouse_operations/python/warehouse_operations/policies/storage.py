@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 
 class Random:

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_operations.candidates import Candidates
-from warehouse_operations.stations import WorkStation
+from warehouse_operations.stock.candidates import Candidates
+from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
-    from warehouse_operations.view import View
+    from warehouse_operations.policies.view import View
 
 
 class Random:

@@ -4,9 +4,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from warehouse_operations import limits
-from warehouse_operations.comparison import CONFIDENCE
-from warehouse_operations.limits import Limit
+from warehouse_operations.reports import limits
+from warehouse_operations.reports.comparison import CONFIDENCE
+from warehouse_operations.reports.limits import Limit
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
 from warehouse_operations.sizing.wish import count, named

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from warehouse_operations.charts import LINES
 from warehouse_operations.document import canvas, tokens
 from warehouse_operations.document.canvas import Canvas
 from warehouse_operations.document.chart import Chart
+from warehouse_operations.reports.charts import LINES
 from warehouse_operations.sizing.answer import knee
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict

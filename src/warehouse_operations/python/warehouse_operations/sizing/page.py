@@ -10,13 +10,13 @@ from pathlib import Path
 from warehouse_operations.document import page as document
 from warehouse_operations.document import sheets
 from warehouse_operations.policies import Policies
-from warehouse_operations.runs import REPORT
+from warehouse_operations.runs.run_files import REPORT
+from warehouse_operations.runs.version import version
 from warehouse_operations.sizing import figures, table
 from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.wish import Wish, count
-from warehouse_operations.version import version
 
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"

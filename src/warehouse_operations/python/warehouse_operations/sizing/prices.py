@@ -13,7 +13,7 @@ Each may be left out: it costs nothing then.
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from warehouse_operations.yaml_file import read_yaml
+from warehouse_operations.stock.yaml_file import read_yaml
 
 
 class PriceError(Exception):

@@ -4,11 +4,11 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from warehouse_layout import placement
-from warehouse_layout.layout_file import LayoutFile
-from warehouse_operations import layout_site
-from warehouse_operations.operations import Operations
-from warehouse_operations.site import Site
+from warehouse_layout.file.layout_file import LayoutFile
+from warehouse_layout.place import placement
+from warehouse_operations.runs import layout_site
+from warehouse_operations.runs.operations import Operations
+from warehouse_operations.stock.site import Site
 
 if TYPE_CHECKING:
     from kiva_plugin_cpp import World

@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
 VERSION = 2  # of what is kept; another one is simulated again

@@ -15,10 +15,10 @@ from functools import cached_property
 import numpy as np
 from scipy import special
 
-from warehouse_operations.comparison import CONFIDENCE, LEAST, Estimate
-from warehouse_operations.limits import Window, windows_of
+from warehouse_operations.reports.comparison import CONFIDENCE, LEAST, Estimate
+from warehouse_operations.reports.limits import Window, windows_of
+from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.sizing.point import SERIES, Record
-from warehouse_operations.warm_up import mser5
 
 FIRST = LEAST  # shifts after which a point that is far off is given up
 MORE = (1, 2, 4)  # times the seeds of a wish, at which a point is judged

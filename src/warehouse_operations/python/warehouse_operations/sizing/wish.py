@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import file_check, layout_file, placement
-from warehouse_layout.layout_file import LayoutFile
-from warehouse_operations import kpis, layout_site, order_mix
-from warehouse_operations.order_file import read_csv
-from warehouse_operations.settings import UNITS_MOST
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFile
+from warehouse_layout.place import file_check, placement
+from warehouse_operations.runs import layout_site
+from warehouse_operations.shift import kpis
 from warehouse_operations.sizing import sites
 from warehouse_operations.sizing.point import Point
+from warehouse_operations.stock import order_mix
+from warehouse_operations.stock.order_file import read_csv
+from warehouse_operations.stock.settings import UNITS_MOST
 
 LINES, PIECES = 1.55, 1.05  # of an order, of a line: those of simulate's own orders
 AT_WORK = 2  # robots a unit that may be on its way to stations: another one is on its way back

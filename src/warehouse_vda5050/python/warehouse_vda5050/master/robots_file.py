@@ -16,7 +16,7 @@ from typing import Any
 
 import yaml
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 from warehouse_vda5050.master.frame import Frame
 from warehouse_vda5050.topics import Identity, TopicError
 

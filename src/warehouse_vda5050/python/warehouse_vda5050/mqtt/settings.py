@@ -4,7 +4,7 @@
 import pathlib
 from dataclasses import dataclass
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 
 
 class BrokerError(ValueError):

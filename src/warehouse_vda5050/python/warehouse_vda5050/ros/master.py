@@ -15,9 +15,9 @@ import rospy
 from warehouse_client.engine import Engine, EngineError
 from warehouse_client.services import is_offered
 from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.message_enums import EventKind as Kind
-from warehouse_fleet.message_enums import FailureKind, Mode
-from warehouse_layout import models
+from warehouse_fleet.robots.message_enums import EventKind as Kind
+from warehouse_fleet.robots.message_enums import FailureKind, Mode
+from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
 from warehouse_vda5050.grid import Grid

@@ -10,7 +10,7 @@ import numpy as np
 from warehouse_client import tracking
 from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
 from warehouse_client.tracking import Tracked
-from warehouse_layout.models import kind_and_number
+from warehouse_layout.models.models import kind_and_number
 from warehouse_msgs.msg import (
     CoordinatorState,
     Event,

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from warehouse_client import tracking
-from warehouse_layout import floor_markings, painted, poses
+from warehouse_layout.floor import floor_markings, painted, poses
 from warehouse_viewer.drawing import looks, markers
 from warehouse_viewer.page.activities import Activity, activity
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from warehouse_fleet.drive_report import WORDS
-from warehouse_fleet.plan_driver import Cause
+from warehouse_fleet.league.drive_report import WORDS
+from warehouse_fleet.league.plan_driver import Cause
 from warehouse_operations.document import canvas
 
 SIZE = (1040, 360)  # [px]

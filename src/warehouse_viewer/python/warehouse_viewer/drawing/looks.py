@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates
 from warehouse_viewer.drawing import shapes
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import floor_markings, poses
-from warehouse_layout.floor_markings import Mark
-from warehouse_layout.painted import served
+from warehouse_layout.floor import floor_markings, poses
+from warehouse_layout.floor.floor_markings import Mark
+from warehouse_layout.floor.painted import served
 from warehouse_msgs.msg import Look, Scenery
 from warehouse_viewer.drawing import looks, shapes
 from warehouse_viewer.drawing.shapes import Shape, Text

@@ -3,9 +3,9 @@
 
 from typing import Any
 
-from warehouse_layout import drawn_floor, layout_file, station_lanes
-from warehouse_layout.file_check import faults
-from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError
+from warehouse_layout.file import drawn_floor, layout_file, station_lanes
+from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError
+from warehouse_layout.place.file_check import faults
 
 NAME = "layout"  # of the text, in errors
 

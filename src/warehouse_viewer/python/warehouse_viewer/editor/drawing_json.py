@@ -3,8 +3,8 @@
 
 from typing import Any
 
-from warehouse_layout import layout_file
-from warehouse_layout.layout_file import LayoutFile, StationEntry
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFile, StationEntry
 
 
 def of_file(file: LayoutFile) -> dict[str, Any]:

@@ -8,8 +8,8 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 
-from warehouse_layout import layout_file
-from warehouse_layout.layout_file import SUFFIX, LayoutFile, LayoutFileError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import SUFFIX, LayoutFile, LayoutFileError
 
 COMPANIONS = (".pgm", ".png", ".bmp", ".csv")  # of files that name them; a grid stands alone
 
@@ -20,7 +20,7 @@ def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
     if str(path).endswith(SUFFIX):
         return layout_file.read(path), []
     try:
-        formats = importlib.import_module("warehouse_layout.formats")
+        formats = importlib.import_module("warehouse_layout.convert")
     except ImportError as error:
         raise LayoutFileError(
             f"{PurePath(path).name}: only {SUFFIX} files can be opened here: {error}"

@@ -13,9 +13,10 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 from starlette.routing import Route
 
-from warehouse_layout import generated, layout_file
-from warehouse_layout.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
+from warehouse_layout.generate import generated
 from warehouse_viewer.editor import checking, drawing_json, opening
 from warehouse_viewer.json_text import JSONResponse, dumps
 from warehouse_viewer.server.site import LAYOUT

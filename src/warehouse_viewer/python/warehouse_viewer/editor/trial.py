@@ -12,12 +12,13 @@ import time as clock
 from collections.abc import Iterator
 from typing import Any
 
-from warehouse_layout import layout_file
-from warehouse_layout.file_check import faults
-from warehouse_layout.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.placement import place
-from warehouse_operations import Operations, PolicyError, Site, layout_site
-from warehouse_operations.ideal import IdealFleet
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.place.file_check import faults
+from warehouse_layout.place.placement import place
+from warehouse_operations import Operations, PolicyError, Site
+from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.runs import layout_site
 from warehouse_viewer.json_text import dumps
 
 SECONDS = 600.0  # that robots work, simulated

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_viewer.json_text import dumps
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.activities import wait_too_long

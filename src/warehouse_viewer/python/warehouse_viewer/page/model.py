@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import floor_markings, poses
+from warehouse_layout.floor import floor_markings, poses
 from warehouse_viewer.json_text import dumps
 from warehouse_viewer.page import paint, protocol
 from warehouse_viewer.page.activities import activity

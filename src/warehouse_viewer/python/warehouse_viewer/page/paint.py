@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import floor_markings, painted
-from warehouse_layout.floor_markings import HEADINGS, QUEUE, Mark
+from warehouse_layout.floor import floor_markings, painted
+from warehouse_layout.floor.floor_markings import HEADINGS, QUEUE, Mark
 
 YAWS = dict(zip(HEADINGS, np.arange(4) * np.pi / 2, strict=True))
 APART = 3  # from one arrow of a street to the next [cells]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout.models import FLOOR, kind_and_number
+from warehouse_layout.models.models import FLOOR, kind_and_number
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.pace import Pace
 from warehouse_viewer.page.source import Source

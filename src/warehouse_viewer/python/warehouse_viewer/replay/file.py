@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 from warehouse_viewer.page import protocol
 from warehouse_viewer.replay import blocks
 from warehouse_viewer.replay.blocks import Block, RecordingError

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_viewer.page.world_source import COLUMNS, Looks, Stamp, scenery_of
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from warehouse_fleet.coordinator_messages import state_message
-from warehouse_fleet.waiting import Waiting
-from warehouse_operations.operations import Operations
-from warehouse_operations.stations import WorkStation
+from warehouse_fleet.hosts.coordinator_messages import state_message
+from warehouse_fleet.transports.waiting import Waiting
+from warehouse_operations.runs.operations import Operations
+from warehouse_operations.stock.stations import WorkStation
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.replay.blocks import RecordingError

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import rospkg
 
-from warehouse_layout import layout_choice, layout_file
-from warehouse_layout.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.generate import layout_choice
 
 FOLDER = Path("warehouse", "layouts")  # below ROS_HOME
 

@@ -13,7 +13,7 @@ from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
 from warehouse_client import identity, placing, services
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
-from warehouse_layout import models
+from warehouse_layout.models import models
 from warehouse_viewer.page.source import AwayError, RefusedError
 
 # What is offered under which service; types by name, since not every engine has them all.

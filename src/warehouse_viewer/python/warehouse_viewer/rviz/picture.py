@@ -9,7 +9,7 @@ from visualization_msgs.msg import MarkerArray
 
 from warehouse_client import tracking
 from warehouse_client.latest import LatestMessages, LazyPublisher
-from warehouse_layout import painted, poses
+from warehouse_layout.floor import painted, poses
 from warehouse_msgs.msg import (
     CoordinatorPaths,
     FleetPaths,

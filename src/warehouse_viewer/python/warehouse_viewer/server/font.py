@@ -4,7 +4,7 @@
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-from warehouse_layout import page_font
+from warehouse_layout.drawing import page_font
 
 CACHED = "private, max-age=604800"
 

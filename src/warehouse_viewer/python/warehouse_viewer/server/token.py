@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Mapping
 from pathlib import Path
 
-from warehouse_layout import user_file
+from warehouse_layout.file import user_file
 
 VARIABLE = "WAREHOUSE_TOKEN"
 

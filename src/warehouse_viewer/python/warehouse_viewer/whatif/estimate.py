@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from statistics import median
 from typing import NamedTuple
 
-from warehouse_operations.runs import Run
+from warehouse_operations.runs.run_files import Run
 
 START = 4.0  # of a process, and its report [s, wall]
 # Wall seconds that a robot takes for a simulated one, without and with physics.

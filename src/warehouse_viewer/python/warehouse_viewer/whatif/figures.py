@@ -12,16 +12,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from warehouse_operations import limits
-from warehouse_operations.comparison import (
+from warehouse_operations.reports import limits
+from warehouse_operations.reports.comparison import (
     Difference,
     Estimate,
     Group,
     difference_of,
     holm,
 )
-from warehouse_operations.runs import Run
-from warehouse_operations.verdicts import figures_of, warm_up
+from warehouse_operations.reports.verdicts import figures_of, warm_up
+from warehouse_operations.runs.run_files import Run
 
 MORE, LESS, NEITHER = 1, -1, 0  # is better
 

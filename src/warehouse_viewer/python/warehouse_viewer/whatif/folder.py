@@ -11,14 +11,15 @@ from pathlib import Path
 
 import numpy as np
 
-from warehouse_layout import layout_choice, layout_file, stock_file
-from warehouse_layout.layout_file import SUFFIX, LayoutFileError
-from warehouse_layout.request import LIMITS
-from warehouse_layout.stock_file import StockFileError
-from warehouse_operations.assortment import Assortment
-from warehouse_operations.demand import make_demand
-from warehouse_operations.order_file import DemandError, read_csv
-from warehouse_operations.simulation import ERRORS, Description
+from warehouse_layout.file import layout_file, stock_file
+from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.file.request import LIMITS
+from warehouse_layout.file.stock_file import StockFileError
+from warehouse_layout.generate import layout_choice
+from warehouse_operations.runs.simulation import ERRORS, Description
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.demand import make_demand
+from warehouse_operations.stock.order_file import DemandError, read_csv
 from warehouse_viewer.whatif.scenario import (
     FILE,
     LAYOUTS,

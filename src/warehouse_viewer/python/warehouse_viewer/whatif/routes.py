@@ -9,12 +9,12 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
-from warehouse_layout.layout_file import SUFFIX, LayoutFileError
-from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS
-from warehouse_operations.order_file import DemandError
+from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
+from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import DEFAULTS, ROLES
-from warehouse_operations.runs import RunError
-from warehouse_operations.simulation import ERRORS
+from warehouse_operations.runs.run_files import RunError
+from warehouse_operations.runs.simulation import ERRORS
+from warehouse_operations.stock.order_file import DemandError
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server.site import WHATIF
 from warehouse_viewer.whatif.queue import QueueError

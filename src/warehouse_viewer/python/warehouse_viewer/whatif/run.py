@@ -12,10 +12,10 @@ import sys
 import threading
 from pathlib import Path
 
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_operations import sweep
-from warehouse_operations.progress import ProgressLines
-from warehouse_operations.simulation import ERRORS, simulate
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_operations.runs import sweep
+from warehouse_operations.runs.progress import ProgressLines
+from warehouse_operations.runs.simulation import ERRORS, simulate
 from warehouse_viewer.json_text import dumps
 
 NICE = 10

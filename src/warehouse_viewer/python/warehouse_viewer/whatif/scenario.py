@@ -10,10 +10,10 @@ from typing import Any
 
 import yaml
 
-from warehouse_layout.layout_file import SUFFIX
-from warehouse_layout.request import LIMITS, MOST_STATIONS, PRESETS
+from warehouse_layout.file.layout_file import SUFFIX
+from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import ROLES
-from warehouse_operations.yaml_file import read_yaml
+from warehouse_operations.stock.yaml_file import read_yaml
 
 FILE = "scenario.yaml"
 LAYOUTS, ORDERS = "layouts", "orders"  # folders beside the scenarios, of files that they share

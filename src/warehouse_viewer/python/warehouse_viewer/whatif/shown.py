@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from warehouse_layout import layout_choice
-from warehouse_operations.runs import Run
+from warehouse_layout.generate import layout_choice
+from warehouse_operations.runs.run_files import Run
 from warehouse_viewer.whatif import stored
 from warehouse_viewer.whatif.queue import Active
 from warehouse_viewer.whatif.stored import Planned

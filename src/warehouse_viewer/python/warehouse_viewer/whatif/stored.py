@@ -9,8 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from warehouse_operations import runs, sweep
-from warehouse_operations.runs import KPIS, Run, RunError
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs import sweep
+from warehouse_operations.runs.run_files import KPIS, Run, RunError
 from warehouse_viewer.json_text import dumps
 
 STATE = "state.json"  # what became of runs that left no figures

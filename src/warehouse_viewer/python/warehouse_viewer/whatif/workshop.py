@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from warehouse_operations import runs
-from warehouse_operations.locks import FileLock, InUseError
-from warehouse_operations.runs import KPIS, REPORT, Run
-from warehouse_operations.simulation import ERRORS
-from warehouse_operations.sweep import SweepError
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.run_files import KPIS, REPORT, Run
+from warehouse_operations.runs.simulation import ERRORS
+from warehouse_operations.runs.sweep import SweepError
+from warehouse_operations.store.locks import FileLock, InUseError
 from warehouse_viewer.whatif import figures, shown, stored
 from warehouse_viewer.whatif.estimate import Done, Pace
 from warehouse_viewer.whatif.folder import Folder, check
@@ -142,7 +142,7 @@ class Workshop:
 
     def report(self, names: Sequence[str]) -> str:
         """Returns the report about all runs of scenarios, HTML."""
-        from warehouse_operations import report  # its charts take a second to import
+        from warehouse_operations.reports import report
 
         found = [runs.read(run.folder) for name in names for run in self._runs(name)]
         return report.page(found)

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from paths import ROOT
 
-from warehouse_fleet import problem
-from warehouse_fleet.drive_report import WORDS
+from warehouse_fleet.league import problem
+from warehouse_fleet.league.drive_report import WORDS
 from warehouse_viewer.replay.file import NAME, FileRecording
 
 DRIVE = ROOT / "src/warehouse_viewer/nodes/drive"

@@ -27,9 +27,11 @@ from editor_page import (
     saved,
 )
 
-from warehouse_layout import file_check, generator, layout_file
-from warehouse_layout.layout_file import LayoutFile, StationEntry
-from warehouse_layout.request import PRESETS
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFile, StationEntry
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
+from warehouse_layout.place import file_check
 
 
 @pytest.fixture(scope="module")

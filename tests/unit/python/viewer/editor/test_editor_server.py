@@ -7,8 +7,9 @@ import json
 import pytest
 from asgi import request
 
-from warehouse_layout import generator, layout_file
-from warehouse_layout.request import PRESETS
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
 from warehouse_viewer.editor import checking, drawing_json, standalone, trial
 from warehouse_viewer.server.access import AccessControl
 

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from warehouse_layout import painted
-from warehouse_layout.floor_markings import Mark
+from warehouse_layout.floor import painted
+from warehouse_layout.floor.floor_markings import Mark
 from warehouse_viewer.page import paint
 
 

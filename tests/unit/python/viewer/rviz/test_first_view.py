@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import yaml
 
-from warehouse_layout.layout import plan
-from warehouse_layout.request import PRESETS, resolve
+from warehouse_layout.file.request import PRESETS, resolve
+from warehouse_layout.place.layout import plan
 from warehouse_viewer.rviz import first_view
 from warehouse_viewer.shared_files import RVIZ_CONFIG
 

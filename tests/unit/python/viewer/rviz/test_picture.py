@@ -11,7 +11,7 @@ from geometry_msgs.msg import Point, PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
-from warehouse_layout import poses
+from warehouse_layout.floor import poses
 from warehouse_msgs.msg import (
     Event,
     FleetPaths,

@@ -12,11 +12,13 @@ import pytest
 from asgi import request
 from paths import ROOT
 
-from warehouse_layout import generator, layout_choice, layout_file
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_layout.request import PRESETS
-from warehouse_operations import runs, sweep
-from warehouse_operations.runs import Run
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator, layout_choice
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs import sweep
+from warehouse_operations.runs.run_files import Run
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.whatif import figures
 from warehouse_viewer.whatif.estimate import Done, Pace

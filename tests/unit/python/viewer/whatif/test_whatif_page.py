@@ -14,8 +14,9 @@ sys.path.append(str(paths.ROOT / "tests" / "rostest"))
 
 from browser import browser  # noqa: E402
 
-from warehouse_layout import generator, layout_file  # noqa: E402
-from warehouse_layout.request import PRESETS  # noqa: E402
+from warehouse_layout.file import layout_file
+from warehouse_layout.file.request import PRESETS  # noqa: E402
+from warehouse_layout.generate import generator
 
 PATIENCE = 300.0  # runs yield to all else that the machine has to do [s, wall]
 WHATIF = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "whatif"

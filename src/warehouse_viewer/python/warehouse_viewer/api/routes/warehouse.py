@@ -6,8 +6,8 @@ from typing import Any
 
 from fastapi import APIRouter, HTTPException
 
-from warehouse_layout.layout_file import LayoutFileError
-from warehouse_layout.request import LIMITS, PRESETS
+from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_layout.file.request import LIMITS, PRESETS
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Controls a fleet: from what is observed at a time to what is to be done.
+
+    controller = FleetController(plan, kiva_ids)
+    controller.transports.submit(17, "pick3")
+    every 0.1 s of simulated time:
+        decision = controller.tick(Observation(time, reports, ...))
+
+The host translates and decides nothing: the coordinator between messages and these, FleetDriver
+between a world in this process and these.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.robots.message_enums import Mode
+from warehouse_fleet.robots.robot_table import NOWHERE, Reports
+from warehouse_fleet.traffic.people import NO_PEOPLE
+from warehouse_fleet.traffic.takeover import Handover, Takeover
+from warehouse_fleet.traffic.traffic import STAYS, Releases, Traffic
+from warehouse_fleet.transports.towing import Towing, TowOrder
+from warehouse_fleet.transports.towing import order as tow_order
+from warehouse_fleet.transports.transports import LiftOrder, Transports
+from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout.floor.floor_plan import FloorPlan
+
+CANCEL_PERIOD = 1.0  # between two looks at paths that others gave out [s]
+
+
+def _nothing() -> None:
+    return None
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What is known of a warehouse at a time [s]."""
+
+    time: float
+    robots: Reports  # (m,), of robot_table.REPORT; robots may be missing
+    people: Any = field(default_factory=lambda: NO_PEOPLE)  # as warehouse_msgs/People
+    fallen: int = 0  # items on the floor
+    refused: Sequence[str] = ()  # models of robots that have refused a path since the last tick
+    units: UnitPoses | None = None  # where units stand, if that may have changed
+    # Asked when the controller wants to look: the world's map, (h, w) uint8, and where units stand
+    # then. None: there is no answer now.
+    look_at_map: Callable[[], np.ndarray | None] = _nothing
+    look_at_units: Callable[[], UnitPoses | None] = _nothing
+
+
+@dataclass
+class Decision:
+    """What is to be done. Events of transports stay in the book, since requests between two ticks
+    cause some as well: the host takes them by transports.take_events()."""
+
+    releases: Releases
+    lifts: list[LiftOrder] = field(default_factory=list)
+    cancels: list[int] = field(default_factory=list)  # kiva ids whose paths are to end
+    tows: list[TowOrder] = field(default_factory=list)
+
+
+class FleetController:
+    """The controller of the robots `kiva_ids` on a FloorPlan. `transports` takes the requests,
+    `traffic` drives; `robots` is the RobotTable of both.
+
+    Numbers of transports begin after `last`. Robots that are lost, or broken in others' way, are
+    towed after `tow_after` [s]; None: when tow() is called. takes_over_at: the time [s] from which
+    on robots are taken over that may be on another coordinator's paths; None: there was no other.
+    For the rest see Traffic.
+    """
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        kiva_ids: np.ndarray,
+        kinematics: Kinematics | None = None,
+        seed: int = 1,
+        planner: Any = None,
+        *,
+        last: int = 0,
+        tow_after: float | None = None,
+        takes_over_at: float | None = None,
+        latency: float = 0.25,
+        lag: float = 0.1,
+        threads: int = 0,
+    ) -> None:
+        self.plan = plan
+        self.traffic = Traffic(
+            plan, kiva_ids, kinematics, seed, planner, latency=latency, lag=lag, threads=threads
+        )
+        self.robots = self.traffic.robots
+        self.transports = Transports(plan, self.traffic, last)
+        self._towing = None if tow_after is None else Towing(self.transports, tow_after)
+        self._takeover = None
+        if takes_over_at is not None:
+            self._takeover = Takeover(self.traffic, takes_over_at)
+        self._handover = Handover()
+        self._next_cancels = -np.inf
+        begin = takes_over_at or 0.0
+        for cell in np.flatnonzero(plan.obstructed).tolist():
+            self.traffic.shut(cell, begin + STAYS)
+
+    def close(self) -> None:
+        """Ends the planner's thread."""
+        self.traffic.close()
+
+    def is_stale(self, time: float) -> bool:
+        """Returns whether a later observation than one of that time [s] has been taken in."""
+        return self.traffic.is_stale(time)
+
+    def tick(self, seen: Observation) -> Decision:
+        """Takes in an Observation and returns the Decision for it."""
+        traffic, gone = self.traffic, self.robots.gone
+        reports = self.robots.align(seen.robots)
+        for model in seen.refused:
+            traffic.on_refused(model)
+        if seen.units is not None:
+            self.transports.update_units(seen.units)
+        cancels = self._cancels(seen.time, reports)
+        traffic.update_robots(seen.time, reports)
+        if traffic.takes_over and self._takeover:
+            self._takeover.advance(reports)
+        traffic.update_people(seen.people)
+        tows = self._towing.due() if self._towing else []
+        traffic.update_fallen(seen.fallen)
+        looks = traffic.wants_map
+        if looks:
+            traffic.update_map(seen.look_at_map())
+        if not traffic.takes_over:
+            self.transports.advance(reports)
+        if looks or gone is not self.robots.gone:
+            units = seen.look_at_units()
+            if units is not None:
+                self.transports.update_units(units)
+        return Decision(traffic.releases(), self.transports.take_lifts(), cancels, tows)
+
+    def _cancels(self, time: float, reports: Reports) -> list[int]:
+        """Returns the robots whose paths are to end: others gave them out, or the robots have left
+        the fleet. They end where the robots can stop."""
+        if self._next_cancels - CANCEL_PERIOD <= time < self._next_cancels:
+            return []
+        self._next_cancels = time + CANCEL_PERIOD
+        robots = np.flatnonzero(self.traffic.inherited(reports)).tolist()
+        robots += self._handover.waiting(time, reports)
+        return self.robots.kiva_ids[robots].tolist()
+
+    def set_mode(self, kiva_id: int, mode: Mode) -> list[int]:
+        """Sets the side that commands a robot; returns the ids of those whose paths are to end at
+        once. Raises ValueError if there is no such robot."""
+        robot = self._present(kiva_id)
+        self._handover.end(robot)
+        self.robots.mode[robot] = mode
+        if mode == Mode.AUTOMATIC:
+            return []
+        self._handover.begin(robot)
+        return [] if self.robots.stands[robot] else [kiva_id]
+
+    def check_present(self, kiva_id: int) -> None:
+        """Raises ValueError if there is no such robot, or it is gone."""
+        self._present(kiva_id)
+
+    def _present(self, kiva_id: int) -> int:
+        robot = self.robots.index(kiva_id)
+        if robot == NOWHERE:
+            raise ValueError(f"there is no kiva{kiva_id}")
+        if self.robots.gone[robot]:
+            raise ValueError(f"kiva{kiva_id} was removed from the world")
+        return robot
+
+    def tow(self, kiva_id: int) -> TowOrder:
+        """Returns the order to tow a broken or lost robot. Raises ValueError: it works, or there is
+        no place for it."""
+        return tow_order(self.transports, kiva_id)

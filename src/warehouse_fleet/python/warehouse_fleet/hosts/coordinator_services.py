@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services of the coordinator: requests from ROS to a FleetController."""
+
+import math
+from typing import TYPE_CHECKING
+
+import rospy
+
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import SetModelState
+from warehouse_fleet.hosts.fleet_driver import square
+from warehouse_fleet.robots.message_enums import Mode
+from warehouse_fleet.traffic.traffic import STAYS
+from warehouse_fleet.transports.towing import TowOrder
+from warehouse_fleet.transports.transport_book import Answer
+from warehouse_msgs.srv import (
+    CancelTransport,
+    CancelTransportRequest,
+    CancelTransportResponse,
+    ReleaseTransport,
+    ReleaseTransportRequest,
+    ReleaseTransportResponse,
+    SetRobotMode,
+    SetRobotModeRequest,
+    SetRobotModeResponse,
+    Tow,
+    TowRequest,
+    TowResponse,
+    Transport,
+    TransportRequest,
+    TransportResponse,
+)
+
+if TYPE_CHECKING:
+    from warehouse_fleet.hosts.coordinator import Coordinator
+
+
+class CoordinatorServices:
+    """Offers the services of a Coordinator, whose lock is held while each is answered."""
+
+    def __init__(self, coordinator: "Coordinator") -> None:
+        self._coordinator = coordinator
+        self._place = rospy.ServiceProxy("gazebo/set_model_state", SetModelState)
+        rospy.Service("warehouse/transport", Transport, self._on_transport)
+        rospy.Service("warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("warehouse/cancel_transport", CancelTransport, self._on_cancel)
+        rospy.Service("warehouse/tow", Tow, self._on_tow)
+        rospy.Service("warehouse/set_robot_mode", SetRobotMode, self._on_mode)
+
+    def _on_transport(self, wanted: TransportRequest) -> TransportResponse:
+        host = self._coordinator
+        with host.lock:
+            if host.controller is None:
+                return TransportResponse(*Answer(0, False, host.reason))
+            answer = host.controller.transports.submit(
+                wanted.shelf_id, wanted.station, wanted.x, wanted.y, wanted.then, wanted.priority
+            )
+            if answer.accepted:
+                host.events.ledger.add(answer.transport_id, wanted.shelf_id, wanted.station)
+            return TransportResponse(*answer)
+
+    def _on_release(self, wanted: ReleaseTransportRequest) -> ReleaseTransportResponse:
+        host = self._coordinator
+        with host.lock:
+            if host.controller is None:
+                return ReleaseTransportResponse(False, host.reason)
+            answer = host.controller.transports.release(wanted.transport_id)
+            return ReleaseTransportResponse(*answer)
+
+    def _on_cancel(self, wanted: CancelTransportRequest) -> CancelTransportResponse:
+        host = self._coordinator
+        with host.lock:
+            if host.controller is None:
+                return CancelTransportResponse(False, host.reason)
+            answer = host.controller.transports.cancel(wanted.transport_id)
+            return CancelTransportResponse(*answer)
+
+    def _on_mode(self, wanted: SetRobotModeRequest) -> SetRobotModeResponse:
+        host = self._coordinator
+        with host.lock:
+            if host.controller is None:
+                return SetRobotModeResponse(False, host.reason)
+            try:
+                host.set_mode(wanted.kiva_id, wanted.mode)
+            except ValueError as error:
+                return SetRobotModeResponse(False, str(error))
+            return SetRobotModeResponse(True, "")
+
+    def _on_tow(self, wanted: TowRequest) -> TowResponse:
+        host = self._coordinator
+        with host.lock:
+            if host.controller is None:
+                return TowResponse(False, host.reason)
+            try:
+                order = host.controller.tow(wanted.kiva_id)
+            except ValueError as error:
+                return TowResponse(False, str(error))
+            traffic = host.controller.traffic
+            cell = int(host.controller.plan.cell_of(order.x, order.y))
+            traffic.shut(cell, traffic.time + STAYS)  # until the robot is seen there
+            state = _state_of(order, square(host.yaw_of(wanted.kiva_id)))
+        try:
+            answer = self._place(state)
+        except rospy.ServiceException as error:
+            return TowResponse(False, str(error))
+        return TowResponse(answer.success, "" if answer.success else answer.status_message)
+
+
+def check_mode(mode: int) -> None:
+    """Raises ValueError for a number that is not a Mode."""
+    if mode not in list(Mode):
+        text = f"mode is {mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE) was expected"
+        raise ValueError(text)
+
+
+def _state_of(order: TowOrder, yaw: float) -> ModelState:
+    state = ModelState(model_name=f"kiva{order.kiva_id}", reference_frame="world")
+    state.pose.position.x, state.pose.position.y = order.x, order.y
+    state.pose.orientation.z = math.sin(yaw / 2)
+    state.pose.orientation.w = math.cos(yaw / 2)
+    return state

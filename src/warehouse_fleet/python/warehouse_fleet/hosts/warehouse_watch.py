@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Follows the topics that tell a coordinator about the warehouse."""
+
+import threading
+from typing import Any
+
+import numpy as np
+import rospy
+from nav_msgs.msg import OccupancyGrid
+from nav_msgs.srv import GetMap
+from std_msgs.msg import Header
+
+from warehouse_client.message_check import fit, subscribe
+from warehouse_client.unit_messages import unit_ids, unit_poses
+from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout.floor import floor_markings
+from warehouse_layout.floor.floor_plan import CONVEYOR, occupancy_of
+from warehouse_msgs.msg import (
+    Event,
+    FleetState,
+    People,
+    Scenery,
+    StationState,
+    StationStates,
+    UnitStates,
+    WarehouseObjects,
+)
+
+
+class WarehouseWatch:
+    """The latest of each message, and what events told since they were taken.
+
+    `news` is set by each FleetState. `by_hand`: names of stations where a person works.
+    """
+
+    def __init__(self) -> None:
+        self.news = threading.Event()
+        self.fleet: Any = None  # FleetState
+        self.scenery: Any = None  # Scenery
+        self.objects: Any = None  # WarehouseObjects
+        self.units: Any = None  # UnitStates
+        self.people = People()
+        self.by_hand: frozenset[str] = frozenset()
+        self.collisions = 0
+        self.reasons: dict[str, str] = {}  # why robots are broken, in their own words, by model
+        self._refused: list[str] = []
+        subscribe(rospy, "warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
+        subscribe(rospy, "warehouse/objects", WarehouseObjects, self._keep, "objects", queue_size=1)
+        subscribe(rospy, "warehouse/unit_states", UnitStates, self._keep, "units", queue_size=1)
+        subscribe(rospy, "warehouse/people", People, self._keep, "people", queue_size=1)
+        subscribe(rospy, "warehouse/events", Event, self._on_event, queue_size=10000)
+        subscribe(rospy, "warehouse/stations", StationStates, self._on_stations, queue_size=1)
+
+    def begin(self) -> None:
+        """Subscribes to the robots' reports; the warehouse can be controlled from then on."""
+        subscribe(rospy, "warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
+
+    def _keep(self, message: Any, name: str) -> None:
+        setattr(self, name, message)
+
+    def _on_scenery(self, message: Scenery) -> None:
+        """Keeps a scenery that has changed; it is sent again for each new subscriber."""
+        message.header = Header()
+        if message != self.scenery:
+            self.scenery = message
+
+    def _on_stations(self, message: StationStates) -> None:
+        manual = [one.name for one in message.stations if one.mode == StationState.MANUAL]
+        self.by_hand = frozenset(manual)
+
+    def _on_fleet(self, message: FleetState) -> None:
+        self.fleet = message
+        self.news.set()
+
+    def _on_event(self, event: Event) -> None:
+        if event.kind == Event.COLLISION:
+            self.collisions += 1
+        elif event.kind == Event.REFUSED and event.model.startswith("kiva"):
+            self._refused.append(event.model)
+        elif event.kind == Event.FAILED:
+            self.reasons[event.model] = event.text
+        elif event.kind in (Event.REPAIRED, Event.DELETED):
+            self.reasons.pop(event.model, None)
+
+    def take_refused(self) -> list[str]:
+        """Returns the models of robots that refused a path since the last call."""
+        refused, self._refused = self._refused, []
+        return refused
+
+    def is_complete(self, timeline: int) -> bool:
+        """Returns whether each message is there, of that timeline of the world."""
+        if None in (self.scenery, self.objects, self.units):
+            return False
+        return self.units.timeline == timeline
+
+    @property
+    def is_consistent(self) -> bool:
+        """Whether the messages on units are of one revision; one of them may be on its way."""
+        return fit(self.objects, self.units)
+
+    def unit_poses(self) -> UnitPoses | None:
+        """Returns where the units stand; None while a message is on its way."""
+        if not self.is_consistent:
+            return None
+        x, y, yaw = unit_poses(self.units)
+        carried = np.asarray(self.units.carrier) != 0
+        stamp = self.units.header.stamp.to_sec()
+        return UnitPoses(np.array(unit_ids(self.objects), int), x, y, yaw, carried, stamp)
+
+    def look_at_map(self) -> np.ndarray | None:
+        """Returns the world's map (h, w) uint8; None, and a warning, if there is no answer."""
+        try:
+            return occupancy_of(request_map())
+        except rospy.ServiceException as error:
+            rospy.logwarn(f"no map of the floor: {error}")
+            return None
+
+
+def request_map() -> OccupancyGrid:
+    """Returns the world's map. Raises rospy.ServiceException."""
+    return rospy.ServiceProxy("warehouse/map", GetMap)().map
+
+
+def is_same_floor(one: Scenery, other: Scenery) -> bool:
+    """Returns whether two sceneries differ at most in what comes and goes: people, boxes, ..."""
+    return one is other or _floor_of(one) == _floor_of(other)
+
+
+def _floor_of(scenery: Scenery) -> tuple:
+    """The parts of a Scenery that a plan is made of: the floor, belts and markings."""
+    poses = np.reshape(scenery.pose, (-1, 7)).tolist()
+    fixed = [
+        (name, scenery.looks[look] if floor_markings.is_name(name) else None, pose)
+        for name, look, pose in zip(scenery.models, scenery.model_look, poses)
+        if name.startswith(CONVEYOR) or floor_markings.is_name(name)
+    ]
+    return scenery.floor, scenery.grid_spacing, fixed

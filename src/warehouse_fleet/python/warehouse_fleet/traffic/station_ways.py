@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The cells by which loaded robots come to stations and leave them."""
+
+from collections.abc import Set as AbstractSet
+from typing import NamedTuple
+
+from warehouse_layout.floor.floor_plan import FloorPlan, Station
+from warehouse_layout.floor.stations import STEPS
+
+
+class Ways(NamedTuple):
+    """The cells from which a station's lane is entered, those of the lane, those that follow."""
+
+    before: frozenset[int]
+    lane: frozenset[int]
+    after: frozenset[int]
+
+    def are_barred(self, cells: AbstractSet[int]) -> bool:
+        """Returns whether obstacles in some cells close the way in, through or out."""
+        return self.before <= cells or bool(self.lane & cells) or self.after <= cells
+
+
+class StationWays:
+    """The Ways of all stations of a FloorPlan."""
+
+    def __init__(self, plan: FloorPlan) -> None:
+        self._of = {station.name: _ways(plan, station) for station in plan.stations}
+
+    def are_barred(self, station: str, cells: AbstractSet[int]) -> bool:
+        """Returns whether obstacles in some cells keep robots from a station, or there."""
+        return bool(cells) and station in self._of and self._of[station].are_barred(cells)
+
+
+def _ways(plan: FloorPlan, station: Station) -> Ways:
+    lane = frozenset(station.cells.tolist())
+    first, last = int(station.cells[0]), int(station.cells[-1])
+    beside = set(plan.beside([first]).tolist()) - lane
+    before = frozenset(cell for cell in beside if first in _ahead(plan, cell))
+    return Ways(before, lane, frozenset(_ahead(plan, last)))
+
+
+def _ahead(plan: FloorPlan, cell: int) -> list[int]:
+    """Returns the cells to which the exits of one lead."""
+    y, x = divmod(cell, plan.width)
+    return [
+        (y + dy) * plan.width + x + dx
+        for heading, (dx, dy) in enumerate(STEPS)
+        if plan.exits.flat[cell] >> heading & 1
+    ]

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Drives a fleet over the floor: from the goal of each robot to paths that are released to it cell
+by cell. Neither ROS nor physics: the host hands in what robots report, and sends the releases.
+
+    traffic = Traffic(plan, kiva_ids)
+    every 0.1 s of simulated time:
+        traffic.update_robots(time, reports)      # (n,) of robot_table.REPORT
+        traffic.robots.send(robot, cell)          # robots are indices into kiva_ids
+        world.follow(*traffic.releases())         # the arrays of FleetFollow
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from warehouse_fleet import Execution
+from warehouse_fleet.planners.plan_loop import PlanLoop
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.robots.message_enums import Mode, Status
+from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
+from warehouse_fleet.traffic.obstacles import ObstacleLog
+from warehouse_fleet.traffic.people import zone_around
+from warehouse_fleet.traffic.watchdog import Watchdog
+from warehouse_layout.floor.floor_plan import FloorPlan, is_taken
+
+MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
+FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
+MAP_PERIOD = 1.0  # between two looks at the world's map [s]
+STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
+
+
+class Releases(NamedTuple):
+    """Paths and how far each is released: the arrays of FleetFollow."""
+
+    kiva_id: np.ndarray  # (m,) int32
+    path_id: np.ndarray  # (m,) uint32
+    first: np.ndarray  # (m,) uint32: the index on its path of the first point that is sent
+    points: np.ndarray  # (m,) uint32: how many points are sent
+    x: np.ndarray  # [m] in the frame world, of all points in a row
+    y: np.ndarray  # [m]
+    released: np.ndarray  # (m,) uint32: how many points of the path may be passed
+
+
+class Traffic:
+    """Execution of plans for the robots of a RobotTable, on the floor of a FloorPlan.
+
+    `latency` [s] passes from a report until what is released for it has reached the robot. While
+    the fleet `takes_over`, all robots are obstacles: paths that another coordinator sent them are
+    not over yet. For `planner`, `lag` and `threads` see PlanLoop.
+    """
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        kiva_ids: np.ndarray,
+        kinematics: Kinematics | None = None,
+        seed: int = 1,
+        planner: Any = None,
+        *,
+        latency: float = 0.25,
+        attempts: int = 0,
+        lag: float = 0.1,
+        threads: int = 0,
+    ) -> None:
+        kinematics = kinematics or Kinematics()
+        self.plan, self.floor = plan, plan.floor()
+        self.robots = RobotTable(kiva_ids)
+        self.time = 0.0  # of the last reports [s]
+        self.takes_over = False
+        self._execution = Execution(
+            self.floor,
+            origin=plan.origin,
+            spacing=plan.spacing,
+            speed=kinematics.speed,
+            acceleration=kinematics.acceleration,
+            quarter=kinematics.quarter_turn,
+            latency=latency,
+        )
+        self.plans = PlanLoop(
+            self.floor,
+            self._execution,
+            [f"kiva{kiva}" for kiva in self.robots.kiva_ids],
+            tick=plan.spacing / kinematics.speed,
+            lag=lag,
+            seed=seed,
+            planner=planner,
+            attempts=attempts,
+            threads=threads,
+        )
+        self.watchdog = Watchdog(self)
+        self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
+        self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
+        self.lane = np.asarray(plan.lane, bool).ravel()  # by cell
+        self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
+        for station in plan.stations:
+            self._after[station.cells[:-1]] = station.cells[1:]
+        self._next_map = 0.0
+        self.obstacles = ObstacleLog()
+        self.zone = np.zeros(0, np.int32)  # cells where people are or are about to be
+        self._had_people = False
+        self._fallen = 0  # items on the floor
+
+    def close(self) -> None:
+        """Ends the planner's thread."""
+        self.plans.close()
+
+    def is_stale(self, time: float) -> bool:
+        """Returns whether a later report than one of that time [s] has been taken in."""
+        return time < self.time
+
+    def update_robots(self, time: float, reports: Reports) -> None:
+        """Takes in what all robots report at that time [s]: aligned reports (n,) of REPORT."""
+        robots, execution = self.robots, self._execution
+        self.time = time
+        robots.update_health(reports)
+        execution.set_broken(robots.broken)
+        execution.update(
+            time,
+            reports["x"],
+            reports["y"],
+            reports["yaw"],
+            reports["vx"],
+            reports["vy"],
+            reports["status"],
+            reports["state"],
+            reports["path_id"],
+            reports["reached"],
+            reports["left"],
+            robots.automatic & (not self.takes_over),
+            robots.busy,
+            robots.loaded,
+        )
+        states = execution.states()
+        robots.cell, robots.stands, robots.stalled, robots.astray = states[:4]
+        lost, robots.still_since, foreign = states[4:]
+        robots.stalled_since = np.where(
+            robots.stalled, np.minimum(robots.stalled_since, time), np.inf
+        )
+        robots.lost = (robots.lost & (robots.mode == OUT_OF_SERVICE)) | lost
+        robots.lost &= ~robots.gone
+        robots.mode[robots.lost] = OUT_OF_SERVICE
+        self._find_foreign(reports, foreign)
+        self.watchdog.update()
+
+    def inherited(self, reports: Reports) -> np.ndarray:
+        """Returns (n,) bool: robots that have been on paths since before this began."""
+        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
+
+    def _find_foreign(self, reports: Reports, foreign: np.ndarray) -> None:
+        """Sets robots MANUAL that were idle and are busy with a person's command."""
+        robots = self.robots
+        foreign = foreign & self._settled & robots.automatic
+        if not self.takes_over:
+            self._settled |= reports["status"] == IDLE
+        self._foreign = (self._foreign + 1) * foreign
+        if foreign.any():
+            robots.mode[self._foreign >= FOREIGN] = MANUAL
+
+    def ahead_of(self, robot: int) -> int:
+        """Returns the robot for which one waits, by the plan or because it holds the next cell of
+        the lane; or NOWHERE."""
+        ahead = int(self.robots.waits_for[robot])
+        if ahead != NOWHERE or self.robots.busy[robot]:
+            return ahead
+        cell = int(self.robots.cell[robot])
+        after = int(self._after[cell]) if cell != NOWHERE else NOWHERE
+        return self.holder(after) if after != NOWHERE else NOWHERE
+
+    def all_ahead(self) -> np.ndarray:
+        """Returns ahead_of() of each robot, (n,)."""
+        robots = self.robots
+        ahead = robots.waits_for.copy()
+        after = np.where(robots.cell != NOWHERE, self._after[robots.cell], NOWHERE)
+        asks = np.flatnonzero((ahead == NOWHERE) & ~robots.busy & (after != NOWHERE))
+        ahead[asks] = self._execution.holders(after[asks])
+        return ahead
+
+    def holder(self, cell: int) -> int:
+        """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
+        return self._execution.holder(int(cell))
+
+    def arrived(self, among: np.ndarray) -> np.ndarray:
+        """Returns the robots that stand at their goal, of those `among`, (n,) bool."""
+        robots = self.robots
+        there = robots.stands & ~robots.busy & (robots.cell == robots.goal)
+        return (there & among).nonzero()[0]
+
+    def on_refused(self, model: str) -> None:
+        """Notes that a robot, by its model's name, has refused its path."""
+        robot = self.robots.index(int(model.removeprefix("kiva")))
+        if robot != NOWHERE:
+            self._execution.refused(robot)
+
+    def shut(self, cell: int, until: float) -> None:
+        """Closes a cell for all robots until that time [s]."""
+        self._execution.close(cell, until)
+        self.obstacles.note(cell, self.time, until)
+
+    @property
+    def closed(self) -> np.ndarray:
+        """The cells that no robot may enter now."""
+        return self._execution.closed()
+
+    @property
+    def wants_map(self) -> bool:
+        """Whether update_map() is due: only while something is in the way."""
+        return self.time >= self._next_map and bool(self._execution.closing or self._fallen)
+
+    def update_map(self, occupancy: np.ndarray | None) -> None:
+        """Closes the cells where something stands, by the world's map (h, w) uint8, until the map
+        shows them free. None: there is no map now."""
+        self._next_map = self.time + MAP_PERIOD
+        if occupancy is None or occupancy.shape != self.plan.shape:
+            return
+        for cell in np.flatnonzero(is_taken(occupancy) & self.plan.passable).tolist():
+            self.shut(cell, self.time + STAYS)
+            if self._fallen:  # too low for lasers
+                self._execution.recall(cell)
+
+    def update_fallen(self, count: int) -> None:
+        """Notes how many items lie on the floor: while some do, the map is looked at."""
+        if count != self._fallen:
+            self._next_map = self.time
+        self._fallen = count
+
+    def update_people(self, people: Any) -> None:
+        """Closes a zone around each person, and opens it behind; see `people`.
+
+        Robots at its edge wait for them.
+        """
+        if not people.name and not self._had_people:
+            return
+        self._had_people = bool(people.name)
+        self.zone = zone_around(self.plan, people)
+        self._execution.set_zone(self.zone)
+        edge = self.plan.beside(self.zone) if len(self.zone) else self.zone
+        robots = self.robots
+        robots.slowed_for_people = np.isin(robots.kiva_ids, [*people.slowed, *people.stopped])
+        robots.slowed_for_people |= np.isin(robots.cell, edge)
+
+    def set_units(self, cells: Any) -> None:
+        """Closes cells for loaded robots: units stand there, off the storage places."""
+        self._execution.set_units(np.asarray(cells, np.int32))
+
+    def journey(self, robot: int) -> tuple[float, float, int]:
+        """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""
+        driven, planned, cells = self._execution.take_journey(robot)
+        return driven, planned, cells
+
+    @property
+    def blocked(self) -> int:
+        """How often a robot was BLOCKED before a cell of its own."""
+        return self._execution.blocked
+
+    def releases(self) -> Releases:
+        """Returns what is to be sent now; adopts and begins plans that are due."""
+        robots = self.robots
+        self._execution.set_work(robots.busy, robots.loaded)
+        self.plans.adopt_due(self.time)
+        index, path_id, first, points, cells, released = self._execution.release()
+        robots.waits_for = self._execution.waits_for()
+        self.plans.begin_due(self.time, robots.goal, robots.home)
+        x, y = self.plan.point_of(cells)
+        return Releases(robots.kiva_ids[index], path_id, first, points, x, y, released)
+
+    def paths(self, robot: int) -> tuple[list[int], list[int]]:
+        """Returns (the cells that a robot holds, the cells planned beyond)."""
+        return self._execution.released(robot), self._execution.planned(robot)

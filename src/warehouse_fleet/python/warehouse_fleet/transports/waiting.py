@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Explains to a person why robots wait that have somewhere to go, and what each robot does."""
+
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from warehouse_fleet.robots.message_enums import Mode
+from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_fleet.transports.transport_book import Step, Transport
+
+if TYPE_CHECKING:
+    from warehouse_fleet.traffic.traffic import Traffic
+
+WAITS_LONG = 10.0  # [s]
+DOES = {
+    Step.FETCHING: "fetching",
+    Step.READY: "ready",
+    Step.LIFTING: "lifting",
+    Step.BRINGING: "bringing",
+    Step.WAITING: "waiting",
+    Step.STORING: "storing",
+    Step.DROPPING: "dropping",
+}
+
+
+class Waiting:
+    """The waiting robots of a Traffic with its transports. `by_hand`: names of the stations where a
+    person works."""
+
+    def __init__(
+        self,
+        traffic: "Traffic",
+        transports: Iterable[Transport],
+        by_hand: Collection[str] = frozenset(),
+    ) -> None:
+        self._traffic, self._robots, self._by_hand = traffic, traffic.robots, by_hand
+        self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
+
+    def doing(self) -> dict[int, str]:
+        """Returns {kiva_id: word}: what each robot that is there does."""
+        return {
+            int(kiva): self._does(robot)
+            for robot, kiva in enumerate(self._robots.kiva_ids)
+            if not self._robots.gone[robot]
+        }
+
+    def _does(self, robot: int) -> str:
+        mode = Mode(self._robots.mode[robot])
+        if mode != Mode.AUTOMATIC:
+            return mode.name.lower()
+        transport = self._of_robot.get(robot)
+        return DOES[transport.step] if transport else "idle"
+
+    def long(self) -> list[tuple[int, str]]:
+        """Returns [(robot, text)]: robots that have stood for WAITS_LONG, and the reason. Leaves
+        out those in the queue of a station that itself waits for a person."""
+        traffic = self._traffic
+        still = (
+            (traffic.time - self._robots.still_since > WAITS_LONG)
+            & ~self._robots.busy
+            & ~self._robots.gone
+        )
+        found = []
+        for robot in np.flatnonzero(still).tolist():
+            last = self._last_ahead(robot)
+            station = self._served_at(last)
+            if station not in self._by_hand:
+                found.append((robot, self._reason(robot, last, station)))
+        return found
+
+    def for_people(self) -> list[str]:
+        """Returns a sentence for each station that waits for a person to confirm, and how long."""
+        return [
+            f"{station} has waited for a person for "
+            f"{_lasting(self._traffic.time - transport.since)}"
+            for robot, transport in sorted(self._of_robot.items())
+            if (station := self._served_at(robot)) in self._by_hand
+            and self._traffic.time - transport.since > WAITS_LONG
+        ]
+
+    def _served_at(self, robot: int) -> str:
+        """Returns the station at which a robot's unit is served now; an empty name if at none."""
+        transport = self._of_robot.get(robot)
+        return transport.station if transport and transport.step == Step.WAITING else ""
+
+    def _last_ahead(self, robot: int) -> int:
+        """Returns the robot at the head of the queue in which a robot is; itself at its head."""
+        seen = {robot}
+        while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in seen:
+            seen.add(ahead)
+            robot = ahead
+        return robot
+
+    def _reason(self, robot: int, last: int, station: str) -> str:
+        ahead = self._traffic.ahead_of(robot)
+        if ahead == NOWHERE:
+            if self._robots.slowed_for_people[robot]:
+                return "for people on the floor"
+            if self._robots.broken[robot]:
+                return "until it is repaired"
+            return "until its route is free"
+        behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
+        if station:
+            return f"in the queue of {station} {behind}"
+        if self._robots.broken[ahead]:
+            return f"{behind}, which is broken"
+        if self._robots.mode[ahead] != Mode.AUTOMATIC:
+            return f"{behind}, which is {Mode(self._robots.mode[ahead]).name}"
+        return (
+            behind
+            if last == ahead
+            else f"{behind}, in a queue behind kiva{self._robots.kiva_ids[last]}"
+        )
+
+
+def _lasting(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"

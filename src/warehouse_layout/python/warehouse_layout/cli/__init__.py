@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The program `layout`: checks, draws, converts and makes layout files."""

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a layout file says, as data: a warehouse drawn with a character a cell.
+
+A cell is (column, row): the column from the left, the row from the bottom, both from 0.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from warehouse_layout.floor.stations import PICK, REPLENISH
+
+SUFFIX = ".layout.yaml"
+
+FLOOR, STORAGE, PARKING, CHARGING, KEEP_OUT = ".", "s", "p", "c", "x"
+WALL, BELT, NO_FLOOR = "#", "=", " "
+ONE_WAY = ">^<v"  # by heading: quarter turns from +x
+ALONG_X, ALONG_Y = "-", "|"  # both ways along one axis
+SERVICE = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+CHARACTERS = FLOOR + ONE_WAY + ALONG_X + ALONG_Y + STORAGE + PARKING + CHARGING
+CHARACTERS += KEEP_OUT + WALL + BELT + NO_FLOOR + SERVICE
+
+# Of stations, as a file names them; at "both" a shift replenishes besides, the floor is alike.
+KINDS = {"pick": PICK, "replenish": REPLENISH, "both": PICK}
+
+Cell = tuple[int, int]  # column, row
+
+
+class LayoutFileError(ValueError):
+    """Says what is wrong in a layout file, with its name, the line and the column."""
+
+
+@dataclass(frozen=True)
+class StationEntry:
+    """A station as a layout file describes it."""
+
+    key: str  # in `stations`; one letter marks the service cell in the drawing too
+    service: Cell
+    name: str
+    kind: str = "pick"  # of KINDS
+    queue: tuple[Cell, ...] = ()  # in driving order, the entry first
+    exit: tuple[Cell, ...] = ()  # in driving order
+    settings: Mapping[str, Any] = field(default_factory=dict)  # of its service: times, hours
+
+
+@dataclass(frozen=True, eq=False)
+class LayoutFile:
+    """What a layout file says. Nothing in it is checked beyond the format."""
+
+    floor: np.ndarray  # (h, w) of one character each; row 0 is the lowest
+    name: str = ""
+    spacing: float = 1.0  # edge of a cell [m]
+    stations: tuple[StationEntry, ...] = ()
+    storage_units: float | int | tuple[Cell, ...] = 0.85  # a float: share of the storage places
+    robots: int | tuple[Cell, ...] = 0
+    items: int = 0
+    stock: str = ""  # CSV file with columns sku,quantity,storage_unit; instead of items
+    policies: Mapping[str, Any] = field(default_factory=dict)
+    building: str = ""  # world file of the hall around it
+    at: tuple[float, float] | None = None  # centre of cell (0, 0) in `world` [m]; None: centred
+    path: str = ""  # from which it was read
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells along y and x."""
+        height, width = self.floor.shape
+        return height, width
+
+    @property
+    def title(self) -> str:
+        """Its name, or that of its file."""
+        return self.name or Path(self.path).name.removesuffix(SUFFIX) or "layout"
+
+    def beside_file(self, name: str) -> Path:
+        """Returns the path of a file that this one names: relative to its own folder."""
+        return Path(self.path).parent / Path(name).expanduser()
+
+
+def rows_of(lines: Iterable[str]) -> np.ndarray:
+    """Returns the floor (h, w) of a drawing's lines, of which the first is the highest row."""
+    return np.array([list(line) for line in lines][::-1], "<U1")
+
+
+def lines_of(floor: np.ndarray) -> list[str]:
+    """Returns the lines of a drawing, the highest row first."""
+    return ["".join(row) for row in floor[::-1].tolist()]

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The part of a floor that a fleet can serve; the rest is left out, and named.
+
+In this part a loaded robot gets from each cell to each other.
+"""
+
+from collections.abc import Sequence, Sized
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from warehouse_layout._core import FloorError, layout_faults
+from warehouse_layout.floor.floor_plan import FloorPlan
+
+NAMED = 10  # places that are named in a sentence, at most
+
+
+@dataclass(frozen=True, eq=False)
+class LeftOut:
+    """The cells and stations that a served part lacks of its floor; empty if it lacks none."""
+
+    cells: np.ndarray  # (n,) int, ascending
+    stations: tuple[str, ...] = ()  # names
+
+    def text(
+        self, plan: FloorPlan, units: Sequence[object] = (), robots: Sequence[int] = ()
+    ) -> str:
+        """Returns a sentence that names what is left out; "" if nothing is.
+
+        `units` and `robots` are the ids of those on the cells that are left out.
+        """
+        if not len(self.cells):
+            return ""
+        x, y = plan.point_of(self.cells[:NAMED])
+        places = ", ".join(f"({a:g}, {b:g})" for a, b in zip(x, y))
+        cells = f"{len(self.cells)} cells and back: {_some(places, self.cells)}"
+        parts = [f"loaded robots can't come to {cells}"]
+        kinds: dict[str, Sequence[object]] = {
+            "stations": self.stations,
+            "storage units": units,
+            "robots": [f"kiva{robot}" for robot in robots],
+        }
+        for what, names in kinds.items():
+            if len(names):
+                parts.append(f"{what} {_some(', '.join(map(str, names[:NAMED])), names)} are there")
+        return "; ".join([*parts, "they are not used"])
+
+
+def _some(text: str, names: Sized) -> str:
+    more = len(names) - NAMED
+    return f"{text} and {more} more" if more > 0 else text
+
+
+def served_part(plan: FloorPlan) -> tuple[FloorPlan, LeftOut]:
+    """Returns the largest part of a FloorPlan that passes its check, and what that leaves out.
+
+    Raises FloorError if there is none.
+    """
+    passable, exits = plan.passable, plan.exits
+    part = plan
+    while faults := layout_faults(part.floor()):
+        passable, exits = passable.copy(), exits.copy()
+        for kind, cells in faults:
+            if not cells:
+                plan.check(obstructed=False)
+            if kind == "dead end":
+                _cut(exits, np.array(cells).reshape(-1, 2), plan.width)
+            else:
+                passable.flat[cells] = False
+        part = _without(part, passable, exits)
+    if not part.passable.any():
+        raise FloorError("there is no aisle for a loaded robot to drive on")
+    names = {station.name for station in part.stations}
+    gone = tuple(station.name for station in plan.stations if station.name not in names)
+    return part, LeftOut(np.flatnonzero(plan.passable & ~part.passable), gone)
+
+
+def _cut(exits: np.ndarray, edges: np.ndarray, width: int) -> None:
+    """Removes the edges (n, 2), pairs of cells, from `exits` in both directions."""
+    steps = (1, width, -1, -width)
+    for cell, after in edges.tolist():
+        for at, to in ((cell, after), (after, cell)):
+            exits.flat[at] &= ~np.uint8(1 << steps.index(to - at))
+
+
+def _without(plan: FloorPlan, passable: np.ndarray, exits: np.ndarray) -> FloorPlan:
+    """Returns the plan restricted to passable cells; a station needs its whole lane."""
+    stations = [s for s in plan.stations if passable.flat[s.cells].all()]
+    for station in plan.stations:
+        if station not in stations:
+            passable.flat[station.cells] = False
+    return replace(
+        plan,
+        passable=passable,
+        storage=plan.storage & passable,
+        parking=plan.parking & passable,
+        obstructed=plan.obstructed & passable,
+        exits=np.where(passable, exits, 0).astype(np.uint8),
+        stations=tuple(stations),
+        charging=np.asarray([c for c in plan.charging if passable.flat[c]], int),
+    )

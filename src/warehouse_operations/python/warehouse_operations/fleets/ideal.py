@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fleet of ideal robots, which get in each other's way at the stations only.
+
+Each drive takes what its way, turns, starts and stops cost (travel.py), each lift its time, and at
+a station one unit is served after the other. So a shift runs hundreds of times faster than under
+physics, and the difference between the two is what traffic costs.
+
+    fleet = IdealFleet(plan, robots={1: 17}, units={1: 40})   # cells by id
+    fleet.submit(1, "pick1")
+    fleet.step_until(60.0)       # or to the first event before
+    fleet.take_events()
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.transports.transport_book import Transport
+from warehouse_fleet.transports.transport_requests import TransportRequests
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_operations.fleets.ideal_floor import IdealFloor
+from warehouse_operations.fleets.ideal_trips import Trips
+from warehouse_operations.stock.protocols import Hooks, Task
+from warehouse_operations.stock.travel import Travel
+
+
+class NearestHooks:
+    """The decisions of a fleet without policies: nearest place, nearest robot; see Hooks."""
+
+    charging: object = None
+
+    def choose_place(self, shelf_id: int, cells: np.ndarray, distances: np.ndarray) -> int:
+        """Returns the nearest of `cells` (n,); distances (n,) [m]."""
+        return int(cells[np.argmin(distances)])
+
+    def match_robots(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray
+    ) -> Iterator[tuple[int, int]]:
+        """Yields (index of the task, index of the nearest free robot), tasks in their order."""
+        free = np.ones(len(robots), bool)
+        for task in range(min(len(tasks), len(robots))):
+            robot = int(np.argmin(np.where(free, seconds[task], np.inf)))
+            free[robot] = False
+            yield task, robot
+
+    def park(self, kiva_id: int, cell: int) -> None:
+        """Returns None: a robot without work waits where it is."""
+
+
+class IdealFleet(TransportRequests):
+    """Robots, units and stations of a FloorPlan, as protocols.Requests offers them.
+
+    robots, units: the cell of each, by id. Raises ValueError where a unit's cell is not a storage
+    place. collisions, blocked, watchdog, stuck, fallen_items, plan_ms and executed_over_planned are
+    as if nothing ever went wrong.
+    """
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        robots: Mapping[int, int],
+        units: Mapping[int, int],
+        *,
+        kinematics: Kinematics | None = None,
+    ) -> None:
+        self.kinematics = kinematics or Kinematics()
+        self.travel = Travel(plan, self.kinematics)
+        self.collisions = self.blocked = self.watchdog = self.stuck = 0
+        self.fallen_items: tuple[str, ...] = ()
+        self.plan_ms: list[float] = []
+        self.executed_over_planned = 1.0
+        self._floor = IdealFloor(plan, units, self.travel)
+        self._trips = Trips(self._floor, robots, self.kinematics, NearestHooks())
+        self._trips.arrive = self.arrive
+        super().__init__(plan, self._trips.book)
+
+    @property
+    def transports(self) -> "IdealFleet":
+        """The fleet itself, which offers protocols.Requests."""
+        return self
+
+    @property
+    def robot_count(self) -> int:
+        """How many robots there are."""
+        return len(self._trips.robots)
+
+    @property
+    def time(self) -> float:
+        """The simulated time [s]."""
+        return self._trips.time
+
+    @property
+    def distance_m(self) -> float:
+        """The metres that all robots have driven, or set off to drive."""
+        return self._trips.distance_m
+
+    # The fleet of TransportRequests.
+
+    @property
+    def cell_of_unit(self) -> Mapping[int, int]:
+        """The cell of each unit that is not carried."""
+        return self._floor.units
+
+    def kiva_id(self, robot: int) -> int:
+        """Returns the id of a robot, given its index."""
+        return self._trips.robots[robot].kiva_id
+
+    def check_reach(self, shelf_id: int, cell: int) -> None:
+        """Raises ValueError if no way leads from a unit to a cell."""
+        if not np.isfinite(self.travel.loaded_to(cell).seconds[self._floor.units[shelf_id]]):
+            x, y = self.plan.point_of(cell)
+            raise ValueError(f"no way leads from storage unit {shelf_id} to ({x:g}, {y:g})")
+
+    def taken(self) -> np.ndarray:
+        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
+        taken = np.asarray(self.plan.storage, bool).ravel() & ~self._trips.free()
+        taken[list(self._floor.units.values())] = True
+        taken[self.book.destinations()] = True
+        return taken
+
+    def end(self, transport: Transport) -> None:
+        """Removes a transport that is over; its robot is free."""
+        self._trips.end(transport)
+
+    def turn_back(self, transport: Transport) -> None:
+        """Has a unit that is being brought stored instead."""
+        self._trips.turn_back(transport)
+
+    def leave(self, transport: Transport) -> None:
+        """Has a unit leave its destination now."""
+        self._trips.leave(transport)
+
+    # The driver.
+
+    def step_until(self, time: float) -> None:
+        """Goes on to `time` [s], or to the first event before it."""
+        self._trips.step_until(time)
+
+    def set_hooks(self, hooks: Hooks) -> None:
+        """Sets the decisions from now on; see protocols.Hooks."""
+        self._trips.hooks = hooks
+
+    def close(self) -> None:
+        """Does nothing; a fleet under physics has threads to end."""
+
+    # Figures.
+
+    def unit_cell(self, shelf_id: int) -> int | None:
+        """Returns the cell where a unit stands; None while it is carried."""
+        return self._floor.units.get(shelf_id)
+
+    def activities(self) -> dict[str, float]:
+        """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
+        return self._trips.activities()
+
+    def passages(self) -> np.ndarray:
+        """Returns how often a robot with a load drove through each cell, (h, w)."""
+        count = np.zeros(self.plan.passable.size)
+        for (station, cell, outbound), times in sorted(self._trips.ways.items()):
+            table = self.travel.loaded_from if outbound else self.travel.loaded_to
+            np.add.at(count, table(station).cells(cell), times)
+        return count.reshape(self.plan.passable.shape)
+
+    def waiting_map(self) -> np.ndarray:
+        """Returns robot-seconds in lanes before stations, spread over their cells, (h, w)."""
+        seconds = np.zeros(self.plan.passable.size)
+        for lane in self._floor.lanes.values():
+            cells = lane.station.cells[: lane.station.service]
+            seconds[cells] += lane.waited / max(len(cells), 1)
+        return seconds.reshape(self.plan.passable.shape)

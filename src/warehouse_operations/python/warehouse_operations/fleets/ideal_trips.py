@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The trips of ideal robots: to the unit, lift, to the station, queue, service, back, lower."""
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_fleet.transports.transport_book import (
+    BRINGING,
+    DROPPING,
+    LIFTING,
+    READY,
+    STAY,
+    STORING,
+    Kind,
+    Step,
+    Transport,
+    TransportBook,
+)
+from warehouse_operations.fleets.activities import ACTIVITIES
+from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
+from warehouse_operations.stock.event_queue import EventQueue
+from warehouse_operations.stock.protocols import Hooks, Task
+
+RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
+
+
+@dataclass(eq=False)
+class Robot:
+    """A robot without extent."""
+
+    kiva_id: int
+    cell: int
+    activity: str = "idle"  # one of ACTIVITIES
+    since: float = 0.0  # when the activity began [s]
+    there: float = 0.0  # when it reaches its cell, if it drives there [s]
+
+
+class Trips:
+    """Transports from their start to their end, each phase an event of `queue`.
+
+    time: simulated [s]. book: all transports, with the events that they cause. distance_m: driven
+    by all robots. ways: how often each (service or end cell, other cell, outbound) was driven with
+    a load. arrive: is called with each transport whose unit has come to its destination.
+    """
+
+    def __init__(
+        self, floor: IdealFloor, robots: Mapping[int, int], kinematics: Kinematics, hooks: Hooks
+    ) -> None:
+        self.floor, self.kinematics, self.hooks = floor, kinematics, hooks
+        self.travel, self.queue = floor.travel, EventQueue()
+        self.time = self.distance_m = 0.0
+        self.robots = [Robot(i, int(cell)) for i, cell in sorted(robots.items())]
+        self.book = TransportBook(len(self.robots), stations=floor.lanes)
+        self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
+        self.arrive: Callable[[Transport], None] = lambda _transport: None
+        self.ways: Counter[tuple[int, int, bool]] = Counter()
+        self._idle = dict(enumerate(self.robots))  # by index
+
+    def step_until(self, time: float) -> None:
+        """Goes on to a time [s], or to the first event before it."""
+        self._match()
+        while not self.book.has_events and self.queue.next_time <= time:
+            self.time = self.queue.next_time
+            self.queue.run_next()
+            self._match()
+        if not self.book.has_events:
+            self.time = max(self.time, time)
+
+    def activities(self) -> dict[str, float]:
+        """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
+        total = dict(self.seconds)
+        for robot in self.robots:
+            total[robot.activity] += self.time - robot.since
+        return total
+
+    def _schedule(self, delay: float, act: Callable[[Any], object], argument: Any) -> None:
+        self.queue.schedule(self.time + delay, act, argument)
+
+    def _add_event(self, kind: Kind, transport: Transport) -> None:
+        self.book.publish_event(self.time, transport, kind, self._driver(transport).kiva_id)
+
+    def _driver(self, transport: Transport) -> Robot:
+        return self.robots[transport.robot]
+
+    def _go_on(self, transport: Transport, step: Step) -> None:
+        self.book.go_on(transport, step, self.time)
+
+    def _begin(self, robot: Robot, activity: str) -> None:
+        self.seconds[robot.activity] += self.time - robot.since
+        robot.activity, robot.since = activity, self.time
+
+    def _match(self) -> None:
+        """Gives robots without work the transports that wait."""
+        if not self.book.open or not self._idle:
+            return
+        waiting, robots = list(self.book.open), list(self._idle.values())
+        indices = list(self._idle)
+        seconds, metres = self.travel.unloaded(
+            [self.floor.units[one.shelf] for one in waiting], [robot.cell for robot in robots]
+        )
+        # One that drives somewhere must come there first.
+        seconds += np.array([max(robot.there - self.time, 0.0) for robot in robots])
+        tasks = self._tasks(waiting)
+        for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
+            self.distance_m += metres[task, robot]
+            self._assign(waiting[task], indices[robot], seconds[task, robot])
+
+    def _tasks(self, waiting: list[Transport]) -> list[Task]:
+        asked = Counter(one.station for one in waiting)
+        coming = {name: self.book.waiting(name) + count for name, count in asked.items() if name}
+        return [
+            Task(one.number, one.shelf, one.station, one.priority, coming.get(one.station, 0))
+            for one in waiting
+        ]
+
+    def _assign(self, transport: Transport, index: int, seconds: float) -> None:
+        robot = self._idle.pop(index)
+        robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
+        self.book.assign(transport, index, self.time)
+        self._add_event(Kind.ASSIGNED, transport)
+        self._begin(robot, "to unit")
+        self._schedule(seconds, self._reach_unit, transport)
+
+    def _reach_unit(self, transport: Transport) -> None:
+        if transport.number not in self.book:
+            return
+        for step in (READY, LIFTING):
+            self._go_on(transport, step)
+        self._begin(self._driver(transport), "lift")
+        self._schedule(self.kinematics.lift, self._lift, transport)
+
+    def _lift(self, transport: Transport) -> None:
+        home = self.floor.units.pop(transport.shelf)
+        self.floor.clear(home)
+        self._add_event(Kind.LIFTED, transport)
+        if transport.let_go:  # was cancelled meanwhile
+            self._go_on(transport, STORING)
+            self._store(transport)
+            return
+        self._go_on(transport, BRINGING)
+        self._begin(self._driver(transport), "to station")
+        table = self.travel.loaded_to(transport.cell)
+        self.distance_m += table.metres[home]
+        self.ways[transport.cell, home, False] += 1
+        self._schedule(table.seconds[home], self._reach_end, transport)
+
+    def _reach_end(self, transport: Transport) -> None:
+        self._driver(transport).cell = transport.cell
+        if transport.cancelled:
+            self._store(transport)
+        elif lane := self._lane(transport):
+            self._begin(self._driver(transport), "queue")
+            lane.queue.append(transport)
+            self._serve_next(lane, 0.0)
+        else:
+            self._arrive(transport)
+
+    def _lane(self, transport: Transport) -> Lane | None:
+        return self.floor.lanes.get(transport.station)
+
+    def _serve_next(self, lane: Lane, moving_up: float) -> None:
+        """Moves the first in the lane to the service cell as soon as that has been left."""
+        if lane.serving or not lane.queue:
+            return
+        lane.serving = lane.queue.popleft()
+        delay = max(lane.free_from - self.time, 0.0) + moving_up
+        self._schedule(delay, self._arrive, lane.serving)
+
+    def _arrive(self, transport: Transport) -> None:
+        if transport.cancelled:
+            self._clear_lane(transport)
+            self._store(transport)
+            return
+        if lane := self._lane(transport):
+            lane.waited += self.time - self._driver(transport).since
+        self._begin(self._driver(transport), "service")
+        self.arrive(transport)
+
+    def turn_back(self, transport: Transport) -> None:
+        """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
+        self._go_on(transport, STORING)
+
+    def leave(self, transport: Transport) -> None:
+        """Has a unit leave its station, or be lowered where it is."""
+        self._add_event(Kind.RELEASED, transport)
+        self._clear_lane(transport)
+        if transport.then == STAY:
+            self.floor.free[transport.cell] = False
+            self._lower((transport, transport.cell))
+        else:
+            self._go_on(transport, STORING)
+            self._store(transport)
+
+    def _clear_lane(self, transport: Transport) -> None:
+        """Frees the service cell for when the robot with its unit has left it."""
+        lane = self._lane(transport)
+        if lane and lane.serving is transport:
+            spacing = self.floor.plan.spacing
+            lane.serving = None
+            lane.free_from = self.time + self.kinematics.leaving(spacing)
+            self._serve_next(lane, float(self.kinematics.run(spacing)))
+
+    def _store(self, transport: Transport) -> None:
+        """Sends a unit to a free place that the policy chooses."""
+        robot = self._driver(transport)
+        table = self.travel.loaded_from(robot.cell)
+        free = self.free()
+        cells = np.flatnonzero(free & np.isfinite(table.seconds))
+        if not len(cells):
+            self._begin(robot, "idle")
+            self._schedule(RETRY, self._store, transport)
+            return
+        place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
+        self.floor.free[place] = False
+        self._begin(robot, "back")
+        self.distance_m += table.metres[place]
+        self.ways[robot.cell, place, True] += 1
+        self._schedule(table.seconds[place], self._lower, (transport, place))
+
+    def free(self) -> np.ndarray:
+        """Returns (cells,) bool: storage places where no unit stands or is to be brought."""
+        free = self.floor.free
+        if kept := self.book.destinations():
+            free = free.copy()
+            free[kept] = False
+        return free
+
+    def _lower(self, argument: tuple[Transport, int]) -> None:
+        transport, place = argument
+        robot = self._driver(transport)
+        robot.cell = place
+        self._go_on(transport, DROPPING)
+        self._begin(robot, "lift")
+        self._schedule(self.kinematics.lift, self._drop, argument)
+
+    def _drop(self, argument: tuple[Transport, int]) -> None:
+        transport, place = argument
+        self.floor.units[transport.shelf] = place
+        self._add_event(Kind.STORED, transport)
+        self.end(transport)
+
+    def end(self, transport: Transport) -> None:
+        """Removes a transport that is over; its robot is free."""
+        self.book.remove(transport)
+        if transport.robot == NOWHERE:
+            return
+        robot = self._driver(transport)
+        self._begin(robot, "idle")
+        self._idle[transport.robot] = robot
+        to = self.hooks.park(robot.kiva_id, robot.cell)
+        if to is not None and to != robot.cell:
+            seconds, metres = self.travel.unloaded([robot.cell], [to])
+            self.distance_m += float(metres[0, 0])
+            begin = max(self.time, robot.there)
+            robot.cell, robot.there = int(to), begin + float(seconds[0, 0])

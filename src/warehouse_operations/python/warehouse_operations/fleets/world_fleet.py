@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated robots of a world, as a shift drives them; ideal.IdealFleet is the other fleet."""
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
+from warehouse_fleet.transports.transport_book import Transport
+from warehouse_operations.fleets.activities import ActivityLog
+from warehouse_operations.stock.protocols import Hooks, Task
+from warehouse_operations.stock.travel import Travel
+
+TOW_AFTER = 60.0  # in which people come to a robot that is broken in others' way [s]
+DEADLOCKED = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
+
+
+class WorldFleet(FleetDriver):
+    """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
+
+    def __init__(
+        self, world: Any, site: Any, seed: int, threads: int = 0, planner: Any = None
+    ) -> None:
+        super().__init__(
+            world,
+            seed,
+            planner,
+            site.kinematics,
+            tow_after=TOW_AFTER,
+            threads=threads,
+            plan=site.plan,
+        )
+        self.robot_count = len(site.robots)
+        self.travel = Travel(site.plan, site.kinematics)
+        self._cells = self.robots.cell
+        self._activities = ActivityLog()
+        self._passages, self._waiting = np.zeros((2, site.plan.passable.size))
+
+    def set_hooks(self, hooks: Hooks) -> None:
+        """Sets the policies that decide from now on."""
+        self._hooks = hooks
+        self.transports.match_robots = self._match_robots
+        self.transports.choose_place = self._choose_place
+        self.transports.park = self._park
+        self.transports.charging.policy = hooks.charging
+
+    def _match_robots(
+        self, asked: list[Transport], free: np.ndarray
+    ) -> Iterator[tuple[Transport, int]]:
+        transports = self.transports
+        cells = [transports.cell_of_unit[one.shelf] for one in asked]
+        seconds, _ = self.travel.unloaded(cells, self.robots.cell[free])
+        waiting = Counter(one.station for one in asked)
+        tasks = [
+            Task(
+                one.number,
+                one.shelf,
+                one.station,
+                one.priority,
+                transports.waiting(one.station) + waiting[one.station],
+            )
+            for one in asked
+        ]
+        robots = self.robots.kiva_ids[free].tolist()
+        for task, robot in self._hooks.match_robots(tasks, robots, seconds):
+            yield asked[task], free[robot]
+
+    def _choose_place(self, shelf_id: int, cell: int, free: np.ndarray) -> int:
+        metres = self.travel.metres_to_places(cell, free)
+        return self._hooks.choose_place(shelf_id, free, metres)
+
+    def _park(self, robot: int) -> int | None:
+        robots = self.robots
+        return self._hooks.park(int(robots.kiva_ids[robot]), int(robots.cell[robot]))
+
+    def step(self) -> None:
+        """Goes on by 0.1 s, and counts where robots come through and what they do."""
+        super().step()
+        robots = self.robots
+        cells, inside = robots.cell, robots.cell >= 0
+        came = inside & robots.loaded & (cells != self._cells)
+        np.add.at(self._passages, cells[came], 1)
+        standing = inside & (robots.still_since < self.traffic.time)
+        np.add.at(self._waiting, cells[standing], UPDATE)
+        self._activities.observe(UPDATE, self.transports, standing)
+        self._cells = cells
+
+    def passages(self) -> np.ndarray:
+        """Returns how often a loaded robot came through each cell, (h, w)."""
+        return self._passages.reshape(self.plan.shape)
+
+    def waiting_map(self) -> np.ndarray:
+        """Returns the robot-seconds that robots under way stood in each cell, (h, w)."""
+        return self._waiting.reshape(self.plan.shape)
+
+    def activities(self) -> dict[str, float]:
+        """Returns the robot-seconds spent on each of activities.ACTIVITIES up to now."""
+        return self._activities.seconds
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """The state of batteries, and the part of the robots' time at charging; empty where there
+        are no batteries."""
+        charge = self.robots.charge
+        if not (charge < 1).any():
+            return {}
+        return {
+            "charge_mean": float(charge.mean()),
+            "charge_least": float(charge.min()),
+            "charging_fraction": self.transports.charging.robot_s
+            / max(self.failures.robot_s, 1e-9),
+        }
+
+    @property
+    def fallen_items(self) -> list[str]:
+        """The names of items that lie on the floor."""
+        return [f"item{item}" for item in self.fallen]
+
+    @property
+    def stuck(self) -> int:
+        """How many robots stand still for DEADLOCKED although they have somewhere to go."""
+        robots = self.robots
+        going = (robots.goal >= 0) & (robots.goal != robots.cell) & ~robots.busy
+        return int(np.count_nonzero(going & (self.traffic.watchdog.stuck_for > DEADLOCKED)))
+
+    def state_hash(self) -> int:
+        """Returns the digest of the world's state."""
+        return self.world.state_hash()

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads controllers (.xconf) of RAWSim-O: the policies that are here too, and names the others."""
+
+from collections.abc import Iterator
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from warehouse_layout.convert.common import PathName
+from warehouse_layout.convert.rawsim.xml_fields import read_root
+
+SUFFIX = ".xconf"
+TYPE = "{http://www.w3.org/2001/XMLSchema-instance}type"
+# Of the elements that choose a method: our role, and our policies by theirs.
+CHOSEN: dict[str, tuple[str, dict[str, str]]] = {
+    "TaskAllocationConfig": ("robots", {"Balanced": "balanced"}),
+    "ItemStorageConfig": (
+        "bins",
+        {"Random": "random", "Emptiest": "emptiest", "Turnover": "turnover"},
+    ),
+    "PodStorageConfig": (
+        "storage",
+        {
+            "Random": "random",
+            "Nearest": "nearest",
+            "Fixed": "fixed",
+            "Turnover": "turnover classes",
+            "Cache": "cache",
+        },
+    ),
+    "OrderBatchingConfig": ("orders", {"Random": "random", "PodMatching": "pile-on"}),
+}
+# Of what `Default` order batching goes by, and of the pods that a balanced allocation looks for.
+RULES = {"FCFS": "first come", "DueTime": "due date", "Random": "random"}
+PODS = {"Nearest": "nearest", "WorkAmount": "most work", "WorkAmountSameTier": "most work"}
+# What a shift does in any case.
+DONE = {
+    "StationActivationConfig": "ActivateAll",
+    "RepositioningConfig": "Dummy",
+    "MethodManagementConfig": "NoChange",
+}
+OTHERS = ("PathPlanningConfig", "ReplenishmentBatchingConfig")
+
+
+def is_controller(path: PathName) -> bool:
+    """Returns whether a file is one by its name."""
+    return str(path).lower().endswith(SUFFIX)
+
+
+def read(path: PathName) -> tuple[dict[str, Any], list[str]]:
+    """Returns the policies of a controller by role, and sentences about what is not followed.
+
+    Raises InstanceError.
+    """
+    root = read_root(path, "ControlConfiguration")
+    told: dict[str, Any] = {}
+    for tag, (role, names) in CHOSEN.items():
+        method, element = _method(root, tag)
+        if tag == "OrderBatchingConfig" and method == "Default":
+            policy = RULES.get(element.findtext("OrderSelectionRule", "") if element else "")
+        else:
+            policy = names.get(method)
+        if policy:
+            told[role] = policy
+    method, element = _method(root, "TaskAllocationConfig")
+    if element is not None and (pods := PODS.get(element.findtext("OutputPodOrderType", ""))):
+        told["units"] = pods
+    return told, list(_not_followed(path, root, told))
+
+
+def remarks(path: PathName) -> list[str]:
+    """Returns sentences about what of a file of policies is not followed. Raises InstanceError."""
+    return read(path)[1] if is_controller(path) else []
+
+
+def _method(root: Element, tag: str) -> tuple[str, Element | None]:
+    """Returns the method that an element chooses, `Balanced` of BalancedTaskAllocation…."""
+    element = root.find(tag)
+    if element is None:
+        return "", None
+    kind = element.get(TYPE, "").removesuffix("uration").removesuffix("Config")
+    return kind.removesuffix(tag.removesuffix("Config")), element
+
+
+def _not_followed(path: PathName, root: Element, told: dict[str, Any]) -> Iterator[str]:
+    for tag in (*CHOSEN, *DONE, *OTHERS):
+        method, element = _method(root, tag)
+        role = CHOSEN[tag][0] if tag in CHOSEN else ""
+        if element is None or role in told or DONE.get(tag) == method:
+            continue
+        yield f"{path}: {tag} {method} is not followed"

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The state of a shift as its policies see it."""
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from warehouse_operations.stock.assortment import CAPACITY, Assortment
+from warehouse_operations.stock.orders import Bundle, Order
+from warehouse_operations.stock.units_by_id import UnitSet
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift.shift import Shift
+    from warehouse_operations.stock.stations import WorkStation
+
+RANKS_KEPT = 300.0  # the ranking of the units by turnover is used for this long [s]
+
+
+class View:
+    """What a policy gets as `view`. Policies read it and change nothing.
+
+    now: simulated time [s]. rng: a numpy Generator. policies, settings: those of the shift.
+    inventory: its Inventory. backlog: its Backlog. assortment: its Assortment. floor: its
+    Whereabouts. free_units: the ids of units that stand in storage and may be asked for.
+    """
+
+    def __init__(self, shift: "Shift") -> None:
+        self._shift = shift
+        self.rng, self.policies, self.settings = shift.rng, shift.policies, shift.settings
+        self.inventory, self.backlog, self.floor = shift.inventory, shift.backlog, shift.floor
+        self.assortment: Assortment = shift.assortment
+        self._turnover_rank: dict[int, float] = {}
+        self._ranked_at = -np.inf
+        self._popularity_rank = _ranks_of(shift.assortment)
+        self._sku_index = {sku: i for i, sku in enumerate(shift.assortment.skus)}
+        self._refill_weights = np.zeros(len(self._sku_index))
+
+    @property
+    def now(self) -> float:
+        """The simulated time [s]."""
+        return self._shift.now
+
+    @property
+    def free_units(self) -> UnitSet:
+        """The ids of units that stand in storage and may be asked for."""
+        return self._shift.free_units
+
+    @property
+    def orders(self) -> Mapping[int, Order]:
+        """All orders that are not over, by id."""
+        return self._shift.orders
+
+    @property
+    def stations(self) -> Collection["WorkStation"]:
+        """All WorkStations."""
+        return self._shift.stations
+
+    def station(self, name: str) -> "WorkStation":
+        """Returns the WorkStation of that name. Raises KeyError."""
+        return self._shift.station(name)
+
+    # Stock.
+
+    @property
+    def bundles(self) -> Mapping[int, Bundle]:
+        """The Bundles that wait for a place, by id."""
+        return self._shift.replenishing.bundles
+
+    @property
+    def pieces_ordered(self) -> int:
+        """Pieces that were ordered and are not in a bin yet."""
+        return self._shift.replenishing.ordered + self.inventory.expected
+
+    def pieces_at_door(self, sku: str) -> int:
+        """Returns how many pieces of a SKU were ordered and have no bin yet."""
+        return self._shift.replenishing.ordered_of.get(sku, 0)
+
+    def in_stock(self, order: Order) -> bool:
+        """Returns whether every piece that an order lacks lies in a bin, promised to no order.
+
+        A line of more than a bin may hold is begun with a bin's worth: room must be made for more.
+        """
+        available = self.inventory.available
+        return all(available(ln.sku) >= min(ln.missing, CAPACITY) for ln in order.lines)
+
+    def stock_of(self, sku: str) -> int:
+        """Returns how many pieces of a SKU are expected, or in bins and promised to no order."""
+        return self.inventory.available(sku) + self.inventory.incoming(sku)
+
+    def work(self, unit: int) -> int:
+        """Returns how many free pieces on a unit the orders of the backlog ask for."""
+        demand, pieces = self.backlog.demand, 0
+        for one in self.inventory.of_unit[unit]:
+            wanted = demand.get(one.sku)
+            if wanted:
+                pieces += min(one.quantity - one.reserved, wanted)
+        return pieces
+
+    def room(self, unit: int) -> int:
+        """Returns how many pieces can be put into a unit's bins."""
+        return sum(one.room for one in self.inventory.of_unit[unit])
+
+    def sku_to_refill(self) -> str | None:
+        """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""
+        changed = self.inventory.room_changed | self._shift.replenishing.changed
+        self.inventory.room_changed.clear()
+        self._shift.replenishing.changed.clear()
+        for sku in changed & self._sku_index.keys():
+            room = self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8
+            self._refill_weights[self._sku_index[sku]] = max(room, 0)
+        sums = np.cumsum(self._refill_weights)
+        if not sums[-1] > 0:
+            return None
+        at = np.searchsorted(sums, self.rng.random() * sums[-1], side="right")
+        return self.assortment.skus[min(int(at), len(sums) - 1)]
+
+    def shortages(self) -> dict[str, int]:
+        """Returns the pieces that orders want beyond what is in stock or ordered, by SKU."""
+        wanted: dict[str, int] = defaultdict(int, self._shift.picking.missing())
+        for sku, pieces in self.backlog.demand.items():
+            wanted[sku] += pieces
+        lacking = {s: n - self.stock_of(s) - self.pieces_at_door(s) for s, n in wanted.items()}
+        return {sku: pieces for sku, pieces in lacking.items() if pieces > 0}
+
+    # Places.
+
+    def seconds_to(self, station: str, unit: int) -> float:
+        """Returns how long a unit takes to a station without traffic [s]; inf if it is carried."""
+        return self.floor.seconds_to(station, unit)
+
+    def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
+        """Returns the same of units, (n,) [s]."""
+        return self.floor.seconds_to_all(station, units)
+
+    def cell(self, unit: int) -> int | None:
+        """Returns the cell where a unit stands; None while it is carried."""
+        return self.floor.cells.get(unit)
+
+    def first_cell(self, unit: int) -> int:
+        """Returns the cell where a unit stood as the shift began."""
+        return self.floor.units[unit]
+
+    def first_cell_of_robot(self, kiva_id: int) -> int | None:
+        """Returns the cell where a robot stood as the shift began; None of an unknown one."""
+        return self.floor.robots.get(kiva_id)
+
+    def cells_apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
+        """Returns the metres along the axes between a cell and others, (n,)."""
+        return self.floor.apart(cell, cells)
+
+    def place_rank(self, cells: np.ndarray) -> np.ndarray:
+        """Returns the ranks of storage places, (n,): 0 nearest to picking stations, 1 farthest."""
+        return self.floor.place_rank(cells)
+
+    def stored_units_near(self, cell: int, count: int) -> list[int]:
+        """Returns the units nearest to a cell that stand in storage and may be asked for."""
+        units = sorted(self.free_units & self.floor.cells.keys())
+        apart = self.floor.apart(cell, self.floor.cells.of(np.array(units, int)))
+        return [units[i] for i in np.argsort(apart, kind="stable")[:count]]
+
+    # Ranks.
+
+    def popularity_rank(self, sku: str) -> float:
+        """Returns 0 for the SKU that is asked for most, near 1 for the least."""
+        return self._popularity_rank[sku]
+
+    def turnover_rank(self, unit: int) -> float:
+        """Returns 0 for the unit whose pieces are asked for most, near 1 for the least."""
+        if self.now - self._ranked_at >= RANKS_KEPT:
+            self._turnover_rank = self._rank_units()
+            self._ranked_at = self.now
+        return self._turnover_rank.get(unit, 1.0)
+
+    def _rank_units(self) -> dict[int, float]:
+        share = dict(zip(self.assortment.skus, self.assortment.popularity))
+        units = self.inventory.of_unit
+        turnover = {u: sum(share.get(b.sku, 0) for b in units[u] if b.quantity) for u in units}
+        order = sorted(turnover, key=lambda unit: (-turnover[unit], unit))
+        return {unit: i / len(order) for i, unit in enumerate(order)}
+
+
+class PolicyHooks:
+    """Answers what the fleet asks by the policies of a shift; see protocols.Hooks."""
+
+    def __init__(self, shift: "Shift") -> None:
+        self._shift = shift
+
+    def choose_place(self, shelf_id: int, cells: np.ndarray, distances: np.ndarray) -> int:
+        """Returns the cell in which a unit is stored, and notes it as the unit's place."""
+        shift = self._shift
+        cell = int(shift.policies.storage.choose(shelf_id, cells, distances, shift.view))
+        shift.floor.cells[shelf_id] = cell
+        return cell
+
+    def match_robots(
+        self, tasks: Sequence[Any], robots: Sequence[int], seconds: np.ndarray
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot)."""
+        return self._shift.policies.robots.match(tasks, robots, seconds, self._shift.view)
+
+    def park(self, kiva_id: int, cell: int) -> int | None:
+        """Returns the cell to which a robot without work goes; None if it waits where it is."""
+        return self._shift.policies.idle.park(kiva_id, cell, self._shift.view)
+
+    @property
+    def charging(self) -> Any:
+        """The charging policy."""
+        return self._shift.policies.charging
+
+
+def _ranks_of(assortment: Assortment) -> dict[str, float]:
+    order = np.argsort(-assortment.popularity, kind="stable")
+    return {assortment.skus[i]: rank / len(order) for rank, i in enumerate(order)}

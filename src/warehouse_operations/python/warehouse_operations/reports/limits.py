@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What limits a warehouse, and when: the one place that reports, sweeps, sizings and what-if ask.
+
+A shift is looked at in windows of ten minutes. Each has a limit of its own, from how near stations
+and robots are to what they can; what limits the shift is what does where orders become late, else
+what does for the longest time. So an hour of peak is not lost in a quiet day.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import groupby
+
+import numpy as np
+
+from warehouse_operations.runs.run_files import Run
+from warehouse_operations.shift.kpis import INTERVAL
+
+WINDOW = 600.0  # [s]
+HOUR = 3600.0  # [s]
+SATURATED = 0.95  # of what stations can at most: they are what limits
+IDLE = 0.15  # of the robots' time: they lack work
+HELD_UP = 1.15  # driven over planned time: traffic holds robots up
+
+
+class Limit(StrEnum):
+    """What limits a warehouse."""
+
+    STATIONS = "the picking stations"
+    REPLENISHING = "the replenishing stations"
+    ORDERS = "the orders and the stock"
+    STREETS = "the streets"
+    ROBOTS = "the robots"
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of one shift or of several with the same times, summed; times of the shift [s].
+
+    arrived, completed, late: orders that came, were complete, became late. bound: pieces that the
+    open picking stations could pick at most. robots_s: robot-seconds, of which idle_s without work
+    and queue_s before stations. replenishing: share of their time that replenishing stations work.
+    delay: driven over planned time.
+    """
+
+    begin: float
+    end: float
+    arrived: float
+    completed: float
+    late: float
+    pieces: float
+    bound: float
+    robots_s: float
+    idle_s: float
+    queue_s: float
+    replenishing: float = 0.0
+    delay: float = 1.0
+
+    @property
+    def of_bound(self) -> float:
+        """Pieces picked, of those that the open picking stations could pick at most."""
+        return self.pieces / self.bound if self.bound else 0.0
+
+    @property
+    def idle(self) -> float:
+        """The share of the robots' time without work."""
+        return self.idle_s / self.robots_s if self.robots_s else 0.0
+
+    @property
+    def queue(self) -> float:
+        """The share of the robots' time before stations."""
+        return self.queue_s / self.robots_s if self.robots_s else 0.0
+
+    @property
+    def at_work(self) -> float:
+        """The share of the robots' time in which they neither lack work nor wait for stations."""
+        return 1 - self.idle - self.queue
+
+    @property
+    def limit(self) -> Limit:
+        """What limits the warehouse in this window."""
+        if self.of_bound >= SATURATED:
+            return Limit.STATIONS
+        if self.idle > IDLE:
+            return Limit.REPLENISHING if self.replenishing >= SATURATED else Limit.ORDERS
+        return Limit.STREETS if self.delay > HELD_UP else Limit.ROBOTS
+
+
+def windows_of(
+    series: Mapping[str, Sequence[float]], late: Sequence[float], delay: float = 1.0
+) -> list[Window]:
+    """Returns the Windows of a shift.
+
+    series: by minute, see minute_log.SERIES. late: orders that became late, by minute.
+    """
+    step = int(WINDOW / INTERVAL)
+    count = len(series["pieces"])
+    out = []
+    for first in range(0, count, step):
+        last = min(first + step, count)
+        total = {name: float(sum(values[first:last])) for name, values in series.items()}
+        out.append(
+            Window(
+                first * INTERVAL,
+                last * INTERVAL,
+                total["arrived"],
+                total["completed"],
+                float(sum(late[first:last])),
+                total["pieces"],
+                total["bound"],
+                total["robots_s"],
+                total["idle_s"],
+                total["queue_s"],
+                total["replenishing_s"] / max(total["open_replenishing_s"], 1.0),
+                delay,
+            )
+        )
+    return out
+
+
+def windows(runs: Sequence[Run]) -> list[Window]:
+    """Returns the Windows of runs of one configuration, summed."""
+    delay = float(np.mean([run.kpis.get("executed_over_planned", 1.0) for run in runs]))
+    if any("minutes" not in run.data for run in runs):
+        return [_whole(runs, delay)]
+    each = [run.data["minutes"] for run in runs]
+    count = min(len(one["pieces"]) for one in each)
+    series = {
+        name: np.sum([one[name][:count] for one in each], axis=0).tolist() for name in each[0]
+    }
+    return windows_of(series, series["late"], delay) or [_whole(runs, delay)]
+
+
+def _whole(runs: Sequence[Run], delay: float) -> Window:
+    """Returns the Window of runs that have no minutes: too short, or written without them."""
+    spent: dict[str, float] = {}
+    for run in runs:
+        for activity, seconds in run.data.get("robots", {}).items():
+            spent[activity] = spent.get(activity, 0.0) + seconds
+    total = {
+        name: sum(run.kpis.get(name, 0.0) * run.kpis.get("simulated_s", 0.0) / HOUR for run in runs)
+        for name in (
+            "order_throughput_per_hour",
+            "item_throughput_per_hour",
+            "item_upper_bound_per_hour",
+        )
+    }
+    orders, pieces, bound = total.values()
+    late = sum(
+        run.kpis.get("late_orders_fraction", 0.0)
+        * run.kpis.get("order_throughput_per_hour", 0.0)
+        * run.kpis.get("simulated_s", 0.0)
+        / HOUR
+        for run in runs
+    )
+    end = max(run.kpis.get("simulated_s", 0.0) for run in runs)
+    robots_s = sum(spent.values())
+    idle_s, queue_s = spent.get("idle", 0.0), spent.get("queue", 0.0)
+    return Window(
+        0.0, end, orders, orders, late, pieces, bound, robots_s, idle_s, queue_s, 0.0, delay
+    )
+
+
+def merged(parts: Sequence[Window]) -> Window:
+    """Returns Windows as one, from the begin of the first to the end of the last."""
+    seconds = np.array([one.end - one.begin for one in parts])
+    sums = {
+        name: sum(getattr(one, name) for one in parts)
+        for name in (
+            "arrived", "completed", "late", "pieces", "bound", "robots_s", "idle_s", "queue_s",
+        )
+    }  # fmt: skip
+    means = {
+        name: float(np.average([getattr(one, name) for one in parts], weights=seconds))
+        for name in ("replenishing", "delay")
+    }
+    return Window(parts[0].begin, parts[-1].end, **sums, **means)
+
+
+def limit(parts: Sequence[Window]) -> Limit:
+    """Returns what limits a shift: where orders become late, else for the longest time."""
+    late: dict[Limit, float] = {}
+    time: dict[Limit, float] = {}
+    for one in parts:
+        late[one.limit] = late.get(one.limit, 0.0) + one.late
+        time[one.limit] = time.get(one.limit, 0.0) + one.end - one.begin
+    weights = late if any(late.values()) else time
+    return max(weights, key=lambda it: (weights[it], time[it]))
+
+
+def limiting(parts: Sequence[Window]) -> list[Window]:
+    """Returns the Windows in which what limits the shift does so."""
+    found = limit(parts)
+    return [one for one in parts if one.limit == found]
+
+
+def hours(parts: Sequence[Window]) -> list[tuple[Window, Limit]]:
+    """Returns each hour of a shift, and what limits it."""
+    each = [list(of) for _, of in groupby(parts, key=lambda one: int(one.begin // HOUR))]
+    return [(merged(of), limit(of)) for of in each]
+
+
+def when(parts: Sequence[Window]) -> str:
+    """Returns from when to when a shift is limited by what limits it: `3:20 to 5:20, 7:00 to 7:10`;
+    "" where it is all the time."""
+    chosen = limiting(parts)
+    if len(chosen) == len(parts):
+        return ""
+    spans: list[list[float]] = []
+    for one in chosen:
+        if spans and spans[-1][1] == one.begin:
+            spans[-1][1] = one.end
+        else:
+            spans.append([one.begin, one.end])
+    return ", ".join(f"{clock(begin)} to {clock(end)}" for begin, end in spans)
+
+
+def clock(seconds: float) -> str:
+    """Returns a time of the shift as text: hours and minutes."""
+    minutes = round(seconds / 60)
+    return f"{minutes // 60}:{minutes % 60:02}"
+
+
+def share_of_late(parts: Iterable[Window], of: Iterable[Window]) -> float:
+    """Returns the part of the late orders of Windows that became late in some of them."""
+    late = sum(one.late for one in parts)
+    return sum(one.late for one in of) / late if late else 0.0

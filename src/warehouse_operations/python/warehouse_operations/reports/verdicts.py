@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Says how configurations differ: after the warm-up, seed by seed, with Holm's correction.
+
+Intervals are widened as p-values are corrected, so that both say the same. Fewer than
+comparison.LEAST runs say nothing.
+
+The warm-up is where MSER-5 cuts the pieces picked a minute; all configurations lose as much as the
+one that takes longest. All differences that are told together are corrected together.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isnan
+
+import numpy as np
+
+from warehouse_operations.reports.comparison import Difference, Group, difference_of, holm
+from warehouse_operations.reports.warm_up import mser5
+from warehouse_operations.runs.run_files import Run
+
+# Names of figures, with their words, factor and digits.
+TOLD: tuple[tuple[str, str, float, int], ...] = (
+    ("pieces_per_hour", "pieces an hour", 1, 0),
+    ("metres_per_piece", "metres driven for a piece", 1, 1),
+    ("turnover_s", "minutes from an order's arrival to its completion, median", 1 / 60, 1),
+)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a group differs from the first in a figure; p-value and interval: corrected."""
+
+    group: Group
+    first: Group
+    figure: str
+    words: str
+    difference: Difference
+    p_value: float
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The confidence interval of the difference, over the mean of the first."""
+        found = self.difference
+        return found.relative - _half(found), found.relative + _half(found)
+
+    def __str__(self) -> str:
+        found, (low, high) = self.difference, self.bounds
+        bounds = "all alike" if isnan(low) else f"95 %: {100 * low:+.1f} to {100 * high:+.1f} %"
+        sure = "significant" if found.significant else "not significant"
+        pairs = ", seed by seed" if found.paired else ""
+        return (
+            f"{self.group.label}: {100 * found.relative:+.1f} % {self.words} against"
+            f" {self.first.label} ({sure}, {p_text(self.p_value)}, {bounds},"
+            f" effect {found.effect:+.1f},"
+            f" {found.estimate.count} runs{pairs})"
+        )
+
+
+def verdicts(groups: Sequence[Group]) -> list[Verdict]:
+    """Returns how all groups differ from the first in all figures of TOLD."""
+    cut = warm_up(groups)
+    figures = [{run.seed: figures_of(run, cut) for run in group.runs} for group in groups]
+    out = []
+    for group, its in zip(groups[1:], figures[1:]):
+        for name, words, *_ in TOLD:
+            a, b = ({seed: one[name] for seed, one in all_.items()} for all_ in (figures[0], its))
+            if found := difference_of(a, b):
+                out.append(Verdict(group, groups[0], name, words, found, found.p_value))
+    corrected = holm([one.p_value for one in out])
+    return [
+        replace(one, difference=one.difference.corrected(p), p_value=p)
+        for one, p in zip(out, corrected)
+    ]
+
+
+def warm_up(groups: Sequence[Group]) -> int:
+    """Returns the intervals that the warm-up of the slowest group takes."""
+    return max(mser5(_rows(group)) for group in groups)
+
+
+def _rows(group: Group) -> np.ndarray:
+    rows = [run.data["intervals"]["picked"] for run in group.runs]
+    length = min(map(len, rows))
+    return np.array([row[:length] for row in rows]).reshape(len(rows), length)
+
+
+def figures_of(run: Run, cut: int) -> dict[str, float]:
+    """Returns the figures of TOLD of a run without its first intervals.
+
+    Figures of runs that were written before these series are those of the whole shift.
+    """
+    seconds = run.data["intervals"]["seconds"]
+    picked = run.data["intervals"]["picked"][cut:]
+    kpis, data = run.kpis, run.data
+    if not picked or "driven_m" not in data:
+        return {
+            "pieces_per_hour": kpis["item_throughput_per_hour"],
+            "metres_per_piece": kpis["distance_per_item_m"],
+            "turnover_s": kpis["order_turnover_s"]["median"],
+        }
+    orders = zip(data["completed_s"], data["turnover_s"])
+    times = [taken for at, taken in orders if at >= cut * seconds]
+    return {
+        "pieces_per_hour": sum(picked) * 3600 / (seconds * len(picked)),
+        "metres_per_piece": sum(data["driven_m"][cut:]) / max(sum(picked), 1),
+        "turnover_s": float(np.median(times or [0.0])),
+    }
+
+
+def p_text(p_value: float) -> str:
+    """Returns a p-value as text; of the least ones only how small they are."""
+    return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
+
+
+def _half(found: Difference) -> float:
+    return found.estimate.half / found.base if found.base else float("nan")

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shifts as ROS nodes: messages, services, and the fleet of a running warehouse."""

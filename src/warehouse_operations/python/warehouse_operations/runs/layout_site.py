@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a layout file says about a shift: how its stations work, its policies and initial stock."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from warehouse_layout.file.layout_file import LayoutFile, StationEntry
+from warehouse_layout.file.request import LIMITS
+from warehouse_layout.place.placement import stock_of
+from warehouse_operations.policies import Policies, PolicyError, beside
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.stock.site import Site, Stock
+
+
+def of_file(site: Site, file: LayoutFile) -> Site:
+    """Returns the Site of a warehouse that was built of a layout file, with what else that says.
+
+    Raises LayoutFileError for a stock file that is wrong.
+    """
+    # A unit of it may be gone by now: bins of items that are not here are left out.
+    rows = stock_of(file, LIMITS["shelves"])
+    # Each row of the stock was made an item, in their order.
+    stock = [Stock(f"item{i}", row.sku, row.quantity) for i, row in enumerate(rows, start=1)]
+    return replace(
+        site,
+        name=site.name or file.title,
+        settings=replace(site.settings, by_station=settings_of(file).by_station),
+        stock=stock,
+    )
+
+
+def settings_of(file: LayoutFile) -> Settings:
+    """Returns the Settings of a file's stations."""
+    return Settings(by_station={one.name: _of(one) for one in file.stations})
+
+
+def _of(entry: StationEntry) -> dict[str, Any]:
+    """Returns the settings of a station by their names in Settings."""
+    names = {
+        "capacity": "slots",
+        "seconds_a_piece": "bundle_s" if entry.kind == "replenish" else "piece_s",
+        "pick_seconds": "pick_s",
+        "seconds_a_line": "line_s",
+    }
+    told = {names.get(name, name): value for name, value in entry.settings.items()}
+    return told | ({"replenishes": True} if entry.kind == "both" else {})
+
+
+def policies_of(file: LayoutFile) -> Policies:
+    """Returns the policies of a layout file. Raises PolicyError with its name."""
+    return Policies(_policies(file), f"{file.path or file.title}: policies")
+
+
+def _policies(file: LayoutFile) -> dict[str, Any]:
+    return beside(dict(file.policies), Path(file.path or ".").parent)
+
+
+def merged(file: LayoutFile, told: Policies) -> Policies:
+    """Returns the policies that were told, and for the other roles those of a layout file.
+
+    Raises PolicyError.
+    """
+    policies_of(file)
+    return Policies({**_policies(file), **told.given})
+
+
+def fault(file: LayoutFile) -> str:
+    """Returns what a shift could not take of a layout file, as a sentence; "" if nothing."""
+    try:
+        policies_of(file)
+    except PolicyError as error:
+        return str(error)
+    return ""

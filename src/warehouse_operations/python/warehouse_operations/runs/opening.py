@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Opens a shift: with new stock, or with the stock and orders that a database holds."""
+
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from warehouse_operations.policies import Policies
+from warehouse_operations.shift.shift import Shift
+from warehouse_operations.stock import order_mix
+from warehouse_operations.stock.assortment import Assortment, stocked, told
+from warehouse_operations.stock.demand import make_demand
+from warehouse_operations.stock.order_file import DemandError, lines_by_sku
+from warehouse_operations.stock.protocols import Requests
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.travel import Travel
+from warehouse_operations.stock.whereabouts import Whereabouts
+from warehouse_operations.store.returning import changes, layout_of
+
+if TYPE_CHECKING:
+    from warehouse_operations.store.database import Database
+    from warehouse_operations.store.database_journal import DatabaseJournal
+    from warehouse_operations.store.stored import Stored
+
+
+def open_shift(
+    site: Site,
+    transports: Requests,
+    *,
+    orders: str = "fill",
+    seed: int = 1,
+    policies: Policies | Mapping[str, Any] | None = None,
+    database: "Database | None" = None,
+    settings: Settings | None = None,
+    travel: Travel | None = None,
+    now: float = 0.0,
+) -> Shift:
+    """Returns a new Shift at a Site, over transports.
+
+    orders: see demand.make_demand. policies: the chosen ones by role. database: holds the
+    warehouse that the shift goes on with, or gets a new one; None: nothing is kept. now: simulated
+    time [s]. Raises SiteError, DemandError, PolicyError, DatabaseError.
+    """
+    journal: DatabaseJournal | None = None
+    stored: Stored | None = None
+    if not isinstance(policies, Policies):
+        policies = Policies(policies)
+    if database:
+        from warehouse_operations.store import database_journal
+        from warehouse_operations.store import stored as keeping
+
+        with database.reading():
+            stored = keeping.read(database.engine, now)
+            journal = database_journal.DatabaseJournal(
+                database,
+                seed=seed,
+                orders=str(orders),
+                policies=policies.chosen,
+                site=site.name,
+                layout=layout_of(site),
+                now=now,
+            )
+    # A run that goes on has its own chance, or the same orders would come again.
+    runs = () if journal is None else (journal.run_id,)
+    chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
+    stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
+    if stored and database:
+        changed = changes(site, stored, database.url)
+        assortment = stored.assortment
+        stock = [(one, 0) for one in (*stored.bins, *changed.new)]
+    elif site.stock:
+        assortment, stock = told(site.items, site.stock, stock_rng)
+    else:
+        own = _own_skus(str(orders), site)
+        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level, own=own)
+    settings = settings or site.settings
+    picks = [station.kind == "PICK" for station in site.plan.stations]
+    refilling = [settings.of(station.name).replenishes for station in site.plan.stations]
+    count = sum(picks), len(picks) - sum(picks) + sum(refilling)
+    shift = Shift(
+        transports,
+        assortment,
+        [one for one, _ in stock],
+        floor=Whereabouts(site.plan, site.robots, site.units, travel),
+        policies=policies,
+        demand=make_demand(
+            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+        ),
+        settings=settings,
+        journal=journal,
+        rng=policy_rng,
+        now=now,
+    )
+    if stored and database and journal:
+        with database.reading():
+            journal.resume(stored)
+        journal.take_in(changed.new, changed.moved)
+        shift.resume(stored, changed)
+        journal.gone(changed.gone)
+    else:
+        if journal:
+            journal.begin(shift)
+        shift.begin(stock)
+    if journal:  # what the shift begins with is kept before it does
+        journal.commit(shift)
+        journal.flush()
+    return shift
+
+
+def _own_skus(orders: str, site: Site) -> Assortment | None:
+    """Returns the SKUs of a file of orders, where a drawn stock would lack some of them; or None.
+
+    Raises DemandError.
+    """
+    file = order_mix.file_of(orders)
+    if not file:
+        return None
+    lines = lines_by_sku(file)
+    if all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in lines):
+        return None  # those that are drawn
+    if len(lines) > len(site.items):
+        raise DemandError(
+            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items),"
+            " one of each SKU at least was expected"
+        )
+    return Assortment.of_lines(lines)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads instances (.xinst) of RAWSim-O as a Site."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout.convert.common import PathName
+from warehouse_layout.convert.rawsim.instance import read_floor
+from warehouse_layout.convert.rawsim.xml_fields import InstanceError, number_of
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.stock.site import Site
+
+__all__ = ["InstanceError", "read_instance"]
+
+BIN = 100.0  # capacity of a pod that one bin stands for
+
+
+def read_instance(path: PathName) -> Site:
+    """Returns the Site of an .xinst file. Raises InstanceError."""
+    instance = read_floor(path)
+    items = [
+        (f"item{unit}.{i + 1}", unit)
+        for unit, pod in zip(instance.units, instance.pods)
+        for i in range(max(1, round(number_of(path, pod, "Capacity", 500.0) / BIN)))
+    ]
+    overrides = {name: _times(path, one) for name, one in instance.elements.items()}
+    return Site(
+        instance.plan,
+        instance.robots,
+        instance.units,
+        items,
+        instance.name,
+        _kinematics(path, instance.bots),
+        Settings(by_station=overrides),
+    )
+
+
+def _times(path: PathName, element: Element) -> dict[str, Any]:
+    if element.tag == "InputStation":
+        return {"bundle_s": number_of(path, element, "ItemBundleTransferTime", 10.0)}
+    piece = number_of(path, element, "ItemTransferTime", 10.0)
+    return {
+        "piece_s": piece,
+        "pick_s": min(number_of(path, element, "ItemPickTime", Settings.pick_s), piece),
+        "slots": int(number_of(path, element, "Capacity", Settings.slots)),
+    }
+
+
+def _kinematics(path: PathName, bots: Sequence[Element]) -> Kinematics:
+    if not bots:
+        raise InstanceError(f"{path}: there is no Bot")
+    names = ("MaxVelocity", "MaxAcceleration", "TurnSpeed", "PodTransferTime")
+    defaults = (1.5, 1.0, 2.5, 2.2)
+    kinds = {
+        tuple(number_of(path, bot, name, value) for name, value in zip(names, defaults))
+        for bot in bots
+    }
+    if len(kinds) > 1:
+        raise InstanceError(f"{path}: bots of {len(kinds)} kinds; all alike was expected")
+    speed, acceleration, full_turn, lift = kinds.pop()
+    if min(speed, acceleration) <= 0 or min(full_turn, lift) < 0:
+        raise InstanceError(f"{path}: MaxVelocity and MaxAcceleration above 0 were expected")
+    return replace(
+        Kinematics(),
+        speed=speed,
+        acceleration=acceleration,
+        quarter_turn=full_turn / 4,
+        lift=lift,
+    )

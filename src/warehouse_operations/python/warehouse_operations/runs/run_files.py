@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files that a shift leaves in its folder: kpis.json, and run.json with data for the report.
+
+run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
+stored, completed: a list each}, driven_m [metres in each of these], minutes {a list for each of
+minute_log.SERIES, and late: orders that became late}, stations [{name, kind, cell
+[x, y], busy_fraction, pieces, visits}], completed_s, turnover_s and throughput_s of each order,
+robots {activity: seconds}, floor [a text a row], traffic and waiting (h, w) or null,
+failures [{kind, count, repairs, mean_repair_s}],
+lateness, date [when it was simulated], version.
+"""
+
+import json
+import os
+from collections import Counter
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from warehouse_layout.file import user_file
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_operations.runs.version import version
+from warehouse_operations.shift.kpis import INTERVAL
+from warehouse_operations.stock.stations import WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.runs.operations import Operations
+    from warehouse_operations.shift.shift import Shift
+
+KPIS, RUN, DATABASE, REPORT = "kpis.json", "run.json", "run.db", "report.html"
+
+
+class RunError(Exception):
+    """Raised for a folder that holds no run; says what is missing."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A shift that is over, with the content of kpis.json and of run.json."""
+
+    folder: Path
+    kpis: dict[str, Any]
+    data: dict[str, Any]
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """The configuration of the shift, without its seed."""
+        return self.data["config"]
+
+    @property
+    def seed(self) -> int:
+        """The seed of the shift."""
+        return self.data["seed"]
+
+
+def write(
+    folder: str | os.PathLike[str], ops: "Operations", config: dict[str, Any], seed: int
+) -> Run:
+    """Writes both files of a shift; returns the Run."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    run = Run(folder, ops.kpis(), describe(ops, config, seed))
+    # kpis.json comes last and at once: where it is, the run is complete.
+    (folder / RUN).write_text(json.dumps(run.data) + "\n", encoding="utf-8")
+    unfinished = folder / f"{KPIS}.new"
+    unfinished.write_text(json.dumps(run.kpis, indent=1) + "\n", encoding="utf-8")
+    unfinished.replace(folder / KPIS)
+    return run
+
+
+def read(folder: str | os.PathLike[str]) -> Run:
+    """Returns the Run of a folder. Raises RunError."""
+    content = []
+    for name in (KPIS, RUN):
+        path = Path(folder) / name
+        try:
+            content.append(json.loads(user_file.read_text(path)))
+        except OSError as error:
+            raise RunError(f"{path}: {error.strerror}") from error
+        except ValueError as error:
+            raise RunError(f"{path}: {error}; JSON was expected") from error
+    try:
+        return Run(Path(folder), *content)
+    except (KeyError, TypeError) as error:
+        raise RunError(f"{folder}: {error} is missing") from error
+
+
+def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, Any]:
+    """Returns the content of run.json."""
+    shift, tally = ops.shift, ops.shift.tally
+    count = int(shift.now // INTERVAL)
+    log = getattr(ops.fleet, "failures", None)
+    series = {
+        "picked": tally.picked_in,
+        "stored": tally.stored_in,
+        "completed": tally.completed_in,
+    }
+    return {
+        "config": config,
+        "seed": seed,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "version": version(),
+        "intervals": {"seconds": INTERVAL}
+        | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
+        "stations": [_station(station, shift) for station in shift.stations],
+        "driven_m": ops.log.series["metres"],
+        "minutes": ops.log.series | {"late": _late(shift, count)},
+        "completed_s": [round(value - shift.began, 1) for value in tally.completed_s],
+        "turnover_s": [round(value, 1) for value in tally.turnover_s],
+        "throughput_s": [round(value, 1) for value in tally.throughput_s],
+        "robots": ops.fleet.activities(),
+        "floor": floor_rows(shift.floor.plan),
+        "traffic": _map(ops.fleet, "passages"),
+        "waiting": _map(ops.fleet, "waiting_map"),
+        "failures": log.by_kind() if log else [],
+        "mishaps": dict(log.mishaps) if log else {},
+        "robot_h": log.robot_s / 3600 if log else 0.0,
+    }
+
+
+def floor_rows(plan: FloorPlan) -> list[str]:
+    """Returns a text for each row of cells, the lowest first.
+
+    s is storage, p parking, l a lane, # where no robot drives, . any other street.
+    """
+    cells = np.full(plan.shape, ".")
+    cells[plan.lane], cells[plan.parking], cells[plan.storage] = "l", "p", "s"
+    cells[~plan.passable] = "#"
+    return ["".join(row) for row in cells.tolist()]
+
+
+def _late(shift: "Shift", count: int) -> list[int]:
+    """Returns how many orders became late in each interval."""
+    late = Counter(shift.tally.late_in)
+    late.update(
+        int(order.due // INTERVAL)
+        for order in shift.orders.values()
+        if order.due and order.due < shift.now
+    )
+    return [late[i] for i in range(count)]
+
+
+def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
+    return {
+        "name": station.name,
+        "kind": station.kind,
+        "cell": _cell(station.name, shift.floor.plan),
+        "busy_fraction": station.busy_fraction(shift.now),
+        "pieces": station.pieces,
+        "visits": station.visits,
+    }
+
+
+def _cell(name: str, plan: FloorPlan) -> list[int]:
+    """Returns [x, y] of the cell in which units stand at a station."""
+    place = next(one for one in plan.stations if one.name == name)
+    return list(divmod(place.service_cell, plan.shape[1]))[::-1]
+
+
+def _map(fleet: Any, name: str) -> list[list[float]] | None:
+    values = getattr(fleet, name, None)
+    return np.round(values(), 1).tolist() if values else None

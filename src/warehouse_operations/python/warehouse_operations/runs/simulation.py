@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A whole shift from a description to its folder: what simulate and sweep run."""
+
+import contextlib
+import hashlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from warehouse_fleet.planners.planner_plugins import PlannerError
+from warehouse_layout import FloorError
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_of
+from warehouse_layout.file.request import items_for
+from warehouse_layout.generate import layout_choice
+from warehouse_layout.place import file_check, placement
+from warehouse_operations.fleets.building import world_of
+from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.runs import layout_site
+from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.operations import Operations
+from warehouse_operations.runs.progress import ProgressBar
+from warehouse_operations.runs.rawsim import InstanceError, read_instance
+from warehouse_operations.runs.rawsim_settings import read_settings
+from warehouse_operations.stock.demand import DemandError
+from warehouse_operations.stock.site import Site
+from warehouse_operations.store import check
+from warehouse_operations.store.database import DatabaseError
+from warehouse_operations.store.locks import FileLock, InUseError
+from warehouse_operations.store.returning import SiteError
+
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
+
+MOST_SEED = 2**63 - 1
+# What a wrong description can raise.
+ERRORS = (
+    DatabaseError,
+    DemandError,
+    InUseError,
+    InstanceError,
+    LayoutFileError,
+    PlannerError,
+    PolicyError,
+    SiteError,
+    runs.RunError,
+)
+
+
+@dataclass(frozen=True)
+class Description:
+    """A shift to be simulated. size: a preset; else layout, a file or a preset, or instance."""
+
+    size: str = "medium"
+    layout: str = ""  # a .layout.yaml file
+    robots: int = 0  # instead of the layout's or the preset's; 0: as many as it has
+    units: int = 0  # of a warehouse that is generated for them and the robots; 0: none is
+    stations: int = 0  # picking stations that are open, the first ones; 0: all
+    instance: str = ""  # an .xinst file
+    settings: str = ""  # an .xsett file
+    seconds: float = 3600.0
+    orders: str = "fill"
+    policies: dict[str, Any] = field(default_factory=dict)
+    planner: dict[str, Any] = field(default_factory=dict)  # see planner_plugins; {}: EPIBT
+    seed: int = 1
+    physics: bool = True
+    realism: str = ""  # of World: a preset or a YAML file
+    threads: int = 0  # that step the world, and that plan; 0: one, and all cores but one
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """The part of run.json that, with the seed, decides the outcome."""
+        return {
+            "site": self.site_name,
+            "orders": self.orders,
+            "policies": self.chosen_policies.chosen,
+            "physics": self.physics,
+            "seconds": self.seconds,
+            **({"robots": self.robots} if self.robots else {}),
+            **({"units": self.units} if self.units else {}),
+            **({"stations": self.stations} if self.stations else {}),
+            **({"realism": self.realism} if self.realism else {}),
+            **({"planner": self.planner} if self.planner else {}),
+            **({"layout": self._fingerprint} if self.layout else {}),
+        }
+
+    @property
+    def site_name(self) -> str:
+        """The name of the warehouse."""
+        if self.layout:
+            return layout_choice.chosen(self.layout).title
+        if self.units:
+            return f"{self.robots} robots, {self.units} units"
+        return Path(self.instance).stem if self.instance else self.size
+
+    @property
+    def _fingerprint(self) -> str:
+        """The hash of the layout: a sweep goes on only with what has not changed."""
+        text = text_of(layout_choice.chosen(self.layout))
+        return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
+
+    @property
+    def chosen_policies(self) -> Policies:
+        """The policies: those told, and besides them those of the layout. Raises PolicyError."""
+        if not self.layout:
+            return Policies(self.policies)
+        return layout_site.merged(layout_choice.chosen(self.layout), Policies(self.policies))
+
+
+def with_settings(description: Description) -> Description:
+    """Returns the Description completed by its settings file where it has defaults."""
+    if not description.settings:
+        return description
+    told, default = read_settings(description.settings), Description()
+    return replace(
+        description,
+        orders=told.orders if description.orders == default.orders else description.orders,
+        policies=told.policies | description.policies,
+    )
+
+
+def remarks(description: Description) -> list[str]:
+    """Returns sentences about what a shift does otherwise than its files ask for.
+
+    Raises one of ERRORS.
+    """
+    told: list[str] = []
+    if description.settings:
+        told += read_settings(description.settings).not_followed
+    if description.instance and not description.physics:
+        jams = _jams(description.instance, read_instance(description.instance))
+        told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+    if description.layout and not description.physics:
+        file = layout_choice.chosen(description.layout)
+        told += [f"{description.layout}: {text}" for text in _of_bodies(file)]
+    return told
+
+
+def _of_bodies(file: LayoutFile) -> list[str]:
+    """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
+    ideal ones, too."""
+    faults = file_check.faults(file)
+    return [one.text for one in faults] if all(one.is_of_bodies for one in faults) else []
+
+
+def _jams(path: str, site: Site) -> str:
+    """Returns a sentence about where robots with bodies could be stuck; "" where they can't."""
+    try:
+        site.plan.check()
+    except FloorError as error:
+        return f"{path}: {error}"
+    return ""
+
+
+def open_operations(description: Description, database: str | None = None) -> Operations:
+    """Opens the shift of a Description; raises one of ERRORS."""
+    world: World | None
+    if description.robots and description.instance:
+        raise InstanceError("robots: an instance has its own; a layout or a size was expected")
+    if description.instance:
+        site = read_instance(description.instance)
+        if description.settings:
+            told = read_settings(description.settings)
+            site = replace(site, level=told.level or site.level)
+        world = None
+        if description.physics:
+            if jams := _jams(description.instance, site):
+                raise InstanceError(jams)
+            with _told_as_ours():
+                world, site = world_of(site, **_options(description))
+    elif description.units:
+        world = _generated(description)
+        site = Site.of_world(world, description.site_name)
+    elif description.layout or description.robots:
+        file = layout_choice.chosen(description.layout or description.size)
+        if not description.physics and _of_bodies(file):
+            world, robots = None, description.robots or None
+            site = Site.of_layout(placement.place(file, description.seed, robots), file.title)
+        else:
+            world = _of_layout(description)
+            site = Site.of_world(world, file.title)
+        site = layout_site.of_file(site, file)
+    else:
+        world = _preset(description)
+        site = Site.of_world(world, description.size)
+    _check_stations(description, site)
+    if description.planner and not description.physics:
+        raise PlannerError("planner: ideal robots pass through each other; physics was expected")
+    ops = Operations(
+        world,
+        site=site,
+        orders=description.orders,
+        seed=description.seed,
+        policies=description.chosen_policies,
+        database=database,
+        physics=description.physics,
+        threads=description.threads,
+        planner=description.planner or None,
+    )
+    if description.stations:
+        ops.shift.open_picking(description.stations)
+    return ops
+
+
+def _check_stations(description: Description, site: Site) -> None:
+    count = sum(station.kind == "PICK" for station in site.plan.stations)
+    if description.stations > count:
+        raise InstanceError(
+            f"stations is {description.stations}; {site.name} has {count} for picking"
+        )
+
+
+def simulate(
+    description: Description,
+    folder: str | Path,
+    database: str | Path | None = None,
+    progress: ProgressBar | None = None,
+    observe: Callable[[Operations], None] | None = None,
+) -> tuple[runs.Run, list[str]]:
+    """Runs a shift and writes its folder; returns the Run and its faults, sentences.
+
+    database: None: a new one in the folder. observe: called at the begin and after each cycle.
+    """
+    folder = Path(folder)
+    with _locked(folder):
+        kept = database or _new_database(folder)
+        return _simulate(description, folder, kept, progress, observe)
+
+
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(folder)
+    except OSError as error:
+        raise runs.RunError(f"{folder}: {error.strerror}") from error
+    with lock:
+        yield
+
+
+def _new_database(folder: Path) -> Path:
+    path = folder / runs.DATABASE
+    with FileLock(path):
+        for suffix in ("", "-wal", "-shm"):
+            Path(f"{path}{suffix}").unlink(missing_ok=True)
+    return path
+
+
+def _simulate(
+    description: Description,
+    folder: Path,
+    database: str | Path,
+    progress: ProgressBar | None,
+    observe: Callable[[Operations], None] | None,
+) -> tuple[runs.Run, list[str]]:
+    with open_operations(description, str(database)) as ops:
+        ops.run(seconds=description.seconds, progress=progress, observe=observe)
+        if progress:
+            progress.end(ops)
+        kept: Any = ops.database
+        ops.shift.journal.commit(ops.shift)
+        kept.flush()
+        with kept.reading():
+            faults = check.faults(kept.engine)
+        run = runs.write(folder, ops, description.config, description.seed)
+        stuck = ops.fleet.stuck
+    from warehouse_operations.reports import report
+
+    report.write(folder / runs.REPORT, [run])
+    if run.kpis["collisions"]:
+        faults.append(f"{run.kpis['collisions']} collisions")
+    if stuck:
+        faults.append(f"{stuck} robots are stuck")
+    return run, faults
+
+
+def _of_layout(description: Description) -> "World":
+    from kiva_plugin_cpp import World
+
+    with _told_as_ours():
+        return World.layout(
+            description.layout or description.size,
+            robots=description.robots or None,
+            **_options(description),
+        )
+
+
+def _generated(description: Description) -> "World":
+    from kiva_plugin_cpp import World
+
+    if not description.robots:
+        raise InstanceError("units without robots; both were expected")
+    if description.layout:
+        raise InstanceError(
+            "units: a layout has its own; leave out the layout to have a warehouse generated"
+        )
+    with _told_as_ours():
+        return World.create(
+            robots=description.robots,
+            shelves=description.units,
+            items=items_for(description.units),
+            **_options(description),
+        )
+
+
+def _preset(description: Description) -> "World":
+    from kiva_plugin_cpp import World
+
+    with _told_as_ours():
+        return World.preset(description.size, **_options(description))
+
+
+def _options(description: Description) -> dict[str, Any]:
+    """Returns the options of any World of a Description."""
+    return {
+        "seed": description.seed,
+        "threads": description.threads or 1,
+        "realism": description.realism or None,
+    }
+
+
+@contextlib.contextmanager
+def _told_as_ours() -> Iterator[None]:
+    """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
+    try:
+        yield
+    except LayoutFileError:
+        raise
+    except (ValueError, FileNotFoundError) as error:
+        raise InstanceError(str(error)) from error

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which orders and bins have changed, for those who follow a shift live."""
+
+from typing import TYPE_CHECKING, Any
+
+from warehouse_operations.shift.journal import Journal
+from warehouse_operations.stock.inventory import Bin
+from warehouse_operations.stock.orders import Line, Order
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift.shift import Shift
+
+
+class ChangeJournal:
+    """Passes what a shift writes down on to another Journal, and remembers what it was about."""
+
+    def __init__(self, journal: Journal) -> None:
+        self._journal = journal
+        self._orders: dict[int, Order] = {}
+        self._bins: dict[int, Bin] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._journal, name)
+
+    def order(self, order: Order) -> None:
+        """Records a new Order, or the new state of a known one."""
+        self._note(order)
+        self._journal.order(order)
+
+    def line(self, line: Line) -> None:
+        """Records how many pieces of an order's Line are picked."""
+        self._note(line.order)
+        self._journal.line(line)
+
+    def assigned(self, order: Order) -> None:
+        """Records the assignment of an Order to its station."""
+        self._note(order)
+        self._journal.assigned(order)
+
+    def unassigned(self, order: Order, now: float) -> None:
+        """Records that a station gave an Order back unfinished."""
+        self._note(order)
+        self._journal.unassigned(order, now)
+
+    def commit(self, shift: "Shift") -> None:
+        """Marks everything recorded since the last call as one consistent state."""
+        self._bins.update((one.bin_id, one) for one in shift.inventory.changed)
+        self._journal.commit(shift)
+
+    def take_orders(self) -> list[Order]:
+        """Returns the Orders that have changed since the last call."""
+        orders, self._orders = self._orders, {}
+        return list(orders.values())
+
+    def take_bins(self) -> list[Bin]:
+        """Returns the Bins that have changed and were committed since the last call."""
+        bins, self._bins = self._bins, {}
+        return list(bins.values())
+
+    def _note(self, order: Order) -> None:
+        self._orders[order.order_id] = order

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The orders of a shift from submission to their end."""
+
+import itertools
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from warehouse_operations.stock import acceptance
+from warehouse_operations.stock.message_enums import OrderEventKind, OrderState
+from warehouse_operations.stock.orders import Backlog, Order
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift.shift import Shift
+
+TOO_MANY = f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
+Lines = Sequence[tuple[str, int]]  # (SKU, pieces)
+
+
+class OrderBook:
+    """The orders that are not over.
+
+    orders: all of them, by id. backlog: those that no station has. on_event: called for each
+    event with (order, kind, sku, quantity, station, unit, text), or None.
+    """
+
+    def __init__(self, shift: "Shift") -> None:
+        self._shift = shift
+        self.backlog = Backlog()
+        self.orders: dict[int, Order] = {}
+        self.on_event: Callable[..., object] | None = None
+        self._skus = frozenset(shift.assortment.skus)
+        self._ids = itertools.count(1)
+
+    def submit(
+        self, lines: Lines, due: float = 0.0, priority: int = 0, reference: str = ""
+    ) -> tuple[Order | None, str]:
+        """Takes a new order of (SKU, pieces), due at a time [s], 0: at any time.
+
+        Returns (order, what it waits for), or (None, the reason of the refusal).
+        """
+        reason = self._fault_of(lines) or acceptance.fault_of_head(reference, due, priority)
+        if reason:
+            return None, reason
+        if self.backlog.lines + len(lines) > acceptance.MOST_WAITING:
+            return None, TOO_MANY
+        merged: dict[str, int] = defaultdict(int)
+        for sku, pieces in lines:
+            merged[sku] += pieces
+        order = Order(next(self._ids), merged.items(), self._shift.now, due, priority, reference)
+        self.orders[order.order_id] = order
+        self._shift.tally.orders_received += 1
+        self._shift.journal.order(order)
+        self.publish_event(order, OrderEventKind.RECEIVED)
+        lacking = [s for s, n in merged.items() if n > self.unpromised(s)]
+        for sku in lacking:
+            self.publish_event(
+                order, OrderEventKind.SHORT, sku, merged[sku], text="waits for replenishment"
+            )
+        self.backlog.add(order)
+        self._shift.picking.on_backlog_change()
+        return order, f"waits for replenishment of {', '.join(lacking)}" if lacking else ""
+
+    def unpromised(self, sku: str) -> int:
+        """Returns how many available pieces of a SKU the backlog does not ask for."""
+        return self._shift.inventory.available(sku) - self.backlog.demand.get(sku, 0)
+
+    def _fault_of(self, lines: Lines) -> str:
+        return acceptance.fault_of_lines(lines, self._skus, self._shift.inventory.capacity)
+
+    def cancel(self, order_id: int) -> tuple[bool, str]:
+        """Cancels an order. Returns success and the reason of a refusal."""
+        order = self.orders.get(order_id)
+        if not order:
+            return False, f"order {order_id} is unknown, or over"
+        if order.done:
+            return False, f"order {order_id} has all its pieces"
+        if order.state == OrderState.ASSIGNED:
+            self._shift.picking.cancel(order)
+        else:
+            self.backlog.remove(order)
+        return True, self._end_cancelled(order)
+
+    def _end_cancelled(self, order: Order, reason: str = "") -> str:
+        """Ends an order that neither the backlog nor a station has; returns the event's text."""
+        order.state = OrderState.CANCELLED
+        picked = sum(line.picked for line in order.lines)
+        text = "; ".join(
+            filter(None, (reason, f"{picked} pieces were picked already" if picked else ""))
+        )
+        self.end(order, OrderEventKind.CANCELLED, text=text)
+        return text
+
+    def reopen(self, order: Order) -> None:
+        """Puts an order that its station can't finish back into the backlog."""
+        order.state = OrderState.OPEN
+        self.backlog.add(order)
+        self._shift.journal.order(order)
+        self._shift.picking.on_backlog_change()
+
+    def bring_back(self, order: Order) -> None:
+        """Makes a complete order one of its station again: a piece was taken back."""
+        self._shift.tally.reopened(order)
+        self.orders[order.order_id] = order
+        order.state, order.completed = OrderState.ASSIGNED, 0.0
+        self._shift.journal.order(order)
+        self.publish_event(order, OrderEventKind.REOPENED)
+
+    def end(self, order: Order, kind: OrderEventKind, station: str = "", text: str = "") -> None:
+        """Counts and drops an order that is complete or cancelled, and publishes that."""
+        if kind == OrderEventKind.COMPLETED:
+            self._shift.tally.completed(order)
+        self._shift.journal.order(order)
+        self.publish_event(order, kind, station=station, text=text)
+        del self.orders[order.order_id]
+
+    def resume(self, orders: Sequence[Order], last_order: int) -> None:
+        """Goes on with orders of an earlier run; new ones are numbered from last_order + 1."""
+        self._ids = itertools.count(last_order + 1)
+        for order in orders:
+            self.orders[order.order_id] = order
+            fault = self._fault_of([(line.sku, line.quantity) for line in order.lines])
+            if order.done:
+                order.completed = self._shift.now
+                order.state = OrderState.COMPLETED
+                self.end(order, OrderEventKind.COMPLETED)
+            elif fault:
+                self._end_cancelled(order, fault)
+                self._shift.notices.add(
+                    f"order {order.order_id} ({order.reference}) is cancelled: {fault}"
+                )
+            else:
+                self.backlog.add(order)
+
+    def publish_event(
+        self,
+        order: Order,
+        kind: OrderEventKind,
+        sku: str = "",
+        quantity: int = 0,
+        station: str = "",
+        unit: int = 0,
+        text: str = "",
+    ) -> None:
+        """Writes an event of an order down, hashes it and hands it to on_event."""
+        shift, station = self._shift, station or order.station
+        shift.update_hash("order", order.order_id, int(kind), sku, quantity, station, unit)
+        shift.journal.event(shift.now, kind, order.order_id, sku, quantity, station, unit, text)
+        if self.on_event:
+            self.on_event(order, kind, sku, quantity, station, unit, text)

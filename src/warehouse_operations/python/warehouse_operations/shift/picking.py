@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Picking: assigns orders to stations, fetches units for their lines, picks piece by piece."""
+
+import math
+from collections import defaultdict
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from warehouse_operations.stock.candidates import Candidates
+from warehouse_operations.stock.inventory import Bin
+from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
+from warehouse_operations.stock.orders import Line, Order
+from warehouse_operations.stock.stations import Pick, Visit, WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift.shift import Shift
+
+RETRY = 1.0  # after the fleet refused a unit [s]
+LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
+LATER = 0.1  # until stations that a step had no effort left for choose orders [s]
+EFFORT = 200_000  # most lines of orders that are looked at in a step: about 0.1 s of work
+
+
+class Picking:
+    """The part of a Shift that works at its picking stations."""
+
+    def __init__(self, shift: "Shift", stations: Sequence[WorkStation]) -> None:
+        self.shift, self.stations = shift, stations
+        # Stations that may take on an order, that lack units, in the order in which they change.
+        self._to_assign: dict[WorkStation, None] = dict.fromkeys(stations)
+        self._to_fetch: dict[WorkStation, None] = {}
+        self._is_to_look, self._next_look = False, -math.inf
+        self._effort = EFFORT  # left in this step
+        self._put_off: dict[WorkStation, None] = {}  # stations that wait for more effort
+        # The stations of lines without a unit, by (order, line), by SKU.
+        self._missing: dict[str, dict[tuple[int, int], WorkStation]] = defaultdict(dict)
+
+    # Changes that make work.
+
+    def on_backlog_change(self) -> None:
+        """Lets stations with a free slot look at the backlog, once in LOOK at most.
+
+        Orders that come one after the other are looked at together: a look costs as much as there
+        are orders and stations.
+        """
+        if self.shift.now >= self._next_look:
+            self._check_backlog(None)
+        elif not self._is_to_look:
+            self._is_to_look = True
+            self.shift.events.schedule(self._next_look, self._check_backlog)
+
+    def _check_backlog(self, _: None) -> None:
+        self._is_to_look, self._next_look = False, self.shift.now + LOOK
+        for station in self.stations:
+            if station.free_slots and station.is_open:
+                self._to_assign[station] = None
+
+    def on_unit_free(self, unit: int) -> None:
+        """Lets stations fetch a unit that is back in storage, if it holds what they lack."""
+        for one in self.shift.inventory.of_unit[unit]:
+            if one.available and one.sku in self._missing:
+                for station in self._missing[one.sku].values():
+                    self._to_fetch[station] = None
+
+    def missing(self) -> dict[str, int]:
+        """Returns the pieces for which no unit comes, by SKU."""
+        return {
+            sku: sum(station.missing[key].missing for key, station in lines.items())
+            for sku, lines in self._missing.items()
+            if lines
+        }
+
+    def work(self) -> None:
+        """Assigns orders and asks for units where something has changed."""
+        while self._to_assign or self._to_fetch:
+            for station in sorted(self._to_assign, key=lambda one: -one.free_slots):
+                self._assign(station)
+            self._to_assign.clear()
+            stations, self._to_fetch = self._to_fetch, {}
+            for station in stations:
+                self._fetch(station)
+        self._effort = EFFORT
+
+    # Orders.
+
+    def _assign(self, station: WorkStation) -> None:
+        while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
+            if self._effort <= 0:
+                self._assign_later(station)
+                return
+            self._effort -= self.shift.backlog.lines
+            order = self.shift.policies.orders.choose(station, self.shift.view)
+            if order is None:
+                return
+            self.shift.backlog.remove(order)
+            self._take_on(station, order)
+
+    def _assign_later(self, station: WorkStation) -> None:
+        if not self._put_off:
+            self.shift.events.schedule(self.shift.now + LATER, self._assign_put_off)
+        self._put_off[station] = None
+
+    def _assign_put_off(self, _: None) -> None:
+        self._to_assign.update(self._put_off)
+        self._put_off = {}
+
+    def _take_on(self, station: WorkStation, order: Order) -> None:
+        order.state, order.station, order.assigned = (
+            OrderState.ASSIGNED,
+            station.name,
+            self.shift.now,
+        )
+        station.take_on(order)
+        self.shift.journal.assigned(order)
+        self.shift.order_book.publish_event(order, OrderEventKind.ASSIGNED)
+        for line in order.lines:
+            self.allot(station, line)
+
+    def allot(self, station: WorkStation, line: Line) -> None:
+        """Reserves for a line what units at its station or on their way there can serve."""
+        for visit in station.coming_for(replenishes=False):
+            for one in self.shift.inventory.of_unit[visit.unit]:
+                pieces = min(line.missing, one.available) if one.sku == line.sku else 0
+                if pieces > 0:
+                    self._reserve(visit, line, one, pieces)
+        self._note(station, line)
+        here = station.here
+        if here and here.picks:
+            self.next_piece(station)
+
+    def _reserve(self, visit: Visit, line: Line, one: Bin, pieces: int) -> None:
+        self.shift.inventory.reserve(one, pieces)
+        line.allotted += pieces
+        visit.picks.append(Pick(line, one, pieces, self.shift.tasks.number()))
+
+    def _note(self, station: WorkStation, line: Line) -> None:
+        """Notes whether units are to be fetched for a line."""
+        key = line.order.order_id, line.number
+        if line.missing > 0 and line.order.order_id in station.orders:
+            station.missing[key] = line
+            self._missing[line.sku][key] = station
+            self._to_fetch[station] = None
+        elif key in station.missing:
+            del station.missing[key]
+            del self._missing[line.sku][key]
+
+    def _return(self, station: WorkStation, order: Order) -> None:
+        """Takes an unfinished order away from its station."""
+        station.let_go(order)
+        for visit in station.inbound.values():
+            for pick in [pick for pick in visit.picks if pick.line.order is order]:
+                self.drop(visit, pick)
+        for line in order.lines:
+            self._note(station, line)
+        order.station = ""
+        self._to_assign[station] = None
+        self.shift.journal.unassigned(order, self.shift.now)
+
+    def drop(self, visit: Visit, pick: Pick) -> None:
+        """Removes a pick from its visit and gives its pieces back."""
+        visit.picks.remove(pick)
+        pick.line.allotted -= pick.quantity
+        self.shift.inventory.reserve(pick.bin, -pick.quantity)
+
+    def cancel(self, order: Order) -> None:
+        """Takes an order away from the station that has it."""
+        station = self.shift.station(order.station)
+        self._return(station, order)
+        self.leave_if_done(station)
+
+    def drop_visit(self, visit: Visit) -> None:
+        """Drops all picks of a visit, whose lines need another unit then."""
+        lines = [pick.line for pick in visit.picks]
+        for pick in list(visit.picks):
+            self.drop(visit, pick)
+        for line in lines:
+            self._note(visit.station, line)
+        self._to_fetch[visit.station] = None  # there is room for another one
+
+    def drop_bin(self, one: Bin) -> list[tuple[Visit, Line]]:
+        """Drops all picks from a bin; returns the visit and line of each."""
+        dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
+        for visit, pick in dropped:
+            self.drop(visit, pick)
+        return [(visit, pick.line) for visit, pick in dropped]
+
+    def serve_otherwise(self, dropped: Sequence[tuple[Visit, Line]]) -> None:
+        """Serves the lines that drop_bin returned from other bins."""
+        for visit, line in dropped:
+            self.allot(visit.station, line)
+            self.leave_if_done(visit.station)
+
+    def open(self, station: WorkStation) -> None:
+        """Starts the work of a station that was opened, or whose mode was set."""
+        self.on_backlog_change()
+        self.next_piece(station)
+
+    def close(self, station: WorkStation) -> None:
+        """Gives the orders of a station back to the backlog and sends its units away."""
+        for visit in station.coming_for(replenishes=False):
+            self.drop_visit(visit)
+            if not visit.here:
+                self.shift.visits.cancel(visit)
+        self.leave_if_done(station)
+        for order in list(station.orders.values()):
+            if not order.done:
+                self.give_back(station, order)
+
+    def give_back(self, station: WorkStation, order: Order) -> None:
+        """Puts an unfinished order of a station back into the backlog."""
+        self._return(station, order)
+        self.shift.order_book.reopen(order)
+
+    # Units.
+
+    def _fetch(self, station: WorkStation) -> None:
+        limit = self.shift.units_per_station
+        while station.is_open and station.missing and len(station.coming) < limit:
+            candidates = self._candidates(station)
+            if not candidates:
+                return
+            unit = self.shift.policies.units.choose(station, candidates, self.shift.view)
+            visit = self.shift.visits.request(unit, station)
+            if not visit:
+                self.shift.events.schedule(self.shift.now + RETRY, self._retry, station)
+                return
+            for line in candidates[unit]:
+                self.allot(station, line)
+
+    def _retry(self, station: WorkStation) -> None:
+        self._to_fetch[station] = None
+
+    def _candidates(self, station: WorkStation) -> Candidates:
+        """Returns what each free unit could serve: {unit: {line: pieces}}."""
+        shift = self.shift
+        return Candidates(station.missing.values(), shift.inventory, shift.free_units)
+
+    # At the station.
+
+    def on_arrival(self, visit: Visit) -> None:
+        """Starts picking from a unit that has arrived, or lets it leave."""
+        self._to_assign[visit.station] = None
+        self.next_piece(visit.station)
+        self.leave_if_done(visit.station)
+
+    def next_piece(self, station: WorkStation) -> None:
+        """Starts picking the next pieces, as many as pickers are free, if a unit is there."""
+        visit = station.here
+        if not visit or station.mode == Mode.MANUAL:
+            return
+        while station.at_work < station.pickers and station.reaching < visit.pieces_to_pick:
+            self._reach(station, visit)
+
+    def _reach(self, station: WorkStation, visit: Visit) -> None:
+        """Lets a picker begin with a piece."""
+        station.at_work += 1
+        station.reaching += 1
+        line = visit.piece_to_pick(station.reaching - 1).line
+        more = station.seconds_a_line if line is not station.line else 0.0
+        station.line, now = line, self.shift.now
+        self.shift.events.schedule(now + more + station.pick_seconds, self._taken, (station, visit))
+        taken = now + more + station.seconds_a_piece
+        self.shift.events.schedule(taken, self._in_tote, (station, now))
+
+    def _taken(self, argument: tuple[WorkStation, Visit]) -> None:
+        """Takes a piece out of its bin; the unit may leave if it was the last."""
+        station, visit = argument
+        station.reaching -= 1
+        if visit.here and visit.picks:  # else the order was cancelled meanwhile
+            self.take(visit, visit.picks[0], 1)
+            self.leave_if_done(station)
+
+    def _in_tote(self, argument: tuple[WorkStation, float]) -> None:
+        station, began = argument
+        station.at_work -= 1
+        station.busy_s += self.shift.now - began
+        self.complete(station)
+        self.shift.next_work(station)
+
+    def take(self, visit: Visit, pick: Pick, pieces: int) -> None:
+        """Takes pieces of a pick out of the stock."""
+        line, station = pick.line, visit.station
+        self.shift.inventory.pick(pick.bin, pieces, line=line, station=station, visit=visit)
+        pick.quantity -= pieces
+        line.allotted -= pieces
+        line.picked += pieces
+        if pick.quantity:
+            pick.sequence = self.shift.tasks.number()  # what is left is another task
+        else:
+            visit.picks.remove(pick)
+        visit.pieces += pieces
+        station.pieces += pieces
+        self.shift.tally.picked(self.shift.now, pieces, line)
+        self.shift.journal.line(line)
+        self.shift.order_book.publish_event(
+            line.order, OrderEventKind.PICKED, line.sku, pieces, station.name, visit.unit
+        )
+
+    def complete(self, station: WorkStation) -> None:
+        """Completes the orders of a station that have all their pieces."""
+        for order in [order for order in station.orders.values() if order.done]:
+            station.let_go(order)
+            order.state, order.completed = OrderState.COMPLETED, self.shift.now
+            self.shift.order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
+            self._to_assign[station] = None
+
+    def leave_if_done(self, station: WorkStation) -> None:
+        """Releases a unit with nothing left to pick, unless it serves an order taken on now."""
+        visit = station.here
+        if not visit or visit.replenishes or visit.picks:
+            return
+        self._assign(station)
+        if not visit.picks:
+            self.shift.visits.release(visit)
+            self._to_assign[station] = self._to_fetch[station] = None
+
+    def _visits_of(self, unit: int) -> list[Visit]:
+        return [v for s in self.stations for v in s.inbound.values() if v.unit == unit]

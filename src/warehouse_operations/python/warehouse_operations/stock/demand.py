@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
+order_file), `mix:…` (see order_mix), or `none`."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, Protocol
+
+import numpy as np
+
+from warehouse_operations.stock import order_mix
+from warehouse_operations.stock.acceptance import MOST_WAITING
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.inventory import ROOMY
+from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
+from warehouse_operations.stock.orders import Backlog
+
+FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: so many, or those of all stations
+POISSON = 160.0  # orders a picking station and hour
+BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
+LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
+LINE_SUMS = np.cumsum(LINE_SHARES / LINE_SHARES.sum())
+LINE_SUMS /= LINE_SUMS[-1]
+PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
+BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
+MOST_FILL = 10_000
+AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, until the next [s]
+
+
+class DrawsOrders(Protocol):
+    """Draws orders, one after the other."""
+
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Returns the order that comes now; None if there is none."""
+
+
+class Customers:
+    """Draws orders from an assortment; the same generator state gives the same orders."""
+
+    def __init__(self, assortment: Assortment, rng: np.random.Generator) -> None:
+        self.assortment, self._rng = assortment, rng
+
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+        rng = self._rng
+        count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
+        lines = {}
+        for _ in range(count * 20):
+            sku = self.assortment.skus[self._draw()]
+            pieces = round(rng.normal(PIECES_MEAN, PIECES_DEVIATION))
+            pieces = min(max(pieces, PIECES_LEAST), PIECES_MOST)
+            if sku not in lines and in_stock(sku) >= pieces:
+                lines[sku] = pieces
+                if len(lines) == count:
+                    break
+        if not lines:
+            return None
+        due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
+        return Wanted(tuple(lines.items()), now, now + due)
+
+    def _draw(self) -> int:
+        if not hasattr(self, "_sums"):
+            self._sums = np.cumsum(self.assortment.popularity)
+        at = np.searchsorted(self._sums, self._rng.random() * self._sums[-1], side="right")
+        return int(min(at, len(self._sums) - 1))
+
+
+class Fill:
+    """So many orders wait at any time."""
+
+    def __init__(self, customers: Customers, waiting: int = FILL) -> None:
+        self.customers, self.waiting = customers, waiting
+        self.bundles_per_hour = 0.0
+
+    def next_time(self) -> float:
+        """Returns inf: orders come when others leave the backlog."""
+        return float("inf")
+
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
+        for _ in range(self.waiting - len(backlog)):
+            wanted = self.customers.order(now, in_stock)
+            if wanted is None:
+                return
+            yield wanted
+
+
+class Poisson:
+    """Orders come by chance, so many an hour on the average; bundles likewise."""
+
+    def __init__(
+        self,
+        customers: DrawsOrders,
+        per_hour: float,
+        bundles_per_hour: float,
+        rng: np.random.Generator,
+        now: float = 0.0,
+    ) -> None:
+        self.customers, self.per_hour, self._rng = customers, per_hour, rng
+        self.bundles_per_hour = bundles_per_hour
+        self._next = now
+        self._wait()
+
+    def next_time(self) -> float:
+        """Returns when the next order comes [s]."""
+        return self._next
+
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
+        while self._next <= now:
+            wanted = self.customers.order(self._next, in_stock)
+            self._wait()
+            if wanted:
+                yield wanted
+
+    def _wait(self) -> None:
+        self._next += self._rng.exponential(3600.0 / self.per_hour)
+
+
+class FromFile:
+    """The orders of a CSV file: each at its time, or a little later where many come at once or
+    wait already."""
+
+    bundles_per_hour = 0.0
+
+    def __init__(self, wanted: Iterable[Wanted]) -> None:
+        self._wanted = sorted(wanted, key=lambda one: one.at)[::-1]
+        self._more_at = 0.0
+
+    def next_time(self) -> float:
+        """Returns when the next order comes [s]; inf after the last."""
+        return max(self._wanted[-1].at, self._more_at) if self._wanted else float("inf")
+
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
+        for _ in range(AT_ONCE):
+            if self.next_time() > now:
+                return
+            if backlog.lines + len(self._wanted[-1].lines) > MOST_WAITING:
+                break
+            yield self._wanted.pop()
+        self._more_at = now + PAUSE
+
+
+def make_demand(
+    text: str,
+    assortment: Any,
+    stations: tuple[int, int],
+    rng: np.random.Generator,
+    now: float = 0.0,
+    capacity: float = float("inf"),
+) -> Any:
+    """Returns the demand that an orders text of operations.launch or simulate means; raises
+    DemandError.
+
+    assortment: None: any SKU may be asked for. stations: (picking, replenishing), how many. now:
+    when it begins [s]. capacity: pieces that all bins can hold.
+    """
+    customers = Customers(assortment, rng)
+    name, _, value = str(text).partition(":")
+    if text == "none":
+        return FromFile([])
+    if name == "fill":
+        waiting = max(FILL, FILL_A_STATION * stations[0])
+        return Fill(customers, int(_number(text, value, waiting, MOST_FILL, whole=True)))
+    if name == "poisson":
+        per_hour = _number(text, value, POISSON * stations[0], MOST_PER_HOUR)
+        return Poisson(customers, per_hour, BUNDLES * stations[1], rng, now)
+    if name == "mix":
+        per_hour, mixed = order_mix.make(str(text), assortment, rng, capacity)
+        return Poisson(mixed, per_hour, BUNDLES * stations[1], rng, now)
+    if str(text).endswith(".csv"):
+        return FromFile(read_csv(text, set(assortment.skus) if assortment else None, capacity))
+    raise DemandError(
+        f"orders are '{text}'; fill, fill:N, poisson:PER_HOUR, FILE.csv or none was expected"
+    )
+
+
+def _number(text: str, value: str, default: float, most: float, whole: bool = False) -> float:
+    if not value:
+        return default
+    try:
+        number = int(value) if whole else float(value)
+    except ValueError:
+        number = 0
+    if not 0 < number <= most:
+        raise DemandError(
+            f"orders are '{text}'; a number above 0, up to {most:g}, was expected after the colon"
+        )
+    return number

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders from a CSV file, as a text editor or a spreadsheet writes it.
+
+The first line has names of columns, each further one is an order line:
+
+    reference,sku,quantity,at,due,priority
+    A-17,sku-3,2,0,1800,0
+    A-17,sku-9,1,0,1800,0
+
+Rows of one reference are one order. `at` [s of the shift] is when it comes (0), `due` when it is to
+be complete (0: at any time), `priority` 0 to 255; these three may be left out. Fields end at
+commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
+"""
+
+import os
+import re
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from warehouse_layout.file.csv_table import CsvTable, fields, shown
+from warehouse_operations.stock import acceptance
+
+NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
+MOST_FAULTS = 20
+TEXT = "orders"  # what a text in place of a file is called in messages
+
+
+class DemandError(ValueError):
+    """Raised for orders that can't be taken; names what is wrong, or the file and line."""
+
+
+class Fault(NamedTuple):
+    """What is wrong in a line, counted from 1, and in which column; 0 and "": as a whole."""
+
+    line: int
+    column: str
+    text: str
+
+
+class _FieldError(ValueError):
+    """Raised for a wrong field of a row."""
+
+    def __init__(self, column: str, text: str) -> None:
+        super().__init__(text)
+        self.column = column
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """An order to be submitted at a time of the shift; times are [s]."""
+
+    lines: tuple[tuple[str, int], ...]  # of (sku, pieces)
+    at: float = 0.0
+    due: float = 0.0
+    priority: int = 0
+    reference: str = ""
+
+
+def read_csv(
+    path: str | os.PathLike[str],
+    skus: Collection[str] | None = None,
+    capacity: float = float("inf"),
+) -> list[Wanted]:
+    """Returns the orders of a file. Raises DemandError, which names the line of each wrong row.
+
+    skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
+    """
+    table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
+    orders, faults = _read(table, skus, capacity)
+    if faults:
+        raise DemandError("\n".join(f"{path}:{one.line}: {one.text}" for one in faults))
+    return orders
+
+
+def lines_by_sku(path: str | os.PathLike[str]) -> Counter[str]:
+    """Returns how many lines of a file ask for each SKU. Raises DemandError."""
+    return Counter(sku for order in read_csv(path) for sku, _ in order.lines)
+
+
+def parse_csv(
+    text: str, skus: Collection[str] | None = None, capacity: float = float("inf")
+) -> tuple[list[Wanted], list[Fault]]:
+    """Returns the orders of a text in place of a file, and what is wrong with it, of which there
+    are MOST_FAULTS at most; see read_csv."""
+    try:
+        table = CsvTable(TEXT, NEEDED, OPTIONAL, DemandError, text)
+        return _read(table, skus, capacity)
+    except DemandError as error:
+        found = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
+        start, line = (found.end(), int(found[1] or 0)) if found else (0, 0)
+        return [], [Fault(line, "", str(error)[start:])]
+
+
+def _read(
+    table: CsvTable, skus: Collection[str] | None, capacity: float
+) -> tuple[list[Wanted], list[Fault]]:
+    faults: list[Fault] = []
+    orders = _Orders(skus, capacity)
+    for row in table:
+        try:
+            orders.add(row, table.decimal_comma)
+        except ValueError as error:
+            faults.append(Fault(table.line, getattr(error, "column", ""), str(error)))
+        if len(faults) == MOST_FAULTS:
+            break
+    return orders.wanted(), faults
+
+
+class _Orders:
+    """Collects rows to orders, by reference."""
+
+    def __init__(self, skus: Collection[str] | None, capacity: float) -> None:
+        self._skus, self._capacity = skus, capacity
+        self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
+        self._pieces: Counter[str] = Counter()
+        self._unknown: set[str] = set()  # SKUs, each of which is named once
+
+    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
+        """Adds a row. Raises ValueError, which says what is wrong with it."""
+        row = fields(row)
+        if not row:
+            return
+        reference, sku = row["reference"], row["sku"]
+        if not reference:
+            raise _FieldError("reference", "reference is empty")
+        if fault := acceptance.fault_of_head(reference):
+            raise _FieldError("reference", fault)
+        if not sku or (self._skus is not None and sku not in self._skus):
+            if sku and sku in self._unknown:
+                return
+            self._unknown.add(sku)
+            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
+        quantity = _field(row, "quantity", int, 1, 2**31 - 1)
+        if decimal_comma:
+            row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}
+        rest = (
+            _field(row, "at", float, 0, 1e9),
+            _field(row, "due", float, 0, 1e9),
+            _field(row, "priority", int, 0, 255),
+        )
+        lines, first = self._rows.setdefault(reference, ({}, rest))
+        if rest != first:
+            raise ValueError(f"at, due or priority differ from the first row of {reference}")
+        lines[sku] = lines.get(sku, 0) + quantity
+        self._pieces[reference] += quantity
+        if len(lines) > acceptance.MOST_LINES:
+            raise ValueError(f"{reference} has more than {acceptance.MOST_LINES} lines")
+        if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
+            raise _FieldError("quantity", f"{reference}: {fault}")
+
+    def wanted(self) -> list[Wanted]:
+        """Returns the orders, in the order of their first rows."""
+        return [
+            Wanted(tuple(lines.items()), *rest, reference)
+            for reference, (lines, rest) in self._rows.items()
+        ]
+
+
+def _field(
+    row: Mapping[str, str], name: str, kind: Callable[[Any], Any], least: float, most: float
+) -> Any:
+    text = row.get(name, "")
+    if not text and name != "quantity":
+        return kind(0)
+    try:
+        value = kind(text)
+    except ValueError:
+        value = None
+    if value is None or not least <= value <= most:
+        what = "a whole number" if kind is int else "a number"
+        raise _FieldError(
+            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:.10g} was expected"
+        )
+    return value

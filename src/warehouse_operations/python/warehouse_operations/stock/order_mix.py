@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders by chance as a wish describes them: by their mean size, or like those of a file.
+
+The number of an order and the seed decide what it asks for. So the same orders come at the same
+moments whatever the fleet is, as long as stock is there: shifts of one seed differ by the fleet.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+
+DUE_SOON, DUE_SOON_SHARE, DUE_LATER = 30 * 60.0, 0.2, 2 * 3600.0
+MOST_PER_HOUR = 1e6
+TRIES = 20  # of SKUs that are drawn for a line, until one is in stock
+MOST_MEAN = 100.0
+
+
+class Mixed:
+    """Draws orders of 1 + Poisson(lines - 1) lines, each of 1 + Poisson(pieces - 1) pieces.
+
+    1.55 lines have nearly the shares of RAWSim-O's orders.
+    """
+
+    def __init__(
+        self, assortment: Assortment, rng: np.random.Generator, lines: float, pieces: float
+    ) -> None:
+        self._skus, self._sums = assortment.skus, np.cumsum(assortment.popularity)
+        self._lines, self._pieces = lines, pieces
+        self._seed, self._count = int(rng.integers(2**63)), 0
+
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+        rng = np.random.default_rng((self._seed, self._count))
+        self._count += 1
+        count = 1 + int(rng.poisson(self._lines - 1))
+        due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
+        lines: dict[str, int] = {}
+        for _ in range(count * TRIES):
+            sku = self._draw(rng)
+            pieces = 1 + int(rng.poisson(self._pieces - 1))
+            if sku not in lines and in_stock(sku) >= pieces:
+                lines[sku] = pieces
+                if len(lines) == count:
+                    break
+        return Wanted(tuple(lines.items()), now, now + due) if lines else None
+
+    def _draw(self, rng: np.random.Generator) -> str:
+        at = np.searchsorted(self._sums, rng.random() * self._sums[-1], side="right")
+        return str(self._skus[min(int(at), len(self._skus) - 1)])
+
+
+class Alike:
+    """Draws orders among those of a file, each with the time that it had until it was due."""
+
+    def __init__(self, orders: Sequence[Wanted], rng: np.random.Generator) -> None:
+        self._orders = orders
+        self._seed, self._count = int(rng.integers(2**63)), 0
+
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Draws an order; it comes whether its SKUs are in stock or not."""
+        rng = np.random.default_rng((self._seed, self._count))
+        self._count += 1
+        one = self._orders[int(rng.integers(len(self._orders)))]
+        due = now + one.due - one.at if one.due else 0.0
+        return Wanted(one.lines, now, due, one.priority)
+
+
+def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str:
+    """Returns the orders text that make() reads: `mix:…`."""
+    return f"mix:{per_hour!r}:" + (file or f"{lines!r}x{pieces!r}")
+
+
+def file_of(orders: str) -> str:
+    """Returns the CSV file that an orders text names, by itself or in a mix; "" if none."""
+    if orders.startswith("mix:"):
+        orders = orders.removeprefix("mix:").partition(":")[2]
+    return orders if orders.endswith(".csv") else ""
+
+
+def make(
+    text: str, assortment: Assortment, rng: np.random.Generator, capacity: float = float("inf")
+) -> tuple[float, Mixed | Alike]:
+    """Returns orders an hour and who draws them, of `mix:PER_HOUR:LINESxPIECES|FILE.csv`.
+
+    Raises DemandError.
+    """
+    rate, _, mix = text.removeprefix("mix:").partition(":")
+    per_hour = _number(text, rate, 0, MOST_PER_HOUR)
+    if mix.endswith(".csv"):
+        orders = read_csv(mix, set(assortment.skus), capacity)
+        if not orders:
+            raise DemandError(f"{mix}: there is no order in it")
+        return per_hour, Alike(orders, rng)
+    lines, _, pieces = mix.partition("x")
+    means = (_number(text, one, 1, MOST_MEAN) for one in (lines, pieces))
+    return per_hour, Mixed(assortment, rng, *means)
+
+
+def _number(text: str, value: str, least: float, most: float) -> float:
+    try:
+        number = float(value)
+    except ValueError:
+        number = -1.0
+    if not (least <= number <= most and number > 0):
+        raise DemandError(
+            f"orders are '{text}'; mix:PER_HOUR:LINESxPIECES or mix:PER_HOUR:FILE.csv was expected,"
+            f" with up to {MOST_PER_HOUR:g} orders an hour of 1 to {MOST_MEAN:g} lines and pieces"
+        )
+    return number

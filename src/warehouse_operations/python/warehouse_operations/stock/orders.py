@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders of customers, and the bundles of pieces that come to refill the stock."""
+
+import bisect
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from warehouse_operations.stock.message_enums import OrderState
+
+
+class Line:
+    """A number of pieces of one SKU; `allotted` of them are reserved on units on their way."""
+
+    __slots__ = ("order", "number", "sku", "quantity", "picked", "allotted")
+
+    def __init__(
+        self, order: "Order", number: int, sku: str, quantity: int, picked: int = 0
+    ) -> None:
+        self.order, self.number, self.sku, self.quantity = order, number, sku, quantity
+        self.picked, self.allotted = picked, 0
+
+    @property
+    def open(self) -> int:
+        """The number of pieces not picked yet."""
+        return self.quantity - self.picked
+
+    @property
+    def missing(self) -> int:
+        """The number of pieces for which no unit is on its way."""
+        return self.quantity - self.picked - self.allotted
+
+
+class Order:
+    """The order of a customer; times are simulated [s]. due 0: no due time.
+
+    lines: (SKU, pieces) of each line. tote: its place at the station that has it, or had it last;
+    0: none.
+    """
+
+    def __init__(
+        self,
+        order_id: int,
+        lines: Iterable[tuple[str, int]],
+        created: float,
+        due: float = 0.0,
+        priority: int = 0,
+        reference: str = "",
+    ) -> None:
+        self.order_id, self.reference = order_id, reference or f"order-{order_id}"
+        self.created, self.due, self.priority = created, due, priority
+        self.lines = [Line(self, i, sku, n) for i, (sku, n) in enumerate(lines)]
+        self.state, self.station = OrderState.OPEN, ""
+        self.assigned = self.completed = 0.0
+        self.tote = 0
+        self.stored = False  # whether a journal has it
+
+    @property
+    def urgency(self) -> tuple[int, float, int]:
+        """A sort key: by priority, then by when it is due, then by age."""
+        return -self.priority, self.due or float("inf"), self.order_id
+
+    @property
+    def pieces(self) -> int:
+        """The number of pieces not picked yet."""
+        return sum(line.open for line in self.lines)
+
+    @property
+    def done(self) -> bool:
+        """Whether all pieces are picked."""
+        return all(not line.open for line in self.lines)
+
+
+class Backlog:
+    """The orders that no station has yet, by age, with the pieces they ask for of each SKU."""
+
+    def __init__(self) -> None:
+        self.orders: dict[int, Order] = {}  # by id
+        self.pieces: dict[Order, int] = {}  # not picked yet: asked of many at each choice
+        self.lines = 0  # of all of them
+        self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
+        self._by_sku: dict[str, dict[Line, int]] = defaultdict(dict)  # open pieces by line
+        self._urgencies: list[tuple[int, float, int]] = []  # of all of them, ascending
+
+    def __len__(self) -> int:
+        return len(self.orders)
+
+    def __iter__(self) -> Iterator[Order]:
+        return iter(self.orders.values())
+
+    def add(self, order: Order) -> None:
+        """Adds an order, with the demand of its open lines."""
+        self.orders[order.order_id] = order
+        self.pieces[order] = order.pieces
+        bisect.insort(self._urgencies, order.urgency)
+        self.lines += len(order.lines)
+        for line in order.lines:
+            if line.open:
+                self.demand[line.sku] += line.open
+                self._by_sku[line.sku][line] = line.open
+
+    def remove(self, order: Order) -> None:
+        """Removes an order and its demand. Raises KeyError."""
+        del self.orders[order.order_id], self.pieces[order]
+        del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
+        self.lines -= len(order.lines)
+        for line in order.lines:
+            if line.open:
+                self.demand[line.sku] -= line.open
+                del self._by_sku[line.sku][line]
+
+    def by_urgency(self) -> Iterator[Order]:
+        """Returns the orders, the most urgent first; it may not change meanwhile."""
+        return (self.orders[order_id] for _, _, order_id in self._urgencies)
+
+    def lines_of(self, sku: str) -> Mapping[Line, int]:
+        """Returns the lines that ask for a SKU, by age of their orders, with their open pieces."""
+        return self._by_sku.get(sku, {})
+
+    def served_by(self, stock: Mapping[str, int]) -> dict[Order, int]:
+        """Returns how many pieces each order finds in a stock, of the orders that find any.
+
+        stock: pieces by SKU. Two lines of an order with the same SKU each find all of it.
+        """
+        served: dict[Order, int] = {}
+        for sku, pieces in stock.items():
+            for line, wanted in self.lines_of(sku).items():
+                found = served.get(line.order, 0)
+                served[line.order] = found + (wanted if wanted < pieces else pieces)
+        return served
+
+
+@dataclass
+class Bundle:
+    """Pieces of one SKU that arrive together and are stored in one bin."""
+
+    bundle_id: int
+    sku: str
+    quantity: int
+    created: float = 0.0
+    bin: Any = field(default=None, repr=False)  # the Bin that it goes to; None: not chosen yet
+    sequence: int = 0  # of the task for a person, once there is a bin

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a shift knows of its stations, and of the units that visit them."""
+
+from collections import defaultdict, deque
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from warehouse_layout.floor.stations import PICK
+from warehouse_operations.stock.inventory import Bin, Inventory
+from warehouse_operations.stock.message_enums import Mode
+from warehouse_operations.stock.orders import Bundle, Line, Order
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.stock.totes import Totes
+
+
+@dataclass(eq=False)
+class Pick:
+    """Pieces of a bin that are reserved for an order line."""
+
+    line: Line
+    bin: Bin
+    quantity: int
+    sequence: int = 0  # of the task for a person
+
+
+@dataclass(eq=False)
+class Visit:
+    """A unit brought to a station: asked for, there, or leaving. Times are simulated [s]."""
+
+    visit_id: int
+    transport_id: int
+    unit: int
+    station: "WorkStation"
+    requested: float
+    picks: deque[Pick] = field(default_factory=deque)
+    puts: deque[Bundle] = field(default_factory=deque)  # Bundles, each with its bin
+    lifted: float | None = None
+    arrived: float | None = None
+    released: float | None = None
+    ended: float | None = None
+    outcome: str = ""
+    pieces: int = 0  # picked from it, or put into it
+    stored: bool = False  # whether a journal has it
+    replenishes: bool = False  # brought for bundles, not for lines of orders
+
+    @property
+    def here(self) -> bool:
+        """Whether it stands in the service cell."""
+        return self.arrived is not None and self.released is None
+
+    @property
+    def pieces_to_pick(self) -> int:
+        """How many pieces are still to be picked from its unit."""
+        return sum(pick.quantity for pick in self.picks)
+
+    def piece_to_pick(self, index: int) -> Pick:
+        """Returns the Pick that the piece of this index is part of. Raises IndexError."""
+        for pick in self.picks:
+            if index < pick.quantity:
+                return pick
+            index -= pick.quantity
+        raise IndexError(index)
+
+
+class WorkStation:
+    """A station for picking or replenishing; `place` is the floor's Station.
+
+    settings: its own. picks, replenishes: what is done there, one of them or both. began:
+    when its shift begins [s].
+    """
+
+    def __init__(
+        self,
+        place: Any,
+        settings: Settings,
+        inventory: Inventory,
+        began: float = 0.0,
+    ) -> None:
+        self.name, self.kind = place.name, place.kind
+        self.mode, self.inventory = Mode.AUTOMATIC, inventory
+        self.is_open, self._opened, self._open_s = True, began, 0.0
+        self.picks = place.kind == PICK
+        self.replenishes = settings.replenishes or not self.picks
+        self.capacity = settings.slots if self.picks else 0
+        self.seconds_a_piece, self.seconds_a_bundle = settings.piece_s, settings.bundle_s
+        self.pick_seconds = min(settings.pick_s, settings.piece_s)
+        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
+        self.orders: dict[int, Order] = {}  # by id
+        self.totes = Totes(self.capacity)
+        self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
+        self.at_work = 0  # pieces or bundles in people's hands
+        self.reaching = 0  # of these, pieces that are still in their bins
+        self.line: Line | None = None  # of the piece that was begun last
+        self.busy_s = 0.0
+        self.attended = 0.0  # when a person last did something here [s]
+        # Lines with pieces for which no unit comes, by (order, line).
+        self.missing: dict[tuple[int, int], Line] = {}
+        self.pieces = self.visits = 0  # done here
+
+    def set_open(self, is_open: bool, now: float) -> None:
+        """Opens or closes the station at a time [s]."""
+        self._open_s, self._opened = self.open_seconds(now), now
+        self.is_open = is_open
+
+    def open_seconds(self, now: float) -> float:
+        """Returns for how long it was open until a time [s]."""
+        return self._open_s + (now - self._opened if self.is_open else 0.0)
+
+    def busy_fraction(self, now: float) -> float:
+        """Returns the share of its pickers' hours in which they worked, until a time [s]."""
+        hours = self.open_seconds(now) * self.pickers
+        return self.busy_s / hours if hours else 0.0
+
+    def take_on(self, order: Order, again: bool = False) -> None:
+        """Adds an order, in a tote of its own; `again`: in the one that it had here."""
+        self.orders[order.order_id] = order
+        (self.totes.take_again if again else self.totes.take)(order)
+
+    def let_go(self, order: Order) -> None:
+        """Removes an order, and frees the place of its tote. Raises KeyError."""
+        del self.orders[order.order_id]
+        self.totes.leave(order)
+
+    @property
+    def free_slots(self) -> int:
+        """How many more orders can be open here."""
+        return self.capacity - len(self.orders)
+
+    @property
+    def here(self) -> Visit | None:
+        """The Visit in the service cell, or None."""
+        return next((visit for visit in self.inbound.values() if visit.here), None)
+
+    @property
+    def coming(self) -> list[Visit]:
+        """The visits that have not been released."""
+        return [visit for visit in self.inbound.values() if visit.released is None]
+
+    def coming_for(self, replenishes: bool) -> list[Visit]:
+        """Returns those of them that bring bundles their bins, or orders their pieces."""
+        return [visit for visit in self.coming if visit.replenishes == replenishes]
+
+    def waiting(self, now: float) -> float:
+        """Returns how long a task has waited for a person [s]; 0 without one."""
+        visit = self.here
+        if self.mode != Mode.MANUAL or not visit or visit.arrived is None:
+            return 0.0
+        if not (visit.picks or visit.puts):
+            return 0.0
+        return max(0.0, now - max(visit.arrived, self.attended))
+
+    def stock_here(self) -> dict[str, int]:
+        """Returns the pieces promised to no order, by SKU, on the unit in the service cell."""
+        visit = self.here
+        return self._stock([visit] if visit and not visit.replenishes else [])
+
+    def inbound_stock(self) -> dict[str, int]:
+        """Returns the same on the unit that is here and on those on their way."""
+        return self._stock(self.coming_for(replenishes=False))
+
+    def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
+        stock: dict[str, int] = defaultdict(int)
+        for visit in visits:
+            for one in self.inventory.of_unit[visit.unit]:
+                if one.available:
+                    stock[one.sku] += one.available
+        return stock

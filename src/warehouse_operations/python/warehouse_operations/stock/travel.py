@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How long robots take without traffic, in closed form on a floor plan.
+
+A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
+turn takes its time, and a start and stop more.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout._core import routes, ways
+from warehouse_layout.floor.floor_plan import FloorPlan
+
+HEADINGS = 4
+TABLES = 400  # kept at most, the least recently used is dropped
+PLACE_TABLES = 4000  # likewise of storage places alone: a floor of 50,000 cells has a thousand
+
+_Key = TypeVar("_Key")
+_Value = TypeVar("_Value")
+
+
+class Table:
+    """Routes from one cell to all others, or back: time [s] and length [m] by cell; or inf."""
+
+    def __init__(
+        self, seconds: np.ndarray, metres: np.ndarray, cells: np.ndarray, heading: np.ndarray
+    ) -> None:
+        self.seconds, self.metres = seconds, metres
+        self._cells, self._heading = cells, heading
+
+    def cells(self, cell: int) -> list[int]:
+        """Returns the cells of the route between the table's own cell and another, with both."""
+        node, way = cell * HEADINGS + self._heading[cell], [cell]
+        while (node := self._cells[node]) >= 0:
+            if node // HEADINGS != way[-1]:
+                way.append(node // HEADINGS)
+        return way
+
+
+class Travel:
+    """Times and lengths of routes on a FloorPlan."""
+
+    def __init__(self, plan: FloorPlan, kinematics: Kinematics) -> None:
+        self.plan, self.kinematics = plan, kinematics
+        self.width = plan.passable.shape[1]
+        # Places in storage are ends of ways, never on the way.
+        self._ends = np.asarray(plan.storage | plan.parking, np.uint8).ravel()
+        self._forward, self._backward = _steps(plan, self._ends.astype(bool))
+        self._tables: OrderedDict[tuple[int, bool], Table] = OrderedDict()
+        self._places = np.flatnonzero(plan.storage)
+        self._place = np.full(plan.passable.size, -1, np.int32)  # index into them, by cell
+        self._place[self._places] = np.arange(len(self._places))
+        self._numbered = _Numbered(plan, self._ends, (self._forward, self._backward), self._places)
+        self._of_places: OrderedDict[tuple[int, bool], tuple[np.ndarray, np.ndarray]] = (
+            OrderedDict()
+        )
+        turn = kinematics.quarter_turn + kinematics.start_stop
+        self._costs = plan.spacing / kinematics.speed, turn  # of a step, of a quarter [s]
+
+    def loaded_from(self, cell: int) -> Table:
+        """Returns the routes of a loaded robot from a cell to all others."""
+        return self._table(int(cell), True)
+
+    def loaded_to(self, cell: int) -> Table:
+        """Returns the routes of a loaded robot to a cell from all others."""
+        return self._table(int(cell), False)
+
+    def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
+        """Returns how far it is for a loaded robot from a cell to storage places, (n,) [m]."""
+        seconds, steps = self._of_storage(int(cell), True)
+        of = self._place[places]
+        return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
+
+    def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
+        """Returns how long a loaded robot takes to a cell from others, most often storage places,
+        (n,) [s]; anything where there is none."""
+        places = self._place[starts]
+        seconds = self._of_storage(cell, False)[0][places]
+        if (off := (places < 0) & (starts >= 0)).any():
+            seconds[off] = self.loaded_to(cell).seconds[starts[off]]
+        return seconds
+
+    def _of_storage(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (seconds, steps) of the ways to or from storage places alone, (n,) each: a
+        seventh of a floor, or less."""
+        key = cell, forward
+        return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
+
+    def _ways(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
+        seconds, steps = self._numbered.ways(cell, forward, *self._costs)
+        return np.where(self._places == cell, 0.0, self._from_standstill(seconds)), steps
+
+    def _from_standstill(self, seconds: np.ndarray) -> np.ndarray:
+        """Adds the start and stop of the first run, and the turn into it."""
+        return seconds + self.kinematics.start_stop + self.kinematics.quarter_turn
+
+    def unloaded(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns time [s] and length [m] for robots without a load, which drive under the units.
+
+        cells: (n,); to: (m,); both results: (n, m).
+        """
+        cells, to = np.asarray(cells)[:, None], np.asarray(to)[None, :]
+        dx = np.abs(cells % self.width - to % self.width) * self.plan.spacing
+        dy = np.abs(cells // self.width - to // self.width) * self.plan.spacing
+        turns = 1.0 * ((dx > 0) | (dy > 0)) + ((dx > 0) & (dy > 0))  # to start, and at the corner
+        run = self.kinematics.run
+        return run(dx) + run(dy) + turns * self.kinematics.quarter_turn, dx + dy
+
+    def _table(self, cell: int, forward: bool) -> Table:
+        key = cell, forward
+        return _remembered(self._tables, TABLES, key, lambda: self._search(cell, forward))
+
+    def _search(self, cell: int, forward: bool) -> Table:
+        graph = self._forward if forward else self._backward
+        seconds, steps, before = routes(graph, self._ends, cell, *self._costs)
+        heading = np.argmin(seconds.reshape(-1, HEADINGS), axis=1)
+        nodes = np.arange(len(heading)) * HEADINGS + heading
+        seconds = self._from_standstill(seconds[nodes])
+        seconds[cell] = 0.0
+        metres = np.where(np.isfinite(seconds), steps[nodes] * self.plan.spacing, np.inf)
+        return Table(seconds, metres, before, heading)
+
+
+class _Numbered:
+    """The graph of the passable cells alone, by their numbers: half of a floor around a hole."""
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        ends: np.ndarray,
+        graphs: tuple[np.ndarray, np.ndarray],
+        places: np.ndarray,
+    ) -> None:
+        cells = np.flatnonzero(plan.passable)
+        self._number = np.full(plan.passable.size + 1, -1, np.int32)  # by cell; of -1: -1
+        self._number[cells] = np.arange(len(cells), dtype=np.int32)
+        self._ends, self._places = ends[cells], self._number[places]
+        self._forward, self._backward = (self._number[graph[cells]] for graph in graphs)
+
+    def ways(
+        self, cell: int, forward: bool, step: float, turn: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (seconds, steps) of the ways from a cell to all storage places, or back."""
+        graph = self._forward if forward else self._backward
+        return ways(graph, self._ends, int(self._number[cell]), step, turn, self._places)
+
+
+def _remembered(
+    known: OrderedDict[_Key, _Value], most: int, key: _Key, make: Callable[[], _Value]
+) -> _Value:
+    """Returns the value of a key, made where it is not known; drops the least recently used."""
+    if key in known:
+        known.move_to_end(key)
+        return known[key]
+    value = known[key] = make()
+    if len(known) > most:
+        known.popitem(last=False)
+    return value
+
+
+def _steps(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (next, before), (cells, 4) int32 each: the cell to which a loaded robot may ever step
+    from each in each heading, and that from which it may come; or -1."""
+    following = np.asarray(plan.floor().edges(False)).reshape(-1, HEADINGS)
+    lane = np.asarray(plan.lane, bool).ravel()
+    cells, headings = np.nonzero(following >= 0)
+    to = following[cells, headings]
+    allowed = ~(keep_out[cells] & (keep_out[to] | lane[to])) & ~(lane[cells] & keep_out[to])
+    cells, headings, to = cells[allowed], headings[allowed], to[allowed]
+    out = np.full((2, *following.shape), -1, np.int32)
+    out[0, cells, headings] = to
+    out[1, to, headings] = cells
+    return out[0], out[1]
