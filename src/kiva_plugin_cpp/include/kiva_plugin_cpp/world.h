@@ -167,6 +167,10 @@ struct WorldOptions {
 
 constexpr int kMostThreads = 256;
 
+/// A running world. Its members are implemented in src/core by subject: `world.cpp` has the step,
+/// `world_warehouse.cpp` what robots, units and sensors show, `world_robots.cpp` what robots and
+/// people are asked for, `world_models.cpp` models and links, `world_mechanics.cpp` joints and what
+/// clients apply, `world_history.cpp` checkpoints and events.
 class World {
  public:
   /// Builds every model and plugin. Throws DescriptionError.
@@ -175,7 +179,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // --- time
+  // --- time and settings
   void step();
   double time() const;          ///< Simulated time [s] since the last reset of time.
   std::uint64_t steps() const;  ///< Steps since the last reset of time.
@@ -192,6 +196,31 @@ class World {
   /// commands. Forces that clients apply end. With `time_too` the time goes back to 0.
   void reset(bool time_too);
 
+  // --- the warehouse
+  const Fleet& fleet() const;
+  const std::vector<StorageUnit>& storageUnits() const;
+  const std::vector<Item>& items() const;
+  Pose storageUnitPose(int unit) const;  ///< In world.
+  Pose itemPose(int item) const;         ///< In world.
+  /// Returns the points at which the robot is still to turn or to stop. On a path, the last
+  /// released point is among them, and points that are not released yet follow it.
+  std::vector<PathPoint> pathAhead(int robot) const;
+  /// Returns where the robot believes to be: (x, y, yaw) in world [m, rad], yaw unwrapped. Robots
+  /// drive by this pose. It is the true pose unless localisation is realistic.
+  Vector3 believedPose(int robot) const;
+  /// Returns that pose and the motion by the wheels, with covariances.
+  Odometry odometry(int robot) const;
+  /// Returns the acceleration below which the robot stays so that its load does not tip [m/s²]. It
+  /// is +inf without a load, and if loads are ideal.
+  double loadLimit(int robot) const;
+  Pose basePose(int robot) const;  ///< Pose of the chassis, on the floor, in world.
+  /// Returns a number that grows whenever a storage unit, or an item that lies on no unit, moves or
+  /// changes its carrier.
+  std::uint64_t unitsRevision() const;
+  const Floor& floor() const;
+  Occupancy occupancy() const;
+  double gridSpacing() const;  ///< [m]
+
   // --- commands
   /// Queues a command; an ACCEPTED or REFUSED event answers it at the next step.
   void post(const Command& command);
@@ -199,54 +228,33 @@ class World {
   /// refused.
   void post(FollowPath path);
 
-  // --- failures
-  /// Breaks something in a robot now: FAILED. It is repaired after `repair_after` [s], or by
-  /// repair() if that is 0. If it is broken already, only the time of its repair changes. Throws
-  /// std::invalid_argument for an unknown robot, and a time that is negative or not finite.
-  void fail(int kiva_id, Failure failure, double repair_after);
-  /// Repairs all that is broken in a robot now: REPAIRED for each failure. An empty battery is
-  /// exchanged for a full one. Throws as fail().
-  void repair(int kiva_id);
-  /// Returns the last report of a robot whose radio is lost, and of every robot if reports go by
-  /// radio. Returns nothing for a robot that is heard at once.
-  std::optional<RobotReport> lastHeard(int robot) const;
+  // --- what happened since the last call
+  std::vector<Event> takeEvents();
+  std::vector<StatusChange> takeStatusChanges();
+  /// Returns warnings, each once: what was left out, such as an unknown plugin.
+  std::vector<std::string> takeWarnings();
+  /// Adds a warning; for plugins.
+  void warn(const std::string& warning);
 
-  // --- modes of robots
-  /// Stores a robot's mode, as Fleet::mode. Throws std::invalid_argument if there is no such
-  /// robot or no such mode.
-  void keepMode(int kiva_id, int mode);
-
-  // --- shadows of robots that are elsewhere
-  /// Makes a robot the shadow of one that is elsewhere, as in a hall behind a broker, and puts it
-  /// where that one is. A shadow takes no commands. Lasers see it, its load goes with it, and its
-  /// state is the one reported. It stays a shadow until it is removed. Throws
-  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, if
-  /// another robot carries the unit, or if a number is not finite.
-  void shadow(int kiva_id, const ShadowReport& report);
-  bool isShadow(int kiva_id) const;
-
-  // --- people
-  /// Makes a person walk along waypoints from now on. The person is an actor, or a static model no
-  /// larger than a person; robots keep away from it. Without waypoints the person stays there.
-  /// People stop before obstacles, and walk around them where they can. Throws
-  /// std::invalid_argument, with nothing changed, if there is no such model, if it can't be a
-  /// person, or if a waypoint is not finite, off the floor, or to be reached too fast.
-  void walk(const std::string& person, const Walk& walk);
-  /// Returns all people, in the order in which they were added.
-  std::vector<Person> people() const;
-  /// Adds a light curtain, or replaces the one of that name. Throws std::invalid_argument if it has
-  /// no name, or if its edges are not finite or in the wrong order.
-  void setLightCurtain(const LightCurtain& curtain);
-  bool removeLightCurtain(const std::string& name);
-  const std::vector<LightCurtain>& lightCurtains() const;
-
-  // --- fallen items
-  /// Returns fallen items, in the order in which they fell.
-  std::vector<FallenItem> fallenItems() const;
-  /// Puts a fallen item back into its place on its storage unit: PICKED_UP. Throws
-  /// std::invalid_argument, with nothing changed, if the item did not fall, or if its unit does not
-  /// stand upright.
-  void pickUp(const std::string& item);
+  // --- sensing
+  /// Writes one range a ray [m]. +inf is no return, -inf nearer than the minimum (REP 117), NaN a
+  /// blind laser.
+  void scan(int robot, std::vector<float>* ranges) const;
+  /// Writes the ranges of several robots that have lasers, a row each, on the world's threads.
+  void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;
+  /// Returns the robots whose scan is due at this step, in the fleet's order. Scans are staggered
+  /// over the fleet. Valid until the next step, or until a robot is removed.
+  const std::vector<int>& scansDue() const;
+  /// Returns the distance [m] from a point in world, level, in the direction `yaw`, to the first
+  /// body that stands on the floor; +inf without one within `range`. The ray passes the model
+  /// `but`.
+  double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
+  /// Writes distances [m] from a point in world along unit vectors to the first collision, the
+  /// floor's included; +inf without one within `range`. On the world's threads; about 1 µs a ray.
+  void rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
+               const std::string& but, std::vector<double>* ranges) const;
+  /// Returns where a model touches others now. The model is the first of each pair.
+  std::vector<ContactPoint> contacts(const std::string& model) const;
 
   // --- models
   /// Adds a model. Throws DescriptionError, with nothing changed, if the name is taken or unfit, if
@@ -313,51 +321,6 @@ class World {
   bool removeLight(const std::string& name);
   void setOde(const OdeSettings& settings);
 
-  // --- the warehouse
-  const Fleet& fleet() const;
-  const std::vector<StorageUnit>& storageUnits() const;
-  const std::vector<Item>& items() const;
-  Pose storageUnitPose(int unit) const;  ///< In world.
-  Pose itemPose(int item) const;         ///< In world.
-  /// Returns the points at which the robot is still to turn or to stop. On a path, the last
-  /// released point is among them, and points that are not released yet follow it.
-  std::vector<PathPoint> pathAhead(int robot) const;
-  /// Returns where the robot believes to be: (x, y, yaw) in world [m, rad], yaw unwrapped. Robots
-  /// drive by this pose. It is the true pose unless localisation is realistic.
-  Vector3 believedPose(int robot) const;
-  /// Returns that pose and the motion by the wheels, with covariances.
-  Odometry odometry(int robot) const;
-  /// Returns the acceleration below which the robot stays so that its load does not tip [m/s²]. It
-  /// is +inf without a load, and if loads are ideal.
-  double loadLimit(int robot) const;
-  Pose basePose(int robot) const;  ///< Pose of the chassis, on the floor, in world.
-  /// Returns a number that grows whenever a storage unit, or an item that lies on no unit, moves or
-  /// changes its carrier.
-  std::uint64_t unitsRevision() const;
-  const Floor& floor() const;
-  Occupancy occupancy() const;
-  double gridSpacing() const;  ///< [m]
-
-  // --- sensing
-  /// Writes one range a ray [m]. +inf is no return, -inf nearer than the minimum (REP 117), NaN a
-  /// blind laser.
-  void scan(int robot, std::vector<float>* ranges) const;
-  /// Writes the ranges of several robots that have lasers, a row each, on the world's threads.
-  void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;
-  /// Returns the robots whose scan is due at this step, in the fleet's order. Scans are staggered
-  /// over the fleet. Valid until the next step, or until a robot is removed.
-  const std::vector<int>& scansDue() const;
-  /// Returns the distance [m] from a point in world, level, in the direction `yaw`, to the first
-  /// body that stands on the floor; +inf without one within `range`. The ray passes the model
-  /// `but`.
-  double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
-  /// Writes distances [m] from a point in world along unit vectors to the first collision, the
-  /// floor's included; +inf without one within `range`. On the world's threads; about 1 µs a ray.
-  void rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
-               const std::string& but, std::vector<double>* ranges) const;
-  /// Returns where a model touches others now. The model is the first of each pair.
-  std::vector<ContactPoint> contacts(const std::string& model) const;
-
   // --- checkpoints
   /// Returns the whole state as bytes: time, models, motion, commands under way and pending, events
   /// not yet taken, and what plugins save. A world that restores these bytes goes on exactly as
@@ -371,13 +334,54 @@ class World {
   /// yet. Equal worlds have equal hashes.
   std::uint64_t stateHash() const;
 
-  // --- what happened since the last call
-  std::vector<Event> takeEvents();
-  std::vector<StatusChange> takeStatusChanges();
-  /// Returns warnings, each once: what was left out, such as an unknown plugin.
-  std::vector<std::string> takeWarnings();
-  /// Adds a warning; for plugins.
-  void warn(const std::string& warning);
+  // --- people
+  /// Makes a person walk along waypoints from now on. The person is an actor, or a static model no
+  /// larger than a person; robots keep away from it. Without waypoints the person stays there.
+  /// People stop before obstacles, and walk around them where they can. Throws
+  /// std::invalid_argument, with nothing changed, if there is no such model, if it can't be a
+  /// person, or if a waypoint is not finite, off the floor, or to be reached too fast.
+  void walk(const std::string& person, const Walk& walk);
+  /// Returns all people, in the order in which they were added.
+  std::vector<Person> people() const;
+  /// Adds a light curtain, or replaces the one of that name. Throws std::invalid_argument if it has
+  /// no name, or if its edges are not finite or in the wrong order.
+  void setLightCurtain(const LightCurtain& curtain);
+  bool removeLightCurtain(const std::string& name);
+  const std::vector<LightCurtain>& lightCurtains() const;
+
+  // --- fallen items
+  /// Returns fallen items, in the order in which they fell.
+  std::vector<FallenItem> fallenItems() const;
+  /// Puts a fallen item back into its place on its storage unit: PICKED_UP. Throws
+  /// std::invalid_argument, with nothing changed, if the item did not fall, or if its unit does not
+  /// stand upright.
+  void pickUp(const std::string& item);
+
+  // --- failures
+  /// Breaks something in a robot now: FAILED. It is repaired after `repair_after` [s], or by
+  /// repair() if that is 0. If it is broken already, only the time of its repair changes. Throws
+  /// std::invalid_argument for an unknown robot, and a time that is negative or not finite.
+  void fail(int kiva_id, Failure failure, double repair_after);
+  /// Repairs all that is broken in a robot now: REPAIRED for each failure. An empty battery is
+  /// exchanged for a full one. Throws as fail().
+  void repair(int kiva_id);
+  /// Returns the last report of a robot whose radio is lost, and of every robot if reports go by
+  /// radio. Returns nothing for a robot that is heard at once.
+  std::optional<RobotReport> lastHeard(int robot) const;
+
+  // --- modes of robots, stored for a coordinator
+  /// Stores a robot's mode, as Fleet::mode. Throws std::invalid_argument if there is no such
+  /// robot or no such mode.
+  void keepMode(int kiva_id, int mode);
+
+  // --- shadows of robots that are elsewhere
+  /// Makes a robot the shadow of one that is elsewhere, as in a hall behind a broker, and puts it
+  /// where that one is. A shadow takes no commands. Lasers see it, its load goes with it, and its
+  /// state is the one reported. It stays a shadow until it is removed. Throws
+  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, if
+  /// another robot carries the unit, or if a number is not finite.
+  void shadow(int kiva_id, const ShadowReport& report);
+  bool isShadow(int kiva_id) const;
 
   /// Gives access to the private state, for tests and parts of the world; see src/core/state.
   friend WorldState& insideOf(World& world);

@@ -21,6 +21,10 @@ int linkIndex(const ModelDescription& description, const std::string& name) {
   return -1;
 }
 
+int linkIndex(const Model* model, const std::string& name) {
+  return model ? linkIndex(*model->description, name) : -1;
+}
+
 int numberIn(const std::string& name, const std::string& prefix) {
   if (name.rfind(prefix, 0) != 0) return 0;
   const std::string digits = name.substr(prefix.size());

@@ -142,8 +142,9 @@ struct Model {
 /// Returns whether one of its bodies is awake in Bullet.
 bool isAwake(const Model& model);
 
-/// Returns the index of the link of that name; -1 = none.
+/// Returns the index of the link of that name; -1 = none, or no model.
 int linkIndex(const ModelDescription& description, const std::string& name);
+int linkIndex(const Model* model, const std::string& name);
 
 /// Returns the number in a name such as `kiva12`, behind the prefix: 1 to 9,999,999; 0 if the name
 /// is not of that form.
