@@ -91,27 +91,33 @@ void forEachUserPlugin(WorldState& world, Call call) {
   }
 }
 
-/// Decides by what was seen which robots brake, stop, or begin a command.
+// Phases of a step. A phase reads the world as a `const Scene&`, and writes what its other
+// arguments name, or what its view has (core/state/views).
+
+/// Decides by the last step's scans which robots brake, stop, or begin a command.
 void decide(WorldState& world) {
-  findFloorParts(world.view);
+  const Scene& scene = world.view;
+  findFloorParts(scene, world.floor, world.log);
   haltCollidedRobots(world.view, world.contact_log);
   sampleFailures(world.view, world.failures);
   updateBatteries(world.view, world.chargers);
   deliverReports(world.view);
   applyProtectiveFields(world.view, world.people, world.scans.due);
-  for (const auto& plugin : world.plugins.fleet) plugin->react(world.view, world.scans.sighted);
+  for (const auto& plugin : scene.plugins.fleet) plugin->react(world.view, world.scans.sighted);
   world.scans.sighted.clear();
-  receive(world.command_link, world.inbox, world.clock);
-  acceptCommands(world.view, world.inbox, world.shadows);
+  receive(world.command_link, world.inbox, scene.clock);
+  acceptCommands(world.view, world.obstacles, world.inbox, world.shadows);
 }
 
-void control(WorldState& world) {
-  for (const auto& plugin : world.plugins.fleet) plugin->control(world.view);
+/// Sets the commands of motors and towers.
+void control(ContactView& world) {
+  for (const auto& plugin : world.plugins.fleet) plugin->control(world);
 }
 
-void sense(WorldState& world) {
-  findDueScans(world.view, world.failures, world.scans);
-  lookAhead(world.view, world.scans);
+/// Scans, and looks ahead of robots that drive.
+void sense(RobotView& world, const FailureState& failures, Scans& scans) {
+  findDueScans(world, failures, scans);
+  lookAhead(world, scans);
 }
 
 /// Discards what robots know of their ways ahead.
@@ -148,13 +154,13 @@ void World::step() {
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.clock.dt); });
   applyExternalWrenches(world.view);
   updateActivation(world.view);
-  control(world);
+  control(world.view);
   actuate(world.view);
   world.physics.step(world.clock.dt);
   integrate(world.view);
   stepPeople(world.view, world.people);
   world.clock.advance();
-  sense(world);
+  sense(world.view, world.failures, world.scans);
   observeCollisions(world.view);
   stepLoadTipping(world.view);
   stepFallingItems(world.view);
@@ -194,7 +200,7 @@ void World::setGravity(const Vector3& gravity) {
 
 void World::reset(bool time_too) {
   WorldState& world = *state_;
-  forgetContacts(world.view, -1);
+  forgetContacts(world.view, world.contact_log, world.log, -1);
   world.contact_log.crashes.clear();
   world.command_link.messages.clear();
   world.report_link.messages.clear();

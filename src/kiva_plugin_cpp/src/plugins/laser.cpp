@@ -36,7 +36,7 @@ double farthestStop(const Scene& world, int robot, double obstacle) {
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(MotionView& world, int i, double stop) {
+void planStop(RobotView& world, int i, double stop) {
   FleetState& f = world.fleet;
   const double speed = std::abs(f.command(i).speed), here = f.command(i).position;
   const double way = stop - here;
@@ -75,7 +75,7 @@ View viewOf(const Scene& world, int i) {
 }
 
 /// [m/s²]
-double usualBraking(MotionView& world, int i) {
+double usualBraking(const Scene& world, int i) {
   const double usual = plannedAcceleration(world, i);
   return usual > 0 ? usual : 1e9;
 }
@@ -88,7 +88,7 @@ double expectedObstacle(const View& view, double braking) {
 }
 
 /// Returns where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(MotionView& world, int robot, const View& view) {
+double firstStop(const Scene& world, int robot, const View& view) {
   const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
   // Most looks end here: how it can brake is worked out for the others alone.
   if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
@@ -105,7 +105,7 @@ double firstStop(MotionView& world, int robot, const View& view) {
 
 /// Returns the same for a robot that is stopping already: it keeps to its plan unless the place is
 /// taken by now, or even two hard stops would hardly do.
-double revisedStop(MotionView& world, int robot, const View& view) {
+double revisedStop(const Scene& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
   const double gap = view.obstacle - view.reference - halfLength(r);
@@ -117,7 +117,7 @@ double revisedStop(MotionView& world, int robot, const View& view) {
 }
 
 /// Returns whether a robot that brakes or stands on its path can go farther than to where it does.
-bool mayResume(MotionView& world, int i) {
+bool mayResume(const Scene& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const View view = viewOf(world, i);
   if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
@@ -125,7 +125,7 @@ bool mayResume(MotionView& world, int i) {
   return farthestStop(world, i, expected) > view.goal + kSoon;
 }
 
-void brake(MotionView& world, int i) {
+void brake(TaskView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   if (!task.sighting.taken) return;
   const bool is_obstructed = task.isHeldUp() || task.phase == Phase::kBraking;
@@ -140,7 +140,7 @@ void brake(MotionView& world, int i) {
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);
   if (task.follows() && !brakes) {  // its path goes on: this is not told again at its end
-    reportCommand(world, Event::Kind::kBlocked, i, name, task.blocked_reason);
+    reportCommand(world, world.log, Event::Kind::kBlocked, i, name, task.blocked_reason);
   }
 }
 
@@ -152,7 +152,7 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   laser.fields(laser, p.reader());
 }
 
-void LaserPlugin::react(MotionView& world, const std::vector<int>& sighted) const {
+void LaserPlugin::react(TaskView& world, const std::vector<int>& sighted) const {
   for (int i : sighted) brake(world, i);
 }
 

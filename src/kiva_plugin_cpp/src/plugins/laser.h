@@ -10,7 +10,7 @@ class LaserPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_laser.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void react(MotionView& world, const std::vector<int>& sighted) const override;
+  void react(TaskView& world, const std::vector<int>& sighted) const override;
 };
 
 }  // namespace kiva

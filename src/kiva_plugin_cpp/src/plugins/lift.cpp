@@ -60,14 +60,14 @@ double resistance(const Scene& world, const Model& model) {
   return mass * world.settings.gravityDown();
 }
 
-void setTower(ContactView& world, int i, double height) {
+void setTower(MotionView& world, int i, double height) {
   raiseLoad(world, i, height - world.fleet.tower[i]);
   world.fleet.tower[i] = height;
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(ContactView& world, int i, double height) {
+void moveTower(MotionView& world, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
@@ -78,17 +78,17 @@ void moveTower(ContactView& world, int i, double height) {
   setTower(world, i, profile.position);
 }
 
-void begin(ContactView& world, int i) {
+void begin(RobotView& world, int i) {
   world.fleet.tasks[i].phase = Phase::kLifting;
   world.fleet.setProfile(i, {world.fleet.tower[i], 0});
 }
 
-void giveUp(ContactView& world, int i, const std::string& by, const std::string& reason) {
+void giveUp(TaskView& world, int i, const std::string& by, const std::string& reason) {
   stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
-void checkUnit(ContactView& world, int i, const MotionSegment& segment) {
+void checkUnit(TaskView& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
   const StorageUnit& unit = world.storage.units[segment.unit];
@@ -108,7 +108,7 @@ void putDownOnFloor(ContactView& world, int i, int unit) {
   if (unit < 0 || world.fleet.unit[i] != unit) return;
   if (unitPose(world, unit).Z() > world.floor.extent.z) return;
   putDown(world, i);
-  reportCommand(world, Event::Kind::kDropped, i, world.storage.units[unit].name,
+  reportCommand(world, world.log, Event::Kind::kDropped, i, world.storage.units[unit].name,
                 "dropped " + world.storage.units[unit].name);
 }
 
@@ -122,7 +122,7 @@ void abandon(ContactView& world, int i, int unit) {
 
 /// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
 /// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
-void stall(ContactView& world, int i, double before, const Above& above) {
+void stall(MotionView& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
@@ -158,7 +158,7 @@ void raiseSegment(ContactView& world, int i, int unit) {
   if (world.fleet.reference[i] != r.lift.height) return;
   rebuildBody(world, world.models.of(
                          world.fleet.robots[i]));  // its load is higher than when it was taken up
-  reportCommand(world, Event::Kind::kLifted, i, world.storage.units[unit].name,
+  reportCommand(world, world.log, Event::Kind::kLifted, i, world.storage.units[unit].name,
                 "lifted " + world.storage.units[unit].name);
   finishSegment(world, i);
 }
@@ -170,7 +170,7 @@ void lowerSegment(ContactView& world, int i, int unit) {
 }
 
 /// Stops the tower, and keeps it there.
-void holdTower(ContactView& world, int i) {
+void holdTower(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
@@ -192,7 +192,7 @@ void liftSegment(ContactView& world, int i) {
 }
 
 /// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(ContactView& world, int i) {
+void lowerEmptyTower(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(world, i, 0);

@@ -44,7 +44,7 @@ OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i], at.yaw - segment.yaw};
 }
 
-void begin(MotionView& world, int i, const OnLine& at) {
+void begin(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
@@ -62,7 +62,7 @@ bool arrived(const FleetState& f, int i, const OnLine& at) {
 }
 
 /// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
-bool giveUp(MotionView& world, int i, const OnLine& at) {
+bool giveUp(TaskView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
   if (f.reference[i] == f.goal[i]) overdue += world.clock.dt;
@@ -73,7 +73,7 @@ bool giveUp(MotionView& world, int i, const OnLine& at) {
 }
 
 /// Returns what it may drive for the sake of people now, on its way down to what is allowed.
-double allowedSpeed(MotionView& world, int i) {
+double allowedSpeed(const Scene& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
   if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
@@ -96,7 +96,7 @@ void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed
 
 /// Lets the reference of a robot that slips on a floor with slippery places go on from where the
 /// robot is, and asks half as much of its wheels from there on.
-void feelSlip(MotionView& world, int i, const OnLine& at) {
+void feelSlip(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (std::abs(f.reference[i] - at.along) < kSlid || f.acceleration[i] <= kLeastPlanned) return;
   if (!isPatchy(world)) return;
@@ -113,7 +113,7 @@ bool overshoots(const Scene& world, int i, const MotionSegment& segment, const O
 
 /// Ends a drive whose robot has slid past its goal and has no room to come back. Returns false
 /// while it has.
-bool isCutOff(MotionView& world, int i, double past) {
+bool isCutOff(TaskView& world, int i, double past) {
   const FleetState& f = world.fleet;
   if (isWayFree(world, i, f.believed(i), -past, kMargin)) return false;
   char text[80];
@@ -123,7 +123,7 @@ bool isCutOff(MotionView& world, int i, double past) {
 }
 
 /// Stops where it can, and stays there, or where it slides to.
-void holdDrive(MotionView& world, int i, const OnLine& at) {
+void holdDrive(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - at.along;
@@ -219,7 +219,7 @@ bool stands(const Fleet& f, int i) {
   return std::hypot(f.vx[i], f.vy[i]) < kStill && std::abs(f.yaw_rate[i]) < kStill;
 }
 
-bool halting(MotionView& world, int i) {
+bool halting(TaskView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
   Task& task = f.tasks[i];

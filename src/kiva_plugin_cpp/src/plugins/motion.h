@@ -26,6 +26,6 @@ constexpr double kOverdue = 2.0;  // [s]
 
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
-bool halting(MotionView& world, int i);
+bool halting(TaskView& world, int i);
 
 }  // namespace kiva

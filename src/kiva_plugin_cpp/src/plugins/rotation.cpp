@@ -25,7 +25,7 @@ constexpr double kReserve = 0.9;     // of the motors' torque, so that errors ca
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
-double turnAcceleration(MotionView& world, int i, double angle) {
+double turnAcceleration(const Scene& world, int i, double angle) {
   const double time =
       world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
   Vehicle vehicle = plannedVehicle(world, i);
@@ -40,7 +40,7 @@ double turnSpeed(const Robot& robot, double dt) {
 }
 
 /// Stops turning as hard as it would at the turn's end, and stays so.
-void holdTurn(MotionView& world, int i) {
+void holdTurn(RobotView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - f.believed(i).yaw;
@@ -55,7 +55,7 @@ void holdTurn(MotionView& world, int i) {
 
 /// On a floor that is slippery in places a gyro tells that wheels spin, before odometry is misled:
 /// from there on it turns half as hard.
-void feelGrip(MotionView& world, int i) {
+void feelGrip(RobotView& world, int i) {
   FleetState& f = world.fleet;
   const bool spins = std::abs(f.reference_speed[i] - f.yaw_rate[i]) > kSpins;
   if (!spins || f.deceleration[i] == 0 || !isPatchy(world)) return;
@@ -64,7 +64,7 @@ void feelGrip(MotionView& world, int i) {
 }
 
 /// Ends a turn that would tear at the legs of a storage unit that stands askew, before it begins.
-bool hasRoom(MotionView& world, int i) {
+bool hasRoom(TaskView& world, int i) {
   const FleetState& f = world.fleet;
   const double goal = f.yaw[i] + f.tasks[i].segments.front().yaw - f.believed(i).yaw;
   const TurnRoom room = roomToTurn(world, i, {f.x[i], f.y[i], f.yaw[i]}, Among::kUnits);

@@ -30,7 +30,7 @@ bool isIn(int index, std::size_t size) {
 bool isInOrNone(int index, std::size_t size) { return index == -1 || isIn(index, size); }
 
 const Model* modelAt(const WorldState& world, int slot) {
-  return isIn(slot, world.models.size()) ? world.models[slot].get() : nullptr;
+  return isIn(slot, world.models.size()) ? world.models[slot] : nullptr;
 }
 
 // --- descriptions
@@ -168,7 +168,7 @@ template <typename Belongs>
 std::set<int> slotsOf(const WorldState& world, Belongs belongs) {
   std::set<int> slots;
   for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
-    if (belongs(world.models[slot].get())) slots.insert(static_cast<int>(slot));
+    if (belongs(world.models[slot])) slots.insert(static_cast<int>(slot));
   }
   return slots;
 }
@@ -177,7 +177,7 @@ void checkModels(const WorldState& world, const PhysicsState& physics) {
   std::set<std::string> names;
   std::set<std::uint64_t> serials;
   for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
-    const Model* model = world.models[slot].get();
+    const Model* model = world.models[slot];
     if (!model) continue;
     checkModel(world, *model, slot);
     require(names.insert(model->name).second, "models", slot, "name", "there are two of it");

@@ -16,19 +16,19 @@ bool comesLater(const ReportMessage& a, const ReportMessage& b) {
   return std::tie(a.due, a.number) > std::tie(b.due, b.number);
 }
 
-void sendReport(MotionView& world, int robot) {
+void sendReport(const Scene& world, ReportLink& report_link, int robot) {
   const FleetState& f = world.fleet;
   if (f.failures[robot] & bitOf(Failure::kRadio)) return;
   const RadioRealism& real = world.settings.realism.radio;
   const int id = f.robots[robot].id;
-  const std::uint64_t number = ++world.report_link.sent;
+  const std::uint64_t number = ++report_link.sent;
   RandomStream random(world.settings.options.seed, Matter::kStatus, id, number);
   if (random.chance(real.status_lost)) return;
   const double rest = std::max(0.0, real.status_latency_mean - real.status_latency_least);
   const double latency = real.status_latency_least + random.exponential(rest);
-  world.report_link.messages.push_back(
+  report_link.messages.push_back(
       {world.clock.total_steps + world.clock.stepsIn(latency), number, id, reportOf(world, robot)});
-  std::push_heap(world.report_link.messages.begin(), world.report_link.messages.end(), comesLater);
+  std::push_heap(report_link.messages.begin(), report_link.messages.end(), comesLater);
 }
 
 bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
@@ -36,7 +36,7 @@ bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
 }
 
 /// Takes in a report, unless a newer one has overtaken it.
-void takeReport(MotionView& world, int robot, std::uint64_t number, const RobotReport& report) {
+void takeReport(TaskView& world, int robot, std::uint64_t number, const RobotReport& report) {
   Heard& heard = world.fleet.heard[robot];
   if (number < heard.number) return;
   const bool is_new = heard.number == 0 || !tellsTheSame(report, heard.report);
@@ -47,7 +47,7 @@ void takeReport(MotionView& world, int robot, std::uint64_t number, const RobotR
                                       report.y, report.yaw});
 }
 
-void receiveReports(MotionView& world) {
+void receiveReports(TaskView& world) {
   auto& on_air = world.report_link.messages;
   while (!on_air.empty() && on_air.front().due <= world.clock.total_steps) {
     std::pop_heap(on_air.begin(), on_air.end(), comesLater);
@@ -70,7 +70,7 @@ RobotReport reportOf(const Scene& world, int robot) {
           f.last_end[robot]};
 }
 
-void deliverReports(MotionView& world) {
+void deliverReports(TaskView& world) {
   if (!world.settings.realism.radio.delaysReports()) return;
   std::vector<int> changed;
   changed.swap(world.report_link.changed);
@@ -81,16 +81,16 @@ void deliverReports(MotionView& world) {
     if (world.fleet.heard[robot].number == 0) {
       takeReport(world, robot, ++world.report_link.sent, reportOf(world, robot));
     } else {
-      sendReport(world, robot);
+      sendReport(world, world.report_link, robot);
     }
   }
   const auto period = static_cast<int>(world.clock.stepsIn(kReportPeriod));
   const auto first = static_cast<int>(world.clock.total_steps % static_cast<std::uint64_t>(period));
-  for (int i = first; i < world.fleet.size(); i += period) sendReport(world, i);
+  for (int i = first; i < world.fleet.size(); i += period) sendReport(world, world.report_link, i);
   receiveReports(world);
 }
 
-void recordPlacement(MotionView& world, FailureState& failures, int robot) {
+void recordPlacement(TaskView& world, FailureState& failures, int robot) {
   const RobotReport report = reportOf(world, robot);
   if (world.fleet.heard[robot].number > 0)
     takeReport(world, robot, ++world.report_link.sent, report);

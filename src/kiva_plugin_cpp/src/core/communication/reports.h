@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/state/robots/failure_state.h"
-#include "core/state/views/motion_view.h"
+#include "core/state/views/task_view.h"
 
 namespace kiva {
 
@@ -12,8 +12,8 @@ namespace kiva {
 RobotReport reportOf(const Scene& world, int robot);
 /// Sends reports, ten times a second and when a status changes, and takes in those that have
 /// arrived by now. Does nothing while the world's realism has no radio.
-void deliverReports(MotionView& world);
+void deliverReports(TaskView& world);
 /// Records the pose of a robot that a client has placed; the client knows it without a report.
-void recordPlacement(MotionView& world, FailureState& failures, int robot);
+void recordPlacement(TaskView& world, FailureState& failures, int robot);
 
 }  // namespace kiva

@@ -66,7 +66,7 @@ bool looksAround(const Scene& world, int robot) {
 
 /// Returns for how long the way of each robot that looks around is free [s], as all stand now; 0
 /// for others. By place in the list of those that are stepped singly.
-std::vector<double> clearTimes(const ContactView& world) {
+std::vector<double> clearTimes(const Scene& world) {
   const std::vector<int>& robots = world.schedule.stepped_singly;
   std::vector<double> times(robots.size(), 0);
   std::vector<int> asking;
@@ -95,7 +95,8 @@ void lookAround(ContactView& world) {
     if (!asks(i)) continue;
     const bool is_known = world.models.activated.size() == before;
     const auto time = [&] { return is_known ? times[k] : clearTime(world, i, true); };
-    if (f.activated[i] || !noteClearance(world, i, time())) activateClose(world, i);
+    if (f.activated[i] || !noteClearance(world, world.obstacles, i, time()))
+      activateClose(world, i);
   }
 }
 
@@ -158,9 +159,9 @@ __attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
   }
 }
 
-void findSteppedSingly(ContactView& world) {
+void findSteppedSingly(const Scene& world, StepSchedule& schedule) {
   const FleetState& f = world.fleet;
-  std::vector<int>* found = &world.schedule.stepped_singly;
+  std::vector<int>* found = &schedule.stepped_singly;
   found->clear();
   findSteppedSingly(f.awake.data(), f.cruising.data(), f.size(), found);
 }
@@ -207,7 +208,7 @@ void updateActivation(ContactView& world) {
   if (world.settings.options.always_in_bullet) {
     for (int i = 0; i < f.size(); ++i) activate(world, world.models.of(world.fleet.robots[i]));
   }
-  findSteppedSingly(world);
+  findSteppedSingly(world, world.schedule);
   const std::size_t before = world.models.activated.size();
   lookAround(world);
   for (int slot : world.models.bodies) activateNearBody(world, *world.models[slot]);
@@ -218,7 +219,7 @@ void updateActivation(ContactView& world) {
   updateUprightness(world);
   const bool has_more = world.models.activated.size() > before;
   release(world);
-  if (has_more) findSteppedSingly(world);  // activated robots have woken
+  if (has_more) findSteppedSingly(world, world.schedule);  // activated robots have woken
 }
 
 }  // namespace kiva

@@ -51,71 +51,72 @@ bool areApart(const Scene& world, const TouchingPair& pair) {
 }
 
 /// A robot in it is to stop.
-void noteCrash(ContactView& world, const Model& model, const Model& other) {
+void noteCrash(const Scene& world, ContactLog& contact_log, const Model& model,
+               const Model& other) {
   const int robot = robotIn(world, model);
-  if (robot >= 0) world.contact_log.crashes.push_back({world.fleet.robots[robot].id, other.name});
+  if (robot >= 0) contact_log.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
 /// What an impact [Ns, in world] made of the storage unit that it hit, or whose robot.
-void noteJolt(ContactView& world, const Model& model, const Vector3& impulse) {
+void noteJolt(const Scene& world, ContactLog& contact_log, const Model& model,
+              const Vector3& impulse) {
   const int robot = robotIn(world, model);
   if (robot >= 0 && world.fleet.unit[robot] >= 0) {
     const Robot& r = world.fleet.robots[robot];
     const int unit = world.storage.units[world.fleet.unit[robot]].model;
-    world.contact_log.jolts.push_back({unit, impulse / (r.mass + r.load_mass)});
+    contact_log.jolts.push_back({unit, impulse / (r.mass + r.load_mass)});
   } else if (model.owner->holdsItems()) {
-    world.contact_log.jolts.push_back(
-        {model.slot, impulse / world.storage.units[model.index].mass});
+    contact_log.jolts.push_back({model.slot, impulse / world.storage.units[model.index].mass});
   }
 }
 
-void noteJolts(ContactView& world, const TouchingPair& pair) {
+void noteJolts(const Scene& world, ContactLog& contact_log, const TouchingPair& pair) {
   if (!world.settings.realism.loads.enabled) return;
   const Vector3 impulse = pair.impact.normal * pair.impact.impulse;
-  noteJolt(world, *world.models[pair.model_a], impulse);
-  noteJolt(world, *world.models[pair.model_b], -impulse);
+  noteJolt(world, contact_log, *world.models[pair.model_a], impulse);
+  noteJolt(world, contact_log, *world.models[pair.model_b], -impulse);
 }
 
-void publishCollision(ContactView& world, TouchingPair* pair) {
-  const Model* a = world.models[pair->model_a].get();
-  const Model* b = world.models[pair->model_b].get();
+void publishCollision(const Scene& world, ContactLog& contact_log, EventLog& log,
+                      TouchingPair* pair) {
+  const Model* a = world.models[pair->model_a];
+  const Model* b = world.models[pair->model_b];
   Impact impact = pair->impact;
   if (robotIn(world, *a) < 0) {
     std::swap(a, b);
     impact.normal = -impact.normal;
   }
   pair->tell_at = 0;
-  world.log.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name,
-                   impact);
-  noteCrash(world, *a, *b);
-  noteCrash(world, *b, *a);
+  log.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
+  noteCrash(world, contact_log, *a, *b);
+  noteCrash(world, contact_log, *b, *a);
 }
 
-void tellWhatIsOver(ContactView& world) {
-  for (TouchingPair& pair : world.contact_log.touching) {
+void tellWhatIsOver(const Scene& world, ContactLog& contact_log, EventLog& log) {
+  for (TouchingPair& pair : contact_log.touching) {
     if (pair.tell_at == 0 || pair.tell_at > world.clock.total_steps) continue;
-    noteJolts(world, pair);
-    publishCollision(world, &pair);
+    noteJolts(world, contact_log, pair);
+    publishCollision(world, contact_log, log, &pair);
   }
 }
 
-TouchingPair& pairOf(ContactView& world, const Contact& contact) {
-  for (TouchingPair& pair : world.contact_log.touching) {
+TouchingPair& pairOf(const Scene& world, ContactLog& contact_log, const Contact& contact) {
+  for (TouchingPair& pair : contact_log.touching) {
     if (pair.model_a == contact.model_a && pair.model_b == contact.model_b) return pair;
   }
   const Impact impact{contact.point, contact.normal, contact.speed, 0};
   const std::uint64_t now = world.clock.total_steps;
-  world.contact_log.touching.push_back({contact.model_a, contact.model_b, now, impact,
-                                        now + world.clock.stepsIn(kQuiet),
-                                        now + world.clock.stepsIn(kImpact)});
-  return world.contact_log.touching.back();
+  contact_log.touching.push_back({contact.model_a, contact.model_b, now, impact,
+                                  now + world.clock.stepsIn(kQuiet),
+                                  now + world.clock.stepsIn(kImpact)});
+  return contact_log.touching.back();
 }
 
 void touch(ContactView& world, const Contact& contact) {
   for (int slot : {contact.model_a, contact.model_b}) {
     world.models[slot]->owner->touched(world, *world.models[slot]);
   }
-  TouchingPair& pair = pairOf(world, contact);
+  TouchingPair& pair = pairOf(world, world.contact_log, contact);
   pair.last_step = world.clock.total_steps;
   if (pair.tell_at == 0) return;
   pair.impact.impulse += contact.impulse;
@@ -131,8 +132,8 @@ void observeCollisions(ContactView& world) {
   for (const Contact& contact : world.contact_log.contacts) {
     if (isCollision(world, contact)) touch(world, contact);
   }
-  rock(world);
-  tellWhatIsOver(world);
+  rock(world, world.models);
+  tellWhatIsOver(world, world.contact_log, world.log);
   const auto keep = world.clock.stepsIn(kForget);
   const auto over = [&](const TouchingPair& pair) {
     return pair.last_step + keep < world.clock.total_steps && areApart(world, pair);
@@ -142,16 +143,16 @@ void observeCollisions(ContactView& world) {
       world.contact_log.touching.end());
 }
 
-void forgetContacts(ContactView& world, int slot) {
+void forgetContacts(const Scene& world, ContactLog& contact_log, EventLog& log, int slot) {
   const auto has = [slot](const TouchingPair& pair) {
     return slot < 0 || pair.model_a == slot || pair.model_b == slot;
   };
-  for (TouchingPair& pair : world.contact_log.touching) {
-    if (has(pair) && pair.tell_at > 0) publishCollision(world, &pair);
+  for (TouchingPair& pair : contact_log.touching) {
+    if (has(pair) && pair.tell_at > 0) publishCollision(world, contact_log, log, &pair);
   }
-  world.contact_log.touching.erase(
-      std::remove_if(world.contact_log.touching.begin(), world.contact_log.touching.end(), has),
-      world.contact_log.touching.end());
+  contact_log.touching.erase(
+      std::remove_if(contact_log.touching.begin(), contact_log.touching.end(), has),
+      contact_log.touching.end());
 }
 
 }  // namespace kiva

@@ -9,6 +9,6 @@ namespace kiva {
 /// as ContactLog::crashes.
 void observeCollisions(ContactView& world);
 /// Forgets the contacts of a model that is removed, -1 = all, and reports pending ones.
-void forgetContacts(ContactView& world, int slot);
+void forgetContacts(const Scene& world, ContactLog& contact_log, EventLog& log, int slot);
 
 }  // namespace kiva

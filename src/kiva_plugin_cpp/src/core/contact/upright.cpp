@@ -195,10 +195,10 @@ ModelBodies buildUpright(const Scene& world, const Model& model, ModelDescriptio
   return bodies;
 }
 
-void rock(ContactView& world) {
+void rock(const Scene& world, ModelTable& models) {
   std::vector<Push> pushes;
-  for (int slot : world.models.activated) {
-    Model& model = *world.models[slot];
+  for (int slot : models.activated) {
+    Model& model = *models[slot];
     if (!model.disturbed || !isAwake(model)) continue;
     if (pushes.empty()) pushes = world.physics.pushes();
     const int index = model.bodies.links.front().body->getUserIndex2();

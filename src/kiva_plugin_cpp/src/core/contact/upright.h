@@ -16,7 +16,7 @@ bool canSlideUpright(const Scene& world, const Model& model);
 ModelBodies buildUpright(const Scene& world, const Model& model, ModelDescription description);
 
 /// Adds what pushed the units over in the last step.
-void rock(ContactView& world);
+void rock(const Scene& world, ModelTable& models);
 /// Makes those whole that their feet hold no longer, and those planar that stand on them again.
 void updateUprightness(ContactView& world);
 /// Makes a planar unit whole at once, or all: their weight or the floor is another one.

@@ -150,21 +150,19 @@ void checkIdle(const FleetState& fleet, int robot) {
   throw Refusal(std::string("it is not idle but ") + stateName(fleet.state[robot]));
 }
 
-void start(MotionView& world, int robot, std::uint32_t number, Plan plan) {
+void start(TaskView& world, int robot, std::uint32_t number, Plan plan) {
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = plan.text;
-  reportCommand(world, Event::Kind::kAccepted, robot, plan.other, plan.text);
+  reportCommand(world, world.log, Event::Kind::kAccepted, robot, plan.other, plan.text);
   beginTask(world, robot, std::move(plan.segments));
 }
 
-using Order = void (*)(MotionView&, int robot);
+using Order = void (*)(RobotView&, int robot);
 
-/// Returns the order for a kind of command that a robot obeys at any time; null for other kinds.
+/// Returns the order for a kind of command to one robot or all robots; null for other kinds.
 Order orderOf(Command::Kind kind) {
   switch (kind) {
-    case Command::Kind::kCancel:
-      return cancel;
     case Command::Kind::kStop:
       return stop;
     case Command::Kind::kGoOn:
@@ -185,7 +183,7 @@ int findListening(const FleetState& fleet, int id) {
   return robot;
 }
 
-void commandAll(MotionView& world, Order order) {
+void commandAll(RobotView& world, Order order) {
   for (int robot = 0; robot < world.fleet.size(); ++robot) {
     if (hears(world.fleet, robot)) order(world, robot);
   }
@@ -193,15 +191,17 @@ void commandAll(MotionView& world, Order order) {
 
 /// Gives the command to its robot; `path` is what it stands for, if it is kFollow. Numbers the
 /// command, unless it only changes the present one. Throws Refusal.
-void obey(MotionView& world, Inbox& inbox, const Command& command, const FollowPath& path) {
+void obey(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& command,
+          const FollowPath& path) {
   if (!path.fault.empty()) throw Refusal(path.fault);
-  const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
   const Order order = orderOf(command.kind);
-  if (is_stop && command.kiva_id == 0) return commandAll(world, order);
+  if (order && command.kiva_id == 0) return commandAll(world, order);
   const int robot = findListening(world.fleet, command.kiva_id);
   if (order) return order(world, robot);
+  if (command.kind == Command::Kind::kCancel) return cancel(world, obstacles, robot);
   const bool follows = command.kind == Command::Kind::kFollow;
-  if (follows && changesPath(world.fleet, robot, path)) return changePath(world, robot, path);
+  if (follows && changesPath(world.fleet, robot, path))
+    return changePath(world, obstacles, robot, path);
   checkIdle(world.fleet, robot);
   const std::uint32_t number = inbox.last_number + 1;
   if (follows) {
@@ -214,15 +214,16 @@ void obey(MotionView& world, Inbox& inbox, const Command& command, const FollowP
 
 /// Postpones the next search for a way back: a client may command an idle robot at each step, and a
 /// search that fails takes longer than all else that a step does for it.
-void backOff(MotionView& world, int kiva_id) {
+void backOff(RobotView& world, int kiva_id) {
   double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
   const auto now = static_cast<double>(world.clock.total_steps);
   if (until <= now) until = now + static_cast<double>(world.clock.stepsIn(kLookAgain));
 }
 
-void answer(MotionView& world, Inbox& inbox, const Command& command, const FollowPath& path) {
+void answer(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& command,
+            const FollowPath& path) {
   try {
-    obey(world, inbox, command, path);
+    obey(world, obstacles, inbox, command, path);
   } catch (const Refusal& refusal) {
     if (dynamic_cast<const Wedged*>(&refusal)) backOff(world, command.kiva_id);
     const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
@@ -238,15 +239,16 @@ void answer(MotionView& world, Inbox& inbox, const Command& command, const Follo
 
 }  // namespace
 
-void acceptCommands(MotionView& world, Inbox& inbox, const Shadows& shadows) {
+void acceptCommands(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Shadows& shadows) {
   while (!inbox.pending.empty()) {
     const PendingCommand& next = inbox.pending.front();
-    if (!shadows.has(next.command.kiva_id)) answer(world, inbox, next.command, next.path);
+    if (!shadows.has(next.command.kiva_id))
+      answer(world, obstacles, inbox, next.command, next.path);
     inbox.pending.pop_front();
   }
 }
 
-void haltCollidedRobots(MotionView& world, ContactLog& contacts) {
+void haltCollidedRobots(TaskView& world, ContactLog& contacts) {
   for (const Crash& crash : contacts.crashes) {
     const int robot = world.fleet.find(crash.kiva_id);
     if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);

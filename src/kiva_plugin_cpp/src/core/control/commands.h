@@ -9,8 +9,8 @@
 namespace kiva {
 
 /// Answers all queued commands but those to shadows, and gives the accepted ones to their robots.
-void acceptCommands(MotionView& world, Inbox& inbox, const Shadows& shadows);
+void acceptCommands(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Shadows& shadows);
 /// Stops the robots that were in a collision.
-void haltCollidedRobots(MotionView& world, ContactLog& contacts);
+void haltCollidedRobots(TaskView& world, ContactLog& contacts);
 
 }  // namespace kiva

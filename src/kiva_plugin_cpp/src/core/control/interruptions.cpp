@@ -25,19 +25,19 @@ bool lifts(const MotionSegment& segment) {
 }
 
 /// Ends a drive on the next grid point where the robot can stop.
-void shortenDrive(MotionView& world, int robot) {
+void shortenDrive(RobotView& world, Obstacles& obstacles, int robot) {
   const FleetState& f = world.fleet;
   const double cell = world.settings.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
   while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.clock.dt)) stop += cell;
   if (stop >= f.goal[robot]) return;
   world.fleet.tasks[robot].segments.front().goal = stop;
-  setGoal(world, robot, stop);
+  setGoal(world, obstacles, robot, stop);
 }
 
 }  // namespace
 
-void cancel(MotionView& world, int robot) {
+void cancel(TaskView& world, Obstacles& obstacles, int robot) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) throw Refusal("it is idle: there is nothing to cancel");
   if (task.phase == Phase::kHalting || task.phase == Phase::kAbandoning) {
@@ -52,25 +52,25 @@ void cancel(MotionView& world, int robot) {
   }
   task.segments.erase(task.segments.begin() + static_cast<std::ptrdiff_t>(rest),
                       task.segments.end());
-  if (task.phase == Phase::kDriving && now.on_grid) shortenDrive(world, robot);
+  if (task.phase == Phase::kDriving && now.on_grid) shortenDrive(world, obstacles, robot);
   if (task.phase == Phase::kBraking) task.segments.front().goal = world.fleet.goal[robot];
 }
 
-void stop(MotionView& world, int robot) {
+void stop(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   if (f.stopped[robot]) return;
   f.stopped[robot] = 1;
   if (f.awake[robot]) moved(f, robot);
 }
 
-void goOn(MotionView& world, int robot) {
+void goOn(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   if (!f.stopped[robot]) return;
   f.stopped[robot] = 0;
   if (!isHeld(f, robot)) replan(world, robot);
 }
 
-void replan(MotionView& world, int robot) {
+void replan(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   moved(f, robot);

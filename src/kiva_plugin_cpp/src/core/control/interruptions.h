@@ -9,12 +9,12 @@ namespace kiva {
 
 /// Ends the robot's command in DONE at the next grid point where it can stop; a lift when it is
 /// over. Throws Refusal if there is nothing to cancel.
-void cancel(MotionView& world, int robot);
+void cancel(TaskView& world, Obstacles& obstacles, int robot);
 /// Stops wheels and tower as hard as they can, until the robot may go on.
-void stop(MotionView& world, int robot);
+void stop(RobotView& world, int robot);
 /// Lets the robot go on with its command, from its present pose.
-void goOn(MotionView& world, int robot);
+void goOn(RobotView& world, int robot);
 /// Plans the present segment again from the robot's pose, after a stop or with other limits.
-void replan(MotionView& world, int robot);
+void replan(RobotView& world, int robot);
 
 }  // namespace kiva

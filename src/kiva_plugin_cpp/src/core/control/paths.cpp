@@ -172,13 +172,14 @@ RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
   return {end, along};
 }
 
-void setRunEnd(MotionView& world, int robot, double goal) {
+void setRunEnd(TaskView& world, Obstacles& obstacles, int robot, double goal) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   if (task.segments.front().goal == goal) return;
   task.segments.front().goal = goal;
-  if (task.phase == Phase::kDriving) setGoal(world, robot, goal);
-  if (task.phase == Phase::kBraking) setGoal(world, robot, std::min(f.goal[robot], goal));
+  if (task.phase == Phase::kDriving) setGoal(world, obstacles, robot, goal);
+  if (task.phase == Phase::kBraking)
+    setGoal(world, obstacles, robot, std::min(f.goal[robot], goal));
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ bool changesPath(const FleetState& fleet, int robot, const FollowPath& m) {
   return fleet.tasks[robot].follows() && fleet.path_id[robot] == m.path_id;
 }
 
-void startPath(MotionView& world, int robot, std::uint32_t number, const FollowPath& m) {
+void startPath(TaskView& world, int robot, std::uint32_t number, const FollowPath& m) {
   const FleetState& f = world.fleet;
   checkMotion(world.fleet, robot);
   if (m.path_id != 0 && m.path_id == f.path_id[robot]) {
@@ -212,11 +213,11 @@ void startPath(MotionView& world, int robot, std::uint32_t number, const FollowP
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = format("follow path %u", m.path_id);
-  reportCommand(world, Event::Kind::kAccepted, robot, "", task.goal);
+  reportCommand(world, world.log, Event::Kind::kAccepted, robot, "", task.goal);
   beginPath(world, robot, m.path_id, std::move(path), route.takeSegments());
 }
 
-void changePath(MotionView& world, int robot, const FollowPath& m) {
+void changePath(TaskView& world, Obstacles& obstacles, int robot, const FollowPath& m) {
   Task& task = world.fleet.tasks[robot];
   if (task.cancelled) throw Refusal(format("path %u is being cancelled", m.path_id));
   if (task.phase == Phase::kHalting) throw Refusal(format("path %u ends here", m.path_id));
@@ -240,7 +241,7 @@ void changePath(MotionView& world, int robot, const FollowPath& m) {
     if (next < path.released || next == path.size()) continuePath(world, robot);
   } else if (task.isOnRun()) {
     if (path.end > path.origin) path.extendRun();
-    setRunEnd(world, robot, alongRun(task, path.end));
+    setRunEnd(world, obstacles, robot, alongRun(task, path.end));
   }
 }
 

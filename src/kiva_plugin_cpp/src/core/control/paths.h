@@ -12,8 +12,8 @@ namespace kiva {
 /// Returns whether that is a change of the path that the robot follows.
 bool changesPath(const FleetState& fleet, int robot, const FollowPath& path);
 /// Gives an idle robot a path, as its command `number`. Throws Refusal, with nothing changed.
-void startPath(MotionView& world, int robot, std::uint32_t number, const FollowPath& path);
+void startPath(TaskView& world, int robot, std::uint32_t number, const FollowPath& path);
 /// Changes the path that the robot follows. Throws Refusal, with nothing changed.
-void changePath(MotionView& world, int robot, const FollowPath& path);
+void changePath(TaskView& world, Obstacles& obstacles, int robot, const FollowPath& path);
 
 }  // namespace kiva

@@ -15,14 +15,14 @@ namespace {
 
 [[noreturn]] void fail(const std::string& text) { throw std::invalid_argument(text); }
 
-int findRobot(const ModelView& world, int kiva_id) {
+int findRobot(const Scene& world, int kiva_id) {
   const int robot = world.fleet.find(kiva_id);
   if (robot < 0) fail("there is no robot kiva" + std::to_string(kiva_id));
   return robot;
 }
 
 /// Returns the index of the unit that the report names, -1 if it names none.
-int findLoad(const ModelView& world, int robot, int shelf_id) {
+int findLoad(const Scene& world, int robot, int shelf_id) {
   if (shelf_id == 0) return -1;
   const std::string name = "storage_unit" + std::to_string(shelf_id);
   const auto at = world.storage.unit_of_id.find(shelf_id);
@@ -67,7 +67,7 @@ void exchangeLoad(ModelView& world, int robot, int unit) {
   if (unit >= 0) load(world, robot, unit);
 }
 
-void tell(ModelView& world, int robot, const ShadowReport& told) {
+void tell(TaskView& world, int robot, const ShadowReport& told) {
   FleetState& f = world.fleet;
   setStatus(world, robot, told.report.status, told.report.state);
   f.path_id[robot] = told.report.path_id;

@@ -71,7 +71,7 @@ void markWheels(FleetState& f, int i) {
 }
 
 /// Draws the battery's initial charge.
-void begin(MotionView& world, int i) {
+void begin(RobotView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   RandomStream random(world.settings.options.seed, Matter::kEnergy, f.robots[i].id, 0);
@@ -97,7 +97,7 @@ void show(FleetState& f, const EnergyRealism& e, int i) {
 
 /// Drains what one step of motion takes: speeding up less what braking gives back, and lifting.
 /// Each step counts, since a turn lasts only a few battery readings, and taking up a load only one.
-void drainForMotion(MotionView& world, int i) {
+void drainForMotion(RobotView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
@@ -140,7 +140,7 @@ double takenUp(const Scene& world, const Chargers& chargers, int i, double secon
   return e.charge_power * std::clamp(falling, kLeastCharge, 1.0) * seconds;
 }
 
-void setEmpty(MotionView& world, int i, bool is_empty, const std::string& text) {
+void setEmpty(TaskView& world, int i, bool is_empty, const std::string& text) {
   FleetState& f = world.fleet;
   f.failures[i] =
       static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) | (is_empty ? kEmptyBattery : 0));
@@ -150,7 +150,7 @@ void setEmpty(MotionView& world, int i, bool is_empty, const std::string& text) 
   if (!is_empty && !isHeld(f, i)) replan(world, i);
 }
 
-void updateBattery(MotionView& world, const Chargers& chargers, int i, double seconds) {
+void updateBattery(TaskView& world, const Chargers& chargers, int i, double seconds) {
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
   const double most = capacityOf(world.settings.realism.energy);
@@ -167,7 +167,7 @@ void updateBattery(MotionView& world, const Chargers& chargers, int i, double se
 
 }  // namespace
 
-void updateBatteries(MotionView& world, Chargers& chargers) {
+void updateBatteries(TaskView& world, Chargers& chargers) {
   if (!world.settings.realism.energy.enabled) return;
   for (int i = 0; i < world.fleet.size(); ++i) drainForMotion(world, i);
   const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.clock.dt));
@@ -178,7 +178,7 @@ void updateBatteries(MotionView& world, Chargers& chargers) {
   }
 }
 
-void swapBattery(MotionView& world, int robot) {
+void swapBattery(TaskView& world, int robot) {
   world.fleet.battery[robot].energy = capacityOf(world.settings.realism.energy);
   show(world.fleet, world.settings.realism.energy, robot);
   setEmpty(world, robot, false, "repaired: it has a full battery");

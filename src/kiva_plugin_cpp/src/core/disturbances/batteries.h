@@ -4,15 +4,15 @@
 #pragma once
 
 #include "core/state/floor/chargers.h"
-#include "core/state/views/motion_view.h"
+#include "core/state/views/task_view.h"
 
 namespace kiva {
 
 /// Accounts for motion and lifting at each step, and for electronics, rolling and charging ten
 /// times a second. A robot stops when its battery is empty.
-void updateBatteries(MotionView& world, Chargers& chargers);
+void updateBatteries(TaskView& world, Chargers& chargers);
 /// Replaces an empty battery by a full one; the robot goes on.
-void swapBattery(MotionView& world, int robot);
+void swapBattery(TaskView& world, int robot);
 /// Derives the charge that robots show from their batteries, after a checkpoint was read.
 void restoreCharge(FleetState& fleet, const EnergyRealism& realism);
 

@@ -47,8 +47,9 @@ void apply(FleetState& fleet, const Realism& realism, int robot, Failure failure
   fleet.robots[robot].grip = realism.failures.slipping_grip;
 }
 
-void publishEvent(MotionView& world, Event::Kind kind, int robot, const std::string& text) {
-  world.log.report(kind, world.fleet.robots[robot].name, "", text);
+void publishEvent(const Scene& world, EventLog& log, Event::Kind kind, int robot,
+                  const std::string& text) {
+  log.report(kind, world.fleet.robots[robot].name, "", text);
 }
 
 std::string within(double seconds) {
@@ -59,7 +60,7 @@ std::string within(double seconds) {
 }
 
 /// Replans the robot's motion with what it can do now; a robot at rest has nothing to replan.
-void adapt(MotionView& world, int robot) {
+void adapt(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   const Phase phase = f.tasks[robot].phase;
   const bool moves = phase == Phase::kDriving || phase == Phase::kTurning;
@@ -67,7 +68,7 @@ void adapt(MotionView& world, int robot) {
   if (f.awake[robot]) moved(f, robot);
 }
 
-void repairDefect(MotionView& world, const Defect& defect) {
+void repairDefect(TaskView& world, const Defect& defect) {
   FleetState& f = world.fleet;
   const int robot = f.find(defect.kiva_id);
   const bool was_held = isHeld(f, robot);
@@ -77,7 +78,7 @@ void repairDefect(MotionView& world, const Defect& defect) {
     adapt(world, robot);
   }
   if (was_held && !isHeld(f, robot)) replan(world, robot);
-  publishEvent(world, Event::Kind::kRepaired, robot,
+  publishEvent(world, world.log, Event::Kind::kRepaired, robot,
                std::string("repaired: ") + nameOf(defect.failure));
   if (defect.failure != Failure::kRadio) return;
   // Clients missed the status changes in the meantime.
@@ -93,7 +94,7 @@ Failure drawFailure(const FailureRealism& r, double chance) {
   return static_cast<Failure>(kind + static_cast<int>(Failure::kMotor));
 }
 
-void failAtRandom(MotionView& world, FailureState& failures, RandomStream& random) {
+void failAtRandom(TaskView& world, FailureState& failures, RandomStream& random) {
   const FailureRealism& realism = world.settings.realism.failures;
   const int robots = world.fleet.size();
   const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
@@ -104,7 +105,7 @@ void failAtRandom(MotionView& world, FailureState& failures, RandomStream& rando
 
 /// Repairs all defects for which is_meant(defect) holds, in order.
 template <typename IsMeant>
-void repairWhere(MotionView& world, FailureState& failures, IsMeant is_meant) {
+void repairWhere(TaskView& world, FailureState& failures, IsMeant is_meant) {
   auto& defects = failures.defects;
   auto at = defects.begin();
   while ((at = std::find_if(at, defects.end(), is_meant)) != defects.end()) {
@@ -114,14 +115,14 @@ void repairWhere(MotionView& world, FailureState& failures, IsMeant is_meant) {
   }
 }
 
-void repairDue(MotionView& world, FailureState& failures) {
+void repairDue(TaskView& world, FailureState& failures) {
   for (Defect& defect : failures.defects) defect.left -= world.clock.dt;
   repairWhere(world, failures, [](const Defect& defect) { return defect.left <= 0; });
 }
 
 }  // namespace
 
-void injectFailure(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
+void injectFailure(TaskView& world, FailureState& failures, int kiva_id, Failure failure,
                    double repair_after) {
   const int robot = findRobot(world.fleet, kiva_id);
   if (!(repair_after >= 0 && std::isfinite(repair_after))) {
@@ -134,13 +135,13 @@ void injectFailure(MotionView& world, FailureState& failures, int kiva_id, Failu
     defect.left = left;
     return;
   }
-  publishEvent(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
+  publishEvent(world, world.log, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
   failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
   apply(world.fleet, world.settings.realism, robot, failure);
   adapt(world, robot);
 }
 
-void repair(MotionView& world, FailureState& failures, int kiva_id) {
+void repair(TaskView& world, FailureState& failures, int kiva_id) {
   const int robot = findRobot(world.fleet, kiva_id);
   if (world.fleet.failures[robot] & kEmptyBattery) swapBattery(world, robot);
   repairWhere(world, failures,
@@ -159,7 +160,7 @@ std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& fai
   return std::nullopt;
 }
 
-void sampleFailures(MotionView& world, FailureState& failures) {
+void sampleFailures(TaskView& world, FailureState& failures) {
   if (!failures.defects.empty()) repairDue(world, failures);
   const FailureRealism& realism = world.settings.realism.failures;
   if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;

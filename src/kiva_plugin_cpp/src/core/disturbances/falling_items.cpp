@@ -40,7 +40,7 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
 
 /// Calls visit(item) for the items that stand still on that unit.
 template <typename Visit>
-void forEachOn(ModelView& world, const Model& unit, Visit visit) {
+void forEachOn(const Scene& world, const Model& unit, Visit visit) {
   const std::vector<int> on = world.storage.items_on[unit.index];  // visits may take some off
   for (const int index : on) {
     const Item& item = world.storage.items[index];
@@ -50,7 +50,7 @@ void forEachOn(ModelView& world, const Model& unit, Visit visit) {
 
 /// Lets items slide off a unit whose velocity suddenly changes by v: against friction they slide
 /// v² / 2 μ g far.
-void slide(ModelView& world, const Jolt& jolt) {
+void slide(const Scene& world, FallenItems& fallen, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
   way.Z() = 0;
@@ -64,13 +64,13 @@ void slide(ModelView& world, const Jolt& jolt) {
     if (left2 <= 0) return;
     const double left = std::sqrt(left2);
     const double time = brake > 0 ? (change - left) / brake : 0;
-    world.fallen.items.push_back({item.model, unit.slot, way * left, false,
-                                  world.clock.total_steps + world.clock.stepsIn(time)});
+    fallen.items.push_back({item.model, unit.slot, way * left, false,
+                            world.clock.total_steps + world.clock.stepsIn(time)});
   });
 }
 
 /// Lets items slide over the lower edge of boards that are steeper than friction holds.
-void tilt(ModelView& world, const Model& unit) {
+void tilt(const Scene& world, FallenItems& fallen, const Model& unit) {
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.settings.gravity);
   const double down = -way.Z();
   way.Z() = 0;
@@ -78,16 +78,16 @@ void tilt(ModelView& world, const Model& unit) {
   if (slope <= world.settings.realism.loads.item_friction_least * down) return;
   forEachOn(world, unit, [&](const Item& item) {
     if (slope <= frictionOf(world.settings, item) * down) return;
-    world.fallen.items.push_back(
+    fallen.items.push_back(
         {item.model, unit.slot, way / slope * kSlip, false, world.clock.total_steps});
   });
 }
 
-void tiltAll(ModelView& world) {
+void tiltAll(const Scene& world, FallenItems& fallen) {
   for (const int slot : world.models.activated) {
     const Model& model = *world.models[slot];
     const bool may_lean = model.disturbed && !model.upright && model.owner->holdsItems();
-    if (may_lean && isAwake(model)) tilt(world, model);
+    if (may_lean && isAwake(model)) tilt(world, fallen, model);
   }
 }
 
@@ -176,9 +176,9 @@ bool attend(ModelView& world, OffShelf& one) {
 
 void stepFallingItems(ModelView& world) {
   if (!world.settings.realism.loads.enabled) return;
-  for (const Jolt& jolt : world.contact_log.jolts) slide(world, jolt);
+  for (const Jolt& jolt : world.contact_log.jolts) slide(world, world.fallen, jolt);
   world.contact_log.jolts.clear();
-  tiltAll(world);
+  tiltAll(world, world.fallen);
   auto& all = world.fallen.items;
   for (std::size_t i = 0; i < all.size();) {
     if (attend(world, all[i])) {

@@ -83,7 +83,7 @@ void warnOfSlipperyFloor(EventLog& log, double friction) {
 }
 
 /// What is low enough counts as floor: wheels cross it without a bump.
-void warnOfBumps(ModelView& world) {
+void warnOfBumps(const Scene& world, EventLog& log) {
   for (const auto& model : world.models) {
     if (!model) continue;
     for (const LevelSurface& surface : model->level_surfaces) {
@@ -92,7 +92,7 @@ void warnOfBumps(ModelView& world) {
       std::ostringstream text;
       text << model->name << " rises " << height << " m above the floor: what rises " << kStep
            << " m or less counts as floor, and robots cross it without a bump";
-      return world.log.warn("floor bumps", text.str());
+      return log.warn("floor bumps", text.str());
     }
   }
 }
@@ -141,17 +141,17 @@ bool mayHaveGaps(const Scene& world) {
   return !has_plane && parts > 0 && cells <= kMostCells;
 }
 
-void warnOfGaps(ModelView& world, const FloorCover& cover) {
+void warnOfGaps(const Scene& world, EventLog& log, const FloorCover& cover) {
   const std::optional<PathPoint> gap = findGap(world, cover);
   if (!gap) return;
   std::ostringstream text;
   text << "the floor has a gap beside (" << gap->x << ", " << gap->y
        << "): robots that are sent over a gap cross it as if there were floor";
-  world.log.warn("floor gaps", text.str());
+  log.warn("floor gaps", text.str());
 }
 
 /// Static models have other low parts, robots and storage units stand higher or lower.
-void fitToFloor(ModelView& world) {
+void fitToFloor(ContactView& world) {
   for (const auto& model : world.models) {
     if (!model || !model->isStatic() || !model->in_physics) continue;
     world.physics.remove(model->bodies);
@@ -194,25 +194,25 @@ void measureFloor(ModelView& world) {
   if (world.floor.extent.z != before) fitToFloor(world);
 }
 
-void findFloorParts(ModelView& world) {
-  if (!world.floor.cover_due) return;
-  world.floor.cover_due = false;
+void findFloorParts(const Scene& world, FloorState& floor, EventLog& log) {
+  if (!floor.cover_due) return;
+  floor.cover_due = false;
   double holds = 0;  // what the best wheels grip with where the floor lets them
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
-  const double usual = std::min(holds, world.floor.friction);
-  if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(world.log, usual);
-  warnOfBumps(world);
+  const double usual = std::min(holds, floor.friction);
+  if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(log, usual);
+  warnOfBumps(world, log);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;
-    if (differs && isAtFloor(world.floor, surface)) is_alike = false;
+    if (differs && isAtFloor(floor, surface)) is_alike = false;
   });
-  world.floor.cover = nullptr;
+  floor.cover = nullptr;
   const bool is_searched = mayHaveGaps(world);
   if (is_alike && !is_searched) return;
   const auto cover = std::make_shared<const FloorCover>(world);
-  if (is_searched) warnOfGaps(world, *cover);
-  if (!is_alike) world.floor.cover = cover;
+  if (is_searched) warnOfGaps(world, log, *cover);
+  if (!is_alike) floor.cover = cover;
 }
 
 }  // namespace kiva

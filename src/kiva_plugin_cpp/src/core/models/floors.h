@@ -12,6 +12,6 @@ void measureFloor(ModelView& world);
 
 /// Finds the surfaces that grip otherwise than the largest one, if the floor or the robots have
 /// changed since the last time. Surfaces on which every robot's wheels hold as well are no others.
-void findFloorParts(ModelView& world);
+void findFloorParts(const Scene& world, FloorState& floor, EventLog& log);
 
 }  // namespace kiva

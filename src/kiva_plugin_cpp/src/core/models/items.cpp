@@ -17,7 +17,8 @@ bool liesOnUnit(const Storage& storage, const Model& model) {
   return storage.items[model.index].unit >= 0;
 }
 
-Model& unitBelow(const Scene& world, const Model& model) {
+template <typename View>
+auto& unitBelow(View& world, const Model& model) {
   return *world.models[world.storage.units[world.storage.items[model.index].unit].model];
 }
 
@@ -98,7 +99,7 @@ Pose Items::linkPose(const Scene& world, const Model& model, int link) const {
   return itemPose(world, model.index) * model.description->links[link].pose_in_model;
 }
 
-void Items::reweigh(ModelView& world, Model& model, double added) const {
+void Items::reweigh(ContactView& world, Model& model, double added) const {
   Item& item = world.storage.items[model.index];
   item.mass += added;
   if (item.unit >= 0) return addMass(world, item.unit, added);

@@ -33,7 +33,7 @@ double plateReach(const Scene& world, int robot) {
 }
 
 /// How the load, given in the robot's frame as is its underside, stands on the plate.
-void setFoothold(ContactView& world, int robot, const SpatialInertia& load, double underside) {
+void setFoothold(RobotView& world, int robot, const SpatialInertia& load, double underside) {
   Robot& r = world.fleet.robots[robot];
   const Vector3 centre = load.centre();
   const double off = std::hypot(centre.X(), centre.Y());
@@ -44,7 +44,7 @@ void setFoothold(ContactView& world, int robot, const SpatialInertia& load, doub
   r.load_tipping_inertia = r.load_mass * arm2 + std::max(own(0, 0), own(1, 1));
 }
 
-void loadRobot(ContactView& world, int robot, int unit) {
+void loadRobot(RobotView& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
   SpatialInertia load;

@@ -90,7 +90,7 @@ bool isOurs(const Plugins& plugins, const Model& model, const PluginDescription&
   return false;
 }
 
-void loadPlugin(ModelView& world, Model& model, const PluginDescription& description,
+void loadPlugin(TaskView& world, Model& model, const PluginDescription& description,
                 const SensorDescription* sensor) {
   if (isOurs(world.plugins, model, description)) return;
   Parameters parameters = description.parameters;
@@ -103,7 +103,7 @@ void loadPlugin(ModelView& world, Model& model, const PluginDescription& descrip
 }
 
 void dismantle(ModelView& world, Model& model) {
-  forgetContacts(world, model.slot);
+  forgetContacts(world, world.contact_log, world.log, model.slot);
   model.plugins.clear();
   forgetExternalInputs(world.external_inputs, model.name);
   world.people.forget(model.slot);
@@ -119,13 +119,13 @@ void dismantle(ModelView& world, Model& model) {
   wakeBodies(world.models);  // what sleeps on something falls once that is gone
 }
 
-void loadAllPlugins(ModelView& world, Model& model) {
+void loadAllPlugins(ContactView& world, Model& model) {
   loadPlugins(world, model);
   if (!model.plugins.empty()) world.models.with_plugins.push_back(model.slot);
 }
 
 /// Others notice that a model was put somewhere.
-void placed(ModelView& world, Model& model) {
+void placed(MotionView& world, Model& model) {
   moved(world, model);
   invalidateClearance(world.fleet);
   wakeBodies(world.models);
@@ -174,7 +174,7 @@ const ModelOwner& ownerOf(ModelKind kind) {
   return others;
 }
 
-void loadPlugins(ModelView& world, Model& model) {
+void loadPlugins(TaskView& world, Model& model) {
   const auto description = model.description;  // a plugin may give the model another
   for (const PluginDescription& plugin : description->plugins) {
     loadPlugin(world, model, plugin, nullptr);
@@ -239,7 +239,7 @@ void placeLink(ModelView& world, Model& model, int link, const EntityState& stat
   placed(world, model);
 }
 
-void reweighLink(ModelView& world, Model& model, int link, const Link& like) {
+void reweighLink(ContactView& world, Model& model, int link, const Link& like) {
   auto changed = std::make_shared<ModelDescription>(*model.description);
   Link& to = changed->links[link];
   const double added = like.mass - to.mass;

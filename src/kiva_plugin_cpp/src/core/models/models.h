@@ -20,13 +20,13 @@ void placeModel(ModelView& world, Model& model, const EntityState& state);
 /// Puts one link there, with what joints hold to it.
 void placeLink(ModelView& world, Model& model, int link, const EntityState& state);
 /// Gives the link of that index another mass, centre of mass, inertia and gravity flag.
-void reweighLink(ModelView& world, Model& model, int link, const Link& like);
+void reweighLink(ContactView& world, Model& model, int link, const Link& like);
 /// Returns a model to its spawn pose, at rest.
 void resetModel(ModelView& world, Model& model);
 
 /// Loads the plugins of a model and of its sensors, but for those that come with the world.
 /// Throws DescriptionError.
-void loadPlugins(ModelView& world, Model& model);
+void loadPlugins(TaskView& world, Model& model);
 /// Returns where a model touches others; see World::contacts.
 std::vector<ContactPoint> contactsOf(const Scene& world, int slot);
 

@@ -13,9 +13,9 @@
 namespace kiva {
 namespace {
 
-void insertBodies(ModelView& world, Model& model) {
+void insertBodies(const Scene& world, Physics& physics, Model& model) {
   model.bodies = model.owner->build(world, model);
-  world.physics.insert(model.bodies);
+  physics.insert(model.bodies);
   model.in_physics = true;
 }
 
@@ -55,7 +55,7 @@ void setModelTwist(Model& model, const Twist& twist) {
 }
 
 void OrdinaryModels::add(ModelView& world, Model& model) const {
-  insertBodies(world, model);
+  insertBodies(world, world.physics, model);
   if (!model.isStatic()) {
     world.models.bodies.push_back(model.slot);
     initJoints(model);
@@ -79,7 +79,7 @@ void OrdinaryModels::place(ModelView& world, Model& model, const EntityState& st
   }
   world.physics.remove(model.bodies);
   model.pose = state.pose;
-  insertBodies(world, model);
+  insertBodies(world, world.physics, model);
   refitGeometry(world, model);
   measureFloor(world);
 }
@@ -88,7 +88,7 @@ void OrdinaryModels::reset(ModelView& world, Model& model) const {
   if (!followsBodies(model)) return place(world, model, {model.spawn_pose, {}});
   world.physics.remove(model.bodies);  // joints too: the model is rebuilt
   model.pose = model.spawn_pose;
-  insertBodies(world, model);
+  insertBodies(world, world.physics, model);
   initJoints(model);
 }
 
@@ -102,7 +102,7 @@ Pose OrdinaryModels::linkPose(const Scene& /*world*/, const Model& model, int li
   return model.pose * model.description->links[link].pose_in_model;
 }
 
-void OrdinaryModels::reweigh(ModelView& world, Model& model, double /*added*/) const {
+void OrdinaryModels::reweigh(ContactView& world, Model& model, double /*added*/) const {
   if (!followsBodies(model)) return;
   std::vector<EntityState> states;
   for (const LinkBody& link : model.bodies.links) states.push_back(bodyState(link));

@@ -16,7 +16,7 @@ class OrdinaryModels : public ModelOwner {
   void reset(ModelView& world, Model& model) const override;
   EntityState state(const Scene& world, const Model& model) const override;
   Pose linkPose(const Scene& world, const Model& model, int link) const override;
-  void reweigh(ModelView& world, Model& model, double added) const override;
+  void reweigh(ContactView& world, Model& model, double added) const override;
   bool push(ContactView& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
   ModelBodies build(const Scene& world, const Model& model) const override;

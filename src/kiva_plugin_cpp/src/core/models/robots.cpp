@@ -83,19 +83,20 @@ void checkRealism(const Scene& world, const Parameters& parameters) {
 }
 
 /// The world's is that of the first robot whose file says anything of it, unless it was given.
-void adoptRealism(ModelView& world, const ModelDescription& description) {
-  if (world.settings.options.realism || world.settings.realism_of_models) return;
+void adoptRealism(const Scene& world, FleetState& fleet, Settings& settings,
+                  const ModelDescription& description) {
+  if (settings.options.realism || settings.realism_of_models) return;
   for (const PluginDescription& plugin : description.plugins) {
     if (plugin.filename != kMotionPlugin) continue;
     const std::optional<Realism> asked = realismOf(plugin.parameters);
     if (!asked) continue;
-    world.settings.realism = *asked;
-    world.settings.realism_of_models = true;
-    world.fleet.applyRealism(world.settings.realism, world.clock.dt);
+    settings.realism = *asked;
+    settings.realism_of_models = true;
+    fleet.applyRealism(settings.realism, world.clock.dt);
   }
 }
 
-void configure(const ModelView& world, const ModelDescription& description, Robot* robot) {
+void configure(const Scene& world, const ModelDescription& description, Robot* robot) {
   for (const PluginDescription& plugin : description.plugins) {
     const FleetPlugin* ours = findFleetPlugin(world.plugins, plugin.filename);
     if (!ours) continue;
@@ -107,7 +108,7 @@ void configure(const ModelView& world, const ModelDescription& description, Robo
 }
 
 /// What is stored by index follows a robot that got another one.
-void reindexRobot(ModelView& world, int from, int to) {
+void reindexRobot(MotionView& world, int from, int to) {
   Model& model = world.models.of(world.fleet.robots[to]);
   model.index = to;
   for (StorageUnit& unit : world.storage.units) {
@@ -181,7 +182,7 @@ void Robots::add(ModelView& world, Model& model) const {
   setRays(world.scans, &robot);
   world.fleet.fastest = std::max(world.fleet.fastest, robot.drive.speed);
   world.floor.cover_due = true;
-  adoptRealism(world, *model.description);
+  adoptRealism(world, world.fleet, world.settings, *model.description);
   setSpread(world.settings, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (world.fleet.localises) calibrate(world, model.index);
@@ -261,7 +262,7 @@ Pose Robots::linkPose(const Scene& world, const Model& model, int link) const {
   return pose;
 }
 
-void Robots::reweigh(ModelView& world, Model& model, double /*added*/) const {
+void Robots::reweigh(ContactView& world, Model& model, double /*added*/) const {
   moved(world.fleet, model.index);
   weigh(*model.description, &world.fleet.robots[model.index]);
   rebuildBody(world, model);
@@ -315,12 +316,12 @@ ModelBodies Robots::build(const Scene& world, const Model& model) const {
   return bodies;
 }
 
-void Robots::activated(ContactView& world, Model& model) const {
+void Robots::activated(RobotView& world, Model& model) const {
   world.fleet.activated[model.index] = 1;
   moved(world.fleet, model.index);
 }
 
-void Robots::deactivated(ContactView& world, Model& model) const {
+void Robots::deactivated(RobotView& world, Model& model) const {
   world.fleet.activated[model.index] = 0;
 }
 

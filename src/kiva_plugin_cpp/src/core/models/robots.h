@@ -15,14 +15,14 @@ class Robots : public ModelOwner {
   void reset(ModelView& world, Model& model) const override;
   EntityState state(const Scene& world, const Model& model) const override;
   Pose linkPose(const Scene& world, const Model& model, int link) const override;
-  void reweigh(ModelView& world, Model& model, double added) const override;
+  void reweigh(ContactView& world, Model& model, double added) const override;
   bool push(ContactView& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
   /// With its load one body that slides and turns on the floor plane.
   ModelBodies build(const Scene& world, const Model& model) const override;
   bool isActivatedWhenNear() const override { return true; }
-  void activated(ContactView& world, Model& model) const override;
-  void deactivated(ContactView& world, Model& model) const override;
+  void activated(RobotView& world, Model& model) const override;
+  void deactivated(RobotView& world, Model& model) const override;
   bool followsBodies(const Model& /*model*/) const override { return false; }
   bool drivesJoints() const override { return true; }
   bool tellsCollisions() const override { return true; }

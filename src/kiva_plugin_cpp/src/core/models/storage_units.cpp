@@ -31,12 +31,11 @@ bool standsStill(const Scene& world, const Model& model) {
 }
 
 /// Replaces the index `from` of a unit by `to` wherever it is stored; -1 = the unit is gone.
-void reindexUnit(ModelView& world, int from, int to) {
-  Storage& storage = world.storage;
+void reindexUnit(ModelTable& models, FleetState& fleet, Storage& storage, int from, int to) {
   for (const int item : storage.items_on[from]) storage.items[item].unit = to;
   if (to >= 0) storage.items_on[to] = storage.items_on[from];
   storage.items_on[from].clear();
-  for (Task& task : world.fleet.tasks) {
+  for (Task& task : fleet.tasks) {
     for (MotionSegment& segment : task.segments) {
       if (segment.unit == from) segment.unit = to;
     }
@@ -44,12 +43,12 @@ void reindexUnit(ModelView& world, int from, int to) {
   if (to < 0) return;
   const StorageUnit& unit = storage.units[to];
   storage.unit_of_id[unit.id] = to;
-  world.models[unit.model]->index = to;
-  if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
+  models[unit.model]->index = to;
+  if (unit.carrier >= 0) fleet.unit[unit.carrier] = to;
 }
 
 /// Takes the unit off its robot, and out of Bullet.
-void takeAway(ModelView& world, Model& model) {
+void takeAway(ContactView& world, Model& model) {
   const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) putDown(world, carrier);
   if (model.in_physics) deactivate(world, model);
@@ -78,10 +77,10 @@ void StorageUnits::remove(ModelView& world, Model& model) const {
   const StorageUnit& unit = world.storage.units[index];
   if (unit.carrier >= 0) unload(world, unit.carrier);
   world.storage.unit_of_id.erase(unit.id);
-  reindexUnit(world, index, -1);
+  reindexUnit(world.models, world.fleet, world.storage, index, -1);
   if (index != last) {
     world.storage.units[index] = std::move(world.storage.units[last]);
-    reindexUnit(world, last, index);
+    reindexUnit(world.models, world.fleet, world.storage, last, index);
   }
   world.storage.units.pop_back();
   world.storage.items_on.pop_back();
@@ -121,7 +120,7 @@ Pose StorageUnits::linkPose(const Scene& world, const Model& model, int link) co
   return unitPose(world, model.index) * model.description->links[link].pose_in_model;
 }
 
-void StorageUnits::reweigh(ModelView& world, Model& model, double added) const {
+void StorageUnits::reweigh(ContactView& world, Model& model, double added) const {
   addMass(world, model.index, added);
   if (!model.in_physics) return;
   const EntityState state = bodyState(model.bodies.links.front());
@@ -162,7 +161,7 @@ bool StorageUnits::mayBeUpright(const Scene& world, const Model& model) const {
 }
 
 /// Takes over where Bullet left the unit, upright on its legs.
-void StorageUnits::deactivated(ContactView& world, Model& model) const {
+void StorageUnits::deactivated(RobotView& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
     model.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
@@ -179,7 +178,7 @@ bool StorageUnits::mayLeaveBullet(const Scene& world, const Model& model, bool i
 }
 
 /// From now on it is where its body is.
-void StorageUnits::touched(ContactView& world, Model& model) const {
+void StorageUnits::touched(MotionView& world, Model& model) const {
   if (model.disturbed || world.storage.units[model.index].carrier >= 0) return;
   model.disturbed = true;
   moved(world, model);

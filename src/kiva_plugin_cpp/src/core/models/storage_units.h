@@ -16,16 +16,16 @@ class StorageUnits : public ModelOwner {
   void reset(ModelView& world, Model& model) const override;
   EntityState state(const Scene& world, const Model& model) const override;
   Pose linkPose(const Scene& world, const Model& model, int link) const override;
-  void reweigh(ModelView& world, Model& model, double added) const override;
+  void reweigh(ContactView& world, Model& model, double added) const override;
   bool push(ContactView& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
   ModelBodies build(const Scene& world, const Model& model) const override;
   bool isActivatedWhenNear() const override { return true; }
   bool mayBeUpright(const Scene& world, const Model& model) const override;
-  void deactivated(ContactView& world, Model& model) const override;
+  void deactivated(RobotView& world, Model& model) const override;
   bool mayLeaveBullet(const Scene& world, const Model& model, bool is_alone) const override;
   bool tellsCollisions() const override { return true; }
-  void touched(ContactView& world, Model& model) const override;
+  void touched(MotionView& world, Model& model) const override;
   int robot(const Scene& world, const Model& model) const override;
   bool stops(const Scene& world, const Model& model, int robot) const override;
   std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {

@@ -92,7 +92,7 @@ void checkUnread(EventLog& log, const Plugin& plugin, const std::string& filenam
 
 }  // namespace
 
-std::shared_ptr<Plugin> loadPlugin(ModelView& world, const std::string& model,
+std::shared_ptr<Plugin> loadPlugin(TaskView& world, const std::string& model,
                                    const std::string& filename, const Parameters& parameters,
                                    const SensorDescription* sensor) {
   const std::string& where = parameters.where();

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/state/views/model_view.h"
+#include "core/state/views/task_view.h"
 
 namespace kiva {
 
@@ -13,7 +13,7 @@ namespace kiva {
 /// of the workspaces that were sourced. Null, with a warning, if there is none. `model` is empty
 /// for a plugin of the world, `sensor` null for one that sits in none. Throws DescriptionError if
 /// it is there but can't be loaded, or refuses.
-std::shared_ptr<Plugin> loadPlugin(ModelView& world, const std::string& model,
+std::shared_ptr<Plugin> loadPlugin(TaskView& world, const std::string& model,
                                    const std::string& filename, const Parameters& parameters,
                                    const SensorDescription* sensor);
 

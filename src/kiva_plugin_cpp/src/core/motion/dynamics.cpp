@@ -36,7 +36,7 @@ void pushBody(const Scene& world, int robot) {
   body.setAngularVelocity(turning);
 }
 
-void readBody(MotionView& world, int robot) {
+void readBody(RobotView& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
   // The robot's origin before it moved, as the integration in arrays leaves it.
@@ -77,7 +77,7 @@ void letRest(FleetState& f, int robot) {
 }
 
 /// Each by itself, on all threads.
-void driveByTraction(MotionView& world) {
+void driveByTraction(RobotView& world) {
   FleetState& f = world.fleet;
   const std::vector<int>& robots = world.schedule.stepped_singly;
   world.schedule.workers->share(static_cast<int>(robots.size()), kDrivesTogether,
@@ -128,7 +128,7 @@ void actuate(MotionView& world) {
     if (isJointed(f.robots[i])) driveJointed(world, i);
     if (f.activated[i]) pushBody(world, i);
   }
-  driveJoints(world);
+  driveJoints(world.models, world.clock.dt);
 }
 
 void integrate(MotionView& world) {
@@ -137,7 +137,7 @@ void integrate(MotionView& world) {
   readJoints(world.models);
 }
 
-void wakeBodies(const ModelTable& models) {
+void wakeBodies(ModelTable& models) {
   for (int slot : models.bodies) {
     for (LinkBody& link : models[slot]->bodies.links) link.body->activate();
   }

@@ -13,6 +13,6 @@ void actuate(MotionView& world);
 void integrate(MotionView& world);
 
 /// Wakes sleeping bodies.
-void wakeBodies(const ModelTable& models);
+void wakeBodies(ModelTable& models);
 
 }  // namespace kiva

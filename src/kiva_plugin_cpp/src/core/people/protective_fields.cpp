@@ -59,7 +59,7 @@ double safeSpeed(const Seen& person, const Braking& braking, double top) {
   return low;
 }
 
-Braking brakingOf(MotionView& world, int robot) {
+Braking brakingOf(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const double period = static_cast<double>(scanPeriod(world.clock, r) + 1) * world.clock.dt;
   const bool at_once = r.drive.acceleration == 0;
@@ -76,14 +76,14 @@ Seen seenFrom(const Scene& world, int robot, const MotionSegment& segment, const
           walker.radius};
 }
 
-double whileDriving(MotionView& world, int robot, const Walker& walker) {
+double whileDriving(const Scene& world, int robot, const Walker& walker) {
   const MotionSegment& segment = world.fleet.tasks[robot].segments.front();
   const double top = world.fleet.robots[robot].drive.speed;
   return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
 }
 
 /// Returns the distance beyond which a person does not limit the robot's speed [m].
-double farthestOf(MotionView& world, int robot) {
+double farthestOf(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const Braking braking = brakingOf(world, robot);
   return cornerRadius(r) + braking.way(r.drive.speed) + kMargin +
@@ -102,7 +102,7 @@ double whileTurning(const Scene& world, int robot, const Walker& walker) {
   return isWithin(world, robot, walker, reach) ? 0 : kInfinity;
 }
 
-double allowedSpeed(MotionView& world, int robot) {
+double allowedSpeed(const Scene& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   if (!task.movesOnFloor()) return kInfinity;
   const bool turns = task.isAt(MotionSegment::Kind::kTurn);
@@ -119,7 +119,7 @@ double allowedSpeed(MotionView& world, int robot) {
 
 /// Applies `change` to what the robot may do, and lets it replan if it may go on.
 template <typename Change>
-void restrain(MotionView& world, int robot, Change change) {
+void restrain(RobotView& world, int robot, Change change) {
   FleetState& f = world.fleet;
   const bool was_held = isHeld(f, robot);
   change();
@@ -127,13 +127,13 @@ void restrain(MotionView& world, int robot, Change change) {
   if (f.awake[robot]) moved(f, robot);
 }
 
-void allow(MotionView& world, int robot, double speed) {
+void allow(RobotView& world, int robot, double speed) {
   double& allowed = world.fleet.allowed_speed[robot];
   if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
 }
 
 /// Holds turns at once, since a turn is over before the next scan.
-void holdTurns(MotionView& world) {
+void holdTurns(RobotView& world) {
   const FleetState& f = world.fleet;
   for (const Walker& walker : world.people.walkers) {
     for (int i = 0; i < f.size(); ++i) {
@@ -165,7 +165,7 @@ bool reachesInto(const FleetState& f, int robot, const LightCurtain& curtain) {
          f.y[robot] + hy > curtain.min_y && f.y[robot] - hy < curtain.max_y;
 }
 
-void watchCurtains(MotionView& world) {
+void watchCurtains(RobotView& world) {
   std::vector<const LightCurtain*> interrupted;
   for (const LightCurtain& curtain : world.people.curtains) {
     if (isInterrupted(world, curtain)) interrupted.push_back(&curtain);
@@ -181,7 +181,7 @@ void watchCurtains(MotionView& world) {
 
 }  // namespace
 
-void applyProtectiveFields(MotionView& world, People& people, const std::vector<int>& scans_due) {
+void applyProtectiveFields(RobotView& world, People& people, const std::vector<int>& scans_due) {
   if (!people.slowsRobots()) return;
   if (people.walkers.empty()) {
     for (int i = 0; i < world.fleet.size(); ++i) allow(world, i, kInfinity);

@@ -4,12 +4,12 @@
 // curtains. Without people it costs a comparison a step.
 #pragma once
 
-#include "core/state/views/motion_view.h"
+#include "core/state/views/robot_view.h"
 
 namespace kiva {
 
 /// Slows, stops and releases the robots whose scans are due, before robots are controlled.
-void applyProtectiveFields(MotionView& world, People& people, const std::vector<int>& scans_due);
+void applyProtectiveFields(RobotView& world, People& people, const std::vector<int>& scans_due);
 
 /// Implement World::setLightCurtain and World::removeLightCurtain.
 void setLightCurtain(People& people, const LightCurtain& curtain);

@@ -99,7 +99,7 @@ bool isFreeAhead(const Scene& world, const Walker& walker, const Pose& at, const
   return there >= 0 || there > clearanceAt(world, walker, at.X(), at.Y()) + kThere;
 }
 
-void waitOrDetour(ContactView& world, Walker* walker) {
+void waitOrDetour(const Scene& world, Walker* walker) {
   walker->held_up += world.clock.dt;
   if (walker->held_up < walker->patience) return;
   const Waypoint& to = walker->walk.waypoints[walker->next];
@@ -156,7 +156,7 @@ void advanceWalker(ContactView& world, Walker* walker) {
 
 }  // namespace
 
-void walk(ContactView& world, People& people, const std::string& person, const Walk& walk) {
+void walk(RobotView& world, People& people, const std::string& person, const Walk& walk) {
   const Model* model = world.models.find(person);
   if (!model) throw std::invalid_argument("there is no model '" + person + "'");
   if (!isPerson(*model)) refuse(person, "it is not a person");
@@ -164,7 +164,7 @@ void walk(ContactView& world, People& people, const std::string& person, const W
   startWalk(world.fleet, &walkerOf(people, *model), walk);
 }
 
-void beginScript(ContactView& world, People& people, int model, const Walk& script) {
+void beginScript(RobotView& world, People& people, int model, const Walk& script) {
   Walker& walker = walkerOf(people, *world.models[model]);
   walker.script = script;
   startWalk(world.fleet, &walker, script);

@@ -8,11 +8,11 @@
 namespace kiva {
 
 /// Implement World::walk and World::people.
-void walk(ContactView& world, People& people, const std::string& person, const Walk& walk);
+void walk(RobotView& world, People& people, const std::string& person, const Walk& walk);
 std::vector<Person> listPeople(const Scene& world);
 
 /// Makes a model that was just spawned an actor with that script.
-void beginScript(ContactView& world, People& people, int model, const Walk& script);
+void beginScript(RobotView& world, People& people, int model, const Walk& script);
 /// Restarts the scripts of actors; all other models stop being people.
 void restartScripts(FleetState& fleet, People& people);
 /// Moves all people by one step.

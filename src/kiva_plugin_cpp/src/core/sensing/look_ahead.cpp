@@ -84,7 +84,7 @@ bool isOnGuard(const FleetState& f, int robot) {
 }
 
 /// Lets those of `robots` look that are on guard.
-void lookAhead(MotionView& world, Scans& scans, const std::vector<int>& robots) {
+void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   FleetState& f = world.fleet;
   std::vector<char> looked(robots.size(), 0);
   const auto count = static_cast<int>(robots.size());
@@ -103,7 +103,7 @@ void lookAhead(MotionView& world, Scans& scans, const std::vector<int>& robots) 
 }
 
 /// Those that have begun to drive look at once.
-std::vector<int> beginners(const MotionView& world) {
+std::vector<int> beginners(const Scene& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;
   for (int i : world.schedule.stepped_singly) {
@@ -114,7 +114,7 @@ std::vector<int> beginners(const MotionView& world) {
 
 }  // namespace
 
-void lookAhead(MotionView& world, Scans& scans) {
+void lookAhead(RobotView& world, Scans& scans) {
   scans.sighted.clear();
   lookAhead(world, scans, scans.due);
   lookAhead(world, scans, beginners(world));

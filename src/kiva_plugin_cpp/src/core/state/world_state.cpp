@@ -7,16 +7,16 @@ namespace kiva {
 
 WorldState::WorldState(const WorldDescription& description, const WorldOptions& options)
     : physics(description.gravity),
-      view{{{{settings, clock, fleet, obstacles, models, storage, floor, physics, people, fallen},
-             fleet,
+      view{{{{{{settings, clock, fleet, obstacles, models, storage, floor, physics, people, fallen,
+                schedule, plugins, jointed_bodies},
+               fleet},
+              storage,
+              report_link,
+              log},
              obstacles,
-             storage,
-             jointed_bodies,
-             schedule,
-             report_link,
-             log},
+             models,
+             schedule},
             physics,
-            models,
             contact_log,
             external_inputs},
            settings,
@@ -24,8 +24,7 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
            fallen,
            people,
            failures,
-           scans,
-           plugins} {
+           scans} {
   settings.name = description.name;
   settings.gravity = description.gravity;
   settings.options = options;

@@ -183,19 +183,19 @@ double clearTime(const Scene& world, int i, bool is_crowded) {
   return 0;
 }
 
-bool noteClearance(MotionView& world, int i, double time) {
+bool noteClearance(RobotView& world, Obstacles& obstacles, int i, double time) {
   FleetState& f = world.fleet;
   if (time == 0) return false;
   if (f.cruising[i] != 0) {
-    world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
+    obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
   }
   f.clear_until[i] = static_cast<double>(world.clock.total_steps) +
                      std::max(1.0, std::floor(time / world.clock.dt));
   return true;
 }
 
-bool findClearance(MotionView& world, int i, bool is_crowded) {
-  return noteClearance(world, i, clearTime(world, i, is_crowded));
+bool findClearance(RobotView& world, Obstacles& obstacles, int i, bool is_crowded) {
+  return noteClearance(world, obstacles, i, clearTime(world, i, is_crowded));
 }
 
 bool hasClearance(const Scene& world, int i) {

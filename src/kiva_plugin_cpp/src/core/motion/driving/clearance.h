@@ -20,10 +20,10 @@ constexpr double kCornerSpeed = 3.2;
 double clearTime(const Scene& world, int robot, bool is_crowded);
 
 /// Notes in clear_until what clearTime found. Returns false, with nothing noted, if that is 0.
-bool noteClearance(MotionView& world, int robot, double time);
+bool noteClearance(RobotView& world, Obstacles& obstacles, int robot, double time);
 
 /// Looks for how long nothing can come near the robot, and notes it.
-bool findClearance(MotionView& world, int robot, bool is_crowded);
+bool findClearance(RobotView& world, Obstacles& obstacles, int robot, bool is_crowded);
 
 /// Returns whether the way is free for long enough to cruise on it.
 bool hasClearance(const Scene& world, int robot);

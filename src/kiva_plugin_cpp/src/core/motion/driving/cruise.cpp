@@ -156,7 +156,7 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
 }
 
 /// Plans when a robot that cruises on after step number `after` needs its next look.
-void planAttention(MotionView& world, int i, double after) {
+void planAttention(RobotView& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
   if (f.localises && !f.localisation[i].stretch.turns) {
@@ -169,13 +169,13 @@ void planAttention(MotionView& world, int i, double after) {
 }
 
 /// The same where its way has changed.
-void replanAttention(MotionView& world, int i) {
+void replanAttention(RobotView& world, int i) {
   world.fleet.count_at[i] = nextCount(world, i);
   planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
 /// Counts the points that the robot has come to or left.
-void count(MotionView& world, int i) {
+void count(RobotView& world, int i) {
   countPoints(world, i, world.fleet.reference[i]);
   world.fleet.count_at[i] = nextCount(world, i);
 }
@@ -196,7 +196,8 @@ void attend(MotionView& world, const Attention& due, double now) {
   if (ended) return moved(f, i);
   // A robot that has just read a code may take another way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
-  if (f.clear_until[i] <= now && !noteClearance(world, i, time())) return moved(f, i);
+  if (f.clear_until[i] <= now && !noteClearance(world, world.obstacles, i, time()))
+    return moved(f, i);
   planAttention(world, i, now);
 }
 
@@ -242,7 +243,7 @@ void attendAll(MotionView& world, std::vector<Attention> all, double now) {
 }
 
 /// What a unit of reference moves, exactly or by the robot's own estimate.
-void setMotion(MotionView& world, int i, const ReferenceMotion& per) {
+void setMotion(RobotView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   if (f.localises) return beginStretch(world, i, per.yaw != 0);
   const DriveParameters& drive = f.robots[i].drive;
@@ -275,7 +276,7 @@ bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, i, true)) {
+  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, world.obstacles, i, true)) {
     replanAttention(world, i);
     return true;
   }
@@ -284,7 +285,7 @@ bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   return false;
 }
 
-void setGoal(MotionView& world, int i, double goal) {
+void setGoal(RobotView& world, Obstacles& obstacles, int i, double goal) {
   FleetState& f = world.fleet;
   const double left = f.clear_until[i] - static_cast<double>(world.clock.total_steps) + 1;
   const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
@@ -293,7 +294,7 @@ void setGoal(MotionView& world, int i, double goal) {
   if (f.cruising[i] == 0) return;
   // Its way was found free up to the old goal only.
   if (goes_farther && isPatchy(world)) return moved(f, i);
-  if (saw_the_end && goes_farther && !findClearance(world, i, false)) return moved(f, i);
+  if (saw_the_end && goes_farther && !findClearance(world, obstacles, i, false)) return moved(f, i);
   replanAttention(world, i);
 }
 

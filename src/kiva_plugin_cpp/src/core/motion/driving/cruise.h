@@ -29,7 +29,7 @@ inline bool isExact(double error) { return std::abs(error) < 1e-8; }
 bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
 
 /// Sets where the robot's reference ends; its speed changes without a dip.
-void setGoal(MotionView& world, int robot, double goal);
+void setGoal(RobotView& world, Obstacles& obstacles, int robot, double goal);
 
 /// Moves all cruising robots by one step. Those whose reference ends, or that may meet others, stop
 /// cruising.

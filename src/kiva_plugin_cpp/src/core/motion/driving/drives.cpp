@@ -15,7 +15,7 @@ constexpr double kGripReserve = 0.9;    // share of the grip that plans count on
 constexpr double kLeastPlanned = 0.05;  // [m/s²]: plans need some
 constexpr double kGripsAll = 1e16;      // Coulomb coefficient: the wheels' decides
 
-double plannedLimit(MotionView& world, int robot, double (*limit)(const Vehicle&), double wanted) {
+double plannedLimit(const Scene& world, int robot, double (*limit)(const Vehicle&), double wanted) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
   const double held = std::min(wanted, limit(plannedVehicle(world, robot)));
   return std::min(held, loadLimit(world, robot));
@@ -36,7 +36,7 @@ Vector3 centreFromOrigin(const Fleet& f, int robot) {
           s * vehicle.centre[0] + c * vehicle.centre[1], 0};
 }
 
-Vehicle plannedVehicle(MotionView& world, int robot) {
+Vehicle plannedVehicle(const Scene& world, int robot) {
   const Ground ground{world.settings.gravityDown(), {kGripsAll, kGripsAll}};
   const Robot& r = world.fleet.robots[robot];
   const bool is_jointed = r.drive.drive == Drive::kJointed;
@@ -50,13 +50,13 @@ Vehicle plannedVehicle(MotionView& world, int robot) {
   return vehicle;
 }
 
-double plannedAcceleration(MotionView& world, int robot) {
+double plannedAcceleration(const Scene& world, int robot) {
   const double wanted = world.fleet.robots[robot].drive.acceleration;
   return std::min(plannedLimit(world, robot, drivingLimit, wanted),
                   plannedLimit(world, robot, brakingLimit, wanted));
 }
 
-double plannedBraking(MotionView& world, int robot) {
+double plannedBraking(const Scene& world, int robot) {
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   if (drive.acceleration == 0) return drive.emergency_deceleration;
   return plannedLimit(world, robot, brakingLimit, drive.emergency_deceleration);

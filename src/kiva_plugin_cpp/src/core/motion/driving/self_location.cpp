@@ -15,7 +15,7 @@ constexpr double kView = 0.05;         // [m] around the camera in which a code'
 constexpr double kSlipLength = 0.25;   // [m] on which a wheel slips alike
 constexpr double kMostDeviations = 3;  // what deviates more is not delivered
 
-RandomStream streamOf(MotionView& world, int robot, Matter matter) {
+RandomStream streamOf(RobotView& world, int robot, Matter matter) {
   Localisation& l = world.fleet.localisation[robot];
   return RandomStream(world.settings.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
 }
@@ -43,7 +43,7 @@ Code nearestCode(const Scene& world, int robot) {
 
 }  // namespace
 
-void calibrate(MotionView& world, int robot) {
+void calibrate(RobotView& world, int robot) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   Localisation& l = world.fleet.localisation[robot];
@@ -62,7 +62,7 @@ void calibrate(MotionView& world, int robot) {
   relocate(world, robot);
 }
 
-void relocate(MotionView& world, int robot) {
+void relocate(RobotView& world, int robot) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
@@ -86,7 +86,7 @@ void relocate(MotionView& world, int robot) {
   l.code_row = code.row;
 }
 
-void drawSlip(MotionView& world, int robot, double length) {
+void drawSlip(RobotView& world, int robot, double length) {
   const double slip = world.settings.realism.localisation.slip;
   Localisation& l = world.fleet.localisation[robot];
   l.slip_for = length;
@@ -95,7 +95,7 @@ void drawSlip(MotionView& world, int robot, double length) {
   for (double& share : l.slip) share = deviation(random, slip / std::sqrt(length));
 }
 
-void track(MotionView& world, int robot) {
+void track(TaskView& world, int robot) {
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   if (f.wheel_angle[0][robot] != l.wheel_angle[0] || f.wheel_angle[1][robot] != l.wheel_angle[1]) {
@@ -106,7 +106,7 @@ void track(MotionView& world, int robot) {
   checkLost(world, robot);
 }
 
-void readCode(MotionView& world, int robot, bool stands) {
+void readCode(RobotView& world, int robot, bool stands) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
@@ -158,14 +158,14 @@ Odometry odometryOf(const Scene& world, int robot) {
   return out;
 }
 
-bool checkLost(MotionView& world, int robot) {
+bool checkLost(TaskView& world, int robot) {
   Localisation& l = world.fleet.localisation[robot];
   if (l.since_code < l.lost_at) return false;
   l.lost = true;
   l.lost_at = l.since_code + world.settings.realism.localisation.lost_after;
   char text[80];
   std::snprintf(text, sizeof text, "is lost: it has read no code for %.1f m", l.since_code);
-  reportCommand(world, Event::Kind::kLost, robot, "", text);
+  reportCommand(world, world.log, Event::Kind::kLost, robot, "", text);
   haltRobot(world, robot, "", text);
   return true;
 }

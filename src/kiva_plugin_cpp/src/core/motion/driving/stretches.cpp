@@ -95,7 +95,7 @@ double roomAhead(const Scene& world, int i, double along) {
 }
 
 /// The end of its drive is where it was, but it is elsewhere: it brakes as hard as that takes.
-void brakeFor(MotionView& world, int i) {
+void brakeFor(RobotView& world, int i) {
   FleetState& f = world.fleet;
   if (f.acceleration[i] == 0) return;
   const Profile command = f.command(i);
@@ -110,7 +110,7 @@ void brakeFor(MotionView& world, int i) {
 }
 
 /// Begins the next arc of the way back. Returns false if there is none: straight on then.
-bool nextArc(MotionView& world, int i, double along) {
+bool nextArc(RobotView& world, int i, double along) {
   Stretch& stretch = world.fleet.localisation[i].stretch;
   if (stretch.next_length == 0) return false;
   stretch.curvature = stretch.next_curvature;
@@ -135,7 +135,7 @@ bool keepsUpByEstimate(const FleetState& f, int i, bool turns) {
          std::abs(f.yaw_rate[i] - (turns ? v : 0)) < kMostYawRate;
 }
 
-void beginStretch(MotionView& world, int i, bool turns) {
+void beginStretch(RobotView& world, int i, bool turns) {
   FleetState& f = world.fleet;
   Localisation& l = f.localisation[i];
   Stretch& stretch = l.stretch;
@@ -158,7 +158,7 @@ void beginStretch(MotionView& world, int i, bool turns) {
   setMotion(world.fleet, i);
 }
 
-bool continueStretch(MotionView& world, int i) {
+bool continueStretch(TaskView& world, int i) {
   FleetState& f = world.fleet;
   Localisation& l = f.localisation[i];
   Stretch& stretch = l.stretch;

@@ -75,7 +75,7 @@ struct Touch {
 
 class Step {
  public:
-  Step(MotionView& world, int robot)
+  Step(RobotView& world, int robot)
       : f_(world.fleet),
         robot_(robot),
         drive_(f_.robots[robot].drive),
@@ -311,9 +311,9 @@ class Step {
 
 }  // namespace
 
-void driveJointed(MotionView& world, int robot) { Step(world, robot).run(); }
+void driveJointed(RobotView& world, int robot) { Step(world, robot).run(); }
 
-Vehicle jointedVehicle(MotionView& world, int robot, const Ground& ground) {
+Vehicle jointedVehicle(const Scene& world, int robot, const Ground& ground) {
   const Robot& r = world.fleet.robots[robot];
   const JointedBody& body = jointedBody(world, robot);
   Vehicle v = vehicleOf(r, ground);
@@ -331,7 +331,7 @@ Vehicle jointedVehicle(MotionView& world, int robot, const Ground& ground) {
   return v;
 }
 
-void settleJointed(MotionView& world, int robot) {
+void settleJointed(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   Stance& stance = f.stance[robot];
   const Tilt tilt(stance);

@@ -9,19 +9,19 @@
 #pragma once
 
 #include "core/motion/wheels/vehicle.h"
-#include "core/state/views/motion_view.h"
+#include "core/state/views/robot_view.h"
 
 namespace kiva {
 
 /// Changes velocities and wheel speeds of robot `i` by one step's gravity, motors and floor;
 /// positions stay.
-void driveJointed(MotionView& world, int robot);
+void driveJointed(RobotView& world, int robot);
 /// Returns the vehicle that a jointed robot is: casters ahead of and behind the axle bear a part of
 /// the weight, and more of it when the robot speeds up or brakes.
-Vehicle jointedVehicle(MotionView& world, int robot, const Ground& ground);
+Vehicle jointedVehicle(const Scene& world, int robot, const Ground& ground);
 
 /// Moves the chassis up, down and about by one step; its place in the plane has been found.
-void settleJointed(MotionView& world, int robot);
+void settleJointed(RobotView& world, int robot);
 /// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
 bool restJointed(FleetState& fleet, int robot);
 

@@ -253,7 +253,7 @@ SpatialInertia loadOf(const Scene& world, int robot) {
 
 /// Robots of one description are the same while they carry nothing and the tower is down; a step
 /// of a whole fleet spends much of its time on fetching what it knows about each robot.
-std::shared_ptr<const JointedBody> shareBare(MotionView& world, int robot) {
+std::shared_ptr<const JointedBody> shareBare(const Scene& world, int robot) {
   auto& known = world.jointed_bodies.bare;
   const ModelDescription* description =
       world.models.of(world.fleet.robots[robot]).description.get();
@@ -290,8 +290,8 @@ double tyreFriction(const Link& wheel) {
   return tyre ? tyre->friction : std::numeric_limits<double>::max();
 }
 
-const JointedBody& jointedBody(MotionView& world, int robot) {
-  Model& model = world.models.of(world.fleet.robots[robot]);
+const JointedBody& jointedBody(const Scene& world, int robot) {
+  const Model& model = world.models.of(world.fleet.robots[robot]);
   if (!model.jointed || !isFor(*model.jointed, world.fleet, robot)) {
     const bool bare = world.fleet.unit[robot] < 0 && world.fleet.tower[robot] == 0;
     model.jointed = bare ? shareBare(world, robot) : make(world, robot, loadOf(world, robot));

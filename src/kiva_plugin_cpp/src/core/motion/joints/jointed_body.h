@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/physics/bodies/spatial_inertia.h"
-#include "core/state/views/motion_view.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 
@@ -62,6 +62,6 @@ bool hasDriveWheels(const ModelDescription& model);
 
 /// Returns the robot's mechanism with its present load and tower. Throws DescriptionError if it
 /// lacks a link `left_wheel` or `right_wheel`.
-const JointedBody& jointedBody(MotionView& world, int robot);
+const JointedBody& jointedBody(const Scene& world, int robot);
 
 }  // namespace kiva

@@ -244,19 +244,19 @@ void restoreLimits(Model& model) {
   });
 }
 
-void driveJoints(MotionView& world) {
-  for (int slot : world.models.bodies) {
-    Model& model = *world.models[slot];
+void driveJoints(ModelTable& models, double dt) {
+  for (int slot : models.bodies) {
+    Model& model = *models[slot];
     if (model.joints.empty()) continue;
     if (!isAwake(model)) {
       if (!wantsToMove(model)) continue;
       wake(model);
     }
-    forAxes(model, [&](int i) { driveJoint(model, i, world.clock.dt); });
+    forAxes(model, [&](int i) { driveJoint(model, i, dt); });
   }
 }
 
-void readJoints(const ModelTable& models) {
+void readJoints(ModelTable& models) {
   for (int slot : models.bodies) {
     Model& model = *models[slot];
     if (model.joints.empty() || !isAwake(model)) continue;

@@ -18,9 +18,9 @@ void initJoints(Model& model);
 void restoreLimits(Model& model);
 
 /// Applies motors, damping and friction before Bullet's step.
-void driveJoints(MotionView& world);
+void driveJoints(ModelTable& models, double dt);
 /// Reads the joints' positions after Bullet's step.
-void readJoints(const ModelTable& models);
+void readJoints(ModelTable& models);
 
 /// Returns the index of the joint of that name; -1 = none.
 int findJoint(const Model& model, const std::string& joint);

@@ -17,6 +17,8 @@ namespace kiva {
 struct JointedBody;
 struct Model;
 struct Scene;
+struct RobotView;
+struct MotionView;
 struct ContactView;
 struct ModelView;
 
@@ -62,7 +64,7 @@ class ModelOwner {
   virtual Pose linkPose(const Scene& world, const Model& model, int link) const = 0;
 
   /// Takes over the masses of its changed description, `added` [kg] more than before.
-  virtual void reweigh(ModelView& world, Model& model, double added) const = 0;
+  virtual void reweigh(ContactView& world, Model& model, double added) const = 0;
   /// Applies a force [N] at a point and a torque [Nm] to that link, in world, for the next step.
   /// Returns false if the model does not move.
   virtual bool push(ContactView& world, Model& model, int link, const Vector3& at,
@@ -73,8 +75,8 @@ class ModelOwner {
   /// Returns whether it is in Bullet only while something is near; else for as long as it stands.
   virtual bool isActivatedWhenNear() const { return false; }
   /// Follow the model's entering and leaving Bullet; `model.bodies` are still there.
-  virtual void activated(ContactView& /*world*/, Model& /*model*/) const {}
-  virtual void deactivated(ContactView& /*world*/, Model& /*model*/) const {}
+  virtual void activated(RobotView& /*world*/, Model& /*model*/) const {}
+  virtual void deactivated(RobotView& /*world*/, Model& /*model*/) const {}
   /// Returns whether it can be there as a body that slides on its feet, as long as it does not tip.
   virtual bool mayBeUpright(const Scene& /*world*/, const Model& /*model*/) const { return false; }
   /// Returns whether it may leave Bullet, if `is_alone`: nothing was near it for a while.
@@ -91,7 +93,7 @@ class ModelOwner {
   virtual bool tellsCollisions() const { return false; }
   virtual bool isFloor() const { return false; }
   /// Follows a contact with a model that is no floor.
-  virtual void touched(ContactView& /*world*/, Model& /*model*/) const {}
+  virtual void touched(MotionView& /*world*/, Model& /*model*/) const {}
   /// Returns the robot that it is, or that carries it; -1 = none.
   virtual int robot(const Scene& /*world*/, const Model& /*model*/) const { return -1; }
   /// Returns whether it stops a robot that comes near.
@@ -128,8 +130,8 @@ struct Model {
   Vector3 rocking;    ///< Momentum that its feet did not hold since, about its centre of mass,
                       ///< in world [Nms].
   bool tips = false;  ///< That is too much, or something lies on it: it is a whole body.
-  std::shared_ptr<const JointedBody>
-      jointed;  ///< A jointed robot's mechanism; made when it is asked for.
+  mutable std::shared_ptr<const JointedBody>
+      jointed;  ///< A cache: a jointed robot's mechanism, made when it is asked for.
   std::vector<CollisionGeometry> geometries;
   std::vector<LevelSurface> level_surfaces;  ///< A static model's.
   std::vector<std::shared_ptr<Plugin>> plugins;

@@ -25,15 +25,26 @@ struct ModelTable {
   std::size_t size() const { return slots.size(); }
   auto begin() const { return slots.begin(); }
   auto end() const { return slots.end(); }
-  const std::unique_ptr<Model>& operator[](std::size_t slot) const { return slots[slot]; }
+  /// Returns the model in that slot, or null.
+  Model* operator[](std::size_t slot) { return slots[slot].get(); }
+  const Model* operator[](std::size_t slot) const { return slots[slot].get(); }
   /// Returns the model of that name, or null.
-  Model* find(const std::string& name) const {
+  Model* find(const std::string& name) {
     const auto at = slot_of_name.find(name);
     return at == slot_of_name.end() ? nullptr : slots[at->second].get();
   }
-  Model& of(const Robot& robot) const { return *slots[robot.model]; }
-  Model& of(const StorageUnit& unit) const { return *slots[unit.model]; }
-  Model& of(const Item& item) const { return *slots[item.model]; }
+  const Model* find(const std::string& name) const {
+    const auto at = slot_of_name.find(name);
+    return at == slot_of_name.end() ? nullptr : slots[at->second].get();
+  }
+  template <typename Entity>  // a Robot, a StorageUnit or an Item
+  Model& of(const Entity& entity) {
+    return *slots[entity.model];
+  }
+  template <typename Entity>
+  const Model& of(const Entity& entity) const {
+    return *slots[entity.model];
+  }
 
   /// Returns the slots in the order in which the models arrived.
   std::vector<int> inOrder() const;

@@ -62,7 +62,7 @@ void appendFootprints(const Scene& world, const Model& model, const Pose& to_fra
 }
 
 /// A robot and its load move as one.
-void updateMover(MotionView& world, int robot) {
+void updateMover(const Scene& world, Obstacles& obstacles, int robot) {
   const Pose to_robot =
       Pose(0, 0, world.floor.extent.z, 0, 0, 0) * basePose(world, robot).Inverse();
   std::vector<Footprint> local;
@@ -72,18 +72,18 @@ void updateMover(MotionView& world, int robot) {
     appendFootprints(world, *world.models[world.storage.units[unit].model], to_robot, robot,
                      &local);
   }
-  world.obstacles.setMover(robot, std::move(local));
+  obstacles.setMover(robot, std::move(local));
 }
 
-void updateStanding(MotionView& world, Model& model) {
+void updateStanding(const Scene& world, Obstacles& obstacles, Model& model) {
   std::vector<Footprint> footprints;
   appendFootprints(world, model, Pose::Zero, model.owner->group(model), &footprints);
   for (std::size_t k = 0; k < footprints.size(); ++k) {
     int& handle = model.geometries[k].handle;
     if (handle < 0) {
-      handle = world.obstacles.add(footprints[k]);
+      handle = obstacles.add(footprints[k]);
     } else {
-      world.obstacles.update(handle, footprints[k]);
+      obstacles.update(handle, footprints[k]);
     }
   }
 }
@@ -121,9 +121,9 @@ void moved(MotionView& world, Model& model) {
   const int mover = model.owner->robot(world, model);
   if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0))
     world.storage.noteMove();
-  if (mover < 0) return updateStanding(world, model);
+  if (mover < 0) return updateStanding(world, world.obstacles, model);
   hideFootprints(world.obstacles, model);  // those of a unit that was taken up
-  updateMover(world, mover);
+  updateMover(world, world.obstacles, mover);
 }
 
 void followRobot(MotionView& world, int robot) {

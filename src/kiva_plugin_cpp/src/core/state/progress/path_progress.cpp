@@ -97,7 +97,7 @@ double alongSegment(const FleetState& f, int i) {
 
 double alongRun(const Task& task, std::uint32_t point) { return Run(task)(point).along; }
 
-void countPoints(MotionView& world, int robot, double along) {
+void countPoints(RobotView& world, int robot, double along) {
   FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];
   if (!task.isOnRun()) return;

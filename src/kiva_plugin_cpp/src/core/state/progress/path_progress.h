@@ -3,7 +3,7 @@
 // Where a robot is on its path: the run that it drives, and which points it has come to and left.
 #pragma once
 
-#include "core/state/views/motion_view.h"
+#include "core/state/views/robot_view.h"
 
 namespace kiva {
 
@@ -16,7 +16,7 @@ double alongSegment(const FleetState& fleet, int robot);
 /// Returns where a point of the path lies along the present run, seen from its origin [m].
 double alongRun(const Task& task, std::uint32_t point);
 /// Counts what the robot has come to and left, its centre being `along` the present run [m].
-void countPoints(MotionView& world, int robot, double along);
+void countPoints(RobotView& world, int robot, double along);
 /// Returns where along the run that changes next; +inf = nowhere.
 double nextCount(const Scene& world, int robot);
 /// Returns the points that it has not come to yet where it is to turn, or stop so far, and the last

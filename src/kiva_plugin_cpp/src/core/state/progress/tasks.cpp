@@ -13,7 +13,7 @@ namespace {
 constexpr double kAstray = 0.05;             // [m] from its point: it can't begin its next run
 constexpr std::uint32_t kPointsToKeep = 64;  // left points of a path before they are forgotten
 
-void becomeIdle(MotionView& world, int robot) {
+void becomeIdle(TaskView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   for (const MotionSegment& segment : task.segments) {
@@ -29,16 +29,16 @@ void becomeIdle(MotionView& world, int robot) {
   f.wheel_target[0][robot] = f.wheel_target[1][robot] = 0;
 }
 
-void end(MotionView& world, int robot, Event::Kind kind, const std::string& other,
+void end(TaskView& world, int robot, Event::Kind kind, const std::string& other,
          const std::string& text) {
   becomeIdle(world, robot);
   world.fleet.last_end[robot] = static_cast<std::uint8_t>(kind);
-  reportCommand(world, kind, robot, other, text);
+  reportCommand(world, world.log, kind, robot, other, text);
 }
 
 }  // namespace
 
-void setStatus(MotionView& world, int robot, Status status, State state) {
+void setStatus(TaskView& world, int robot, Status status, State state) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   const int unit = f.unit[robot];
@@ -54,19 +54,19 @@ void setStatus(MotionView& world, int robot, Status status, State state) {
       {world.clock.time(), id, status, state, shelf, f.x[robot], f.y[robot], f.yaw[robot]});
 }
 
-void reportCommand(MotionView& world, Event::Kind kind, int robot, const std::string& other,
-                   const std::string& text) {
+void reportCommand(const Scene& world, EventLog& log, Event::Kind kind, int robot,
+                   const std::string& other, const std::string& text) {
   const FleetState& f = world.fleet;
-  world.log.report(kind, f.robots[robot].name, other, text, {}, f.tasks[robot].command);
+  log.report(kind, f.robots[robot].name, other, text, {}, f.tasks[robot].command);
 }
 
-void enterPhase(MotionView& world, int robot, Phase phase, Status status, State state) {
+void enterPhase(TaskView& world, int robot, Phase phase, Status status, State state) {
   world.fleet.tasks[robot].phase = phase;
   moved(world.fleet, robot);
   setStatus(world, robot, status, state);
 }
 
-void startSegment(MotionView& world, int robot) {
+void startSegment(TaskView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
@@ -74,7 +74,7 @@ void startSegment(MotionView& world, int robot) {
   enterPhase(world, robot, Phase::kStarting, Status::kBusy, task.segments.front().state);
 }
 
-void beginTask(MotionView& world, int robot, std::deque<MotionSegment> segments) {
+void beginTask(TaskView& world, int robot, std::deque<MotionSegment> segments) {
   Task& task = world.fleet.tasks[robot];
   task.segments = std::move(segments);
   FleetState& f = world.fleet;
@@ -88,7 +88,7 @@ void beginTask(MotionView& world, int robot, std::deque<MotionSegment> segments)
   startSegment(world, robot);
 }
 
-void beginPath(MotionView& world, int robot, std::uint32_t id, ReleasedPath path,
+void beginPath(TaskView& world, int robot, std::uint32_t id, ReleasedPath path,
                std::deque<MotionSegment> segments) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
@@ -102,7 +102,7 @@ void beginPath(MotionView& world, int robot, std::uint32_t id, ReleasedPath path
   startSegment(world, robot);
 }
 
-void continuePath(MotionView& world, int robot) {
+void continuePath(TaskView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   ReleasedPath& path = task.path;
   path.origin = path.end;
@@ -122,7 +122,7 @@ void continuePath(MotionView& world, int robot) {
   startSegment(world, robot);
 }
 
-void resumePath(MotionView& world, int robot) {
+void resumePath(TaskView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   task.blocked_by = task.blocked_reason = "";
@@ -133,7 +133,7 @@ void resumePath(MotionView& world, int robot) {
   enterPhase(world, robot, Phase::kDriving, Status::kBusy, run.state);
 }
 
-void finishSegment(MotionView& world, int robot) {
+void finishSegment(TaskView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   const bool is_held_up = task.phase == Phase::kBraking && task.follows();
   if (is_held_up && !task.cancelled) {
@@ -146,12 +146,12 @@ void finishSegment(MotionView& world, int robot) {
   endDone(world, robot);
 }
 
-void endDone(MotionView& world, int robot) {
+void endDone(TaskView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   end(world, robot, Event::Kind::kDone, "", task.cancelled ? "cancelled" : "done: " + task.goal);
 }
 
-void stopTask(MotionView& world, int robot, Phase phase, const std::string& by,
+void stopTask(TaskView& world, int robot, Phase phase, const std::string& by,
               const std::string& reason) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) return;
@@ -162,19 +162,19 @@ void stopTask(MotionView& world, int robot, Phase phase, const std::string& by,
   enterPhase(world, robot, phase, Status::kBlocked, State::kBlocked);
 }
 
-void endStop(MotionView& world, int robot) {
+void endStop(TaskView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const std::string by = task.blocked_by, reason = task.blocked_reason;
   end(world, robot, Event::Kind::kBlocked, by, reason);
 }
 
-void endBlocked(MotionView& world, int robot, const std::string& by, const std::string& reason) {
+void endBlocked(TaskView& world, int robot, const std::string& by, const std::string& reason) {
   Task& task = world.fleet.tasks[robot];
   if (!task.isStopping()) setStatus(world, robot, Status::kBlocked, State::kBlocked);
   end(world, robot, Event::Kind::kBlocked, by, reason);
 }
 
-void haltRobot(MotionView& world, int robot, const std::string& by, const std::string& reason) {
+void haltRobot(TaskView& world, int robot, const std::string& by, const std::string& reason) {
   const Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kWaiting) return endBlocked(world, robot, by, reason);
   if (task.movesOnFloor()) stopTask(world, robot, Phase::kHalting, by, reason);

@@ -10,7 +10,6 @@ namespace kiva {
 /// collisions.
 struct ContactView : MotionView {
   Physics& physics;
-  ModelTable& models;
   ContactLog& contact_log;
   ExternalInputs& external_inputs;
 };

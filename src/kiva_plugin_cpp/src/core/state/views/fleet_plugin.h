@@ -22,7 +22,7 @@ class FleetPlugin {
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
   /// Decides upon what was seen in the last step, before robots take new commands. `sighted`: the
   /// robots whose lasers looked ahead in it.
-  virtual void react(MotionView& /*world*/, const std::vector<int>& /*sighted*/) const {}
+  virtual void react(TaskView& /*world*/, const std::vector<int>& /*sighted*/) const {}
   /// Says what motors and towers are to do in this step.
   virtual void control(ContactView& /*world*/) const {}
 };

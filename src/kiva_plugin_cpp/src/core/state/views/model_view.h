@@ -4,7 +4,6 @@
 #include "core/state/robots/failure_state.h"
 #include "core/state/robots/scans.h"
 #include "core/state/views/contact_view.h"
-#include "core/state/world/plugins.h"
 
 namespace kiva {
 
@@ -17,7 +16,6 @@ struct ModelView : ContactView {
   People& people;
   FailureState& failures;
   Scans& scans;
-  const Plugins& plugins;
 };
 
 }  // namespace kiva

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/models/jointed_bodies.h"
-#include "core/state/robots/report_link.h"
-#include "core/state/views/scene.h"
-#include "core/state/world/event_log.h"
-#include "core/state/world/step_schedule.h"
+#include "core/state/views/task_view.h"
 
 namespace kiva {
 
-/// What moving robots changes: the fleet, obstacles that follow it, which storage units robots
-/// claim, and what is told of all that.
-struct MotionView : Scene {
-  FleetState& fleet;
+/// Writes what moves: beside the robots with their tasks, models, and the obstacles that follow
+/// them.
+struct MotionView : TaskView {
   Obstacles& obstacles;
-  Storage& storage;
-  JointedBodies& jointed_bodies;
+  ModelTable& models;
   StepSchedule& schedule;
-  ReportLink& report_link;
-  EventLog& log;
 };
 
 }  // namespace kiva
