@@ -108,45 +108,45 @@ struct LaserParameters {
   }
 };
 
-/// What is asked once and read seldom.
+/// Parameters of a robot that are set once and read seldom.
 struct Robot {
   std::string name;
   int id = 0;
   int model = -1;             ///< Index in the world's models.
   double mass = 145;          ///< Without load [kg].
   double inertia = 12;        ///< About z through the robot's origin, without load [kg m²].
-  double centre[2] = {0, 0};  ///< Of mass, without load, in the chassis frame [m].
+  double centre[2] = {0, 0};  ///< Centre of mass without load, in the chassis frame [m].
   /// Coulomb coefficients of the tyres: left, right.
   double tyre_friction[2] = {1e16, 1e16};
-  double grip = 1;                 ///< Share of that friction which its wheels have left.
-  double half_length = 0.38;       ///< Of the chassis, along its x axis [m].
-  double half_width = 0.32;        ///< [m]
-  double height = 0.40;            ///< Of its highest point above the floor, tower down [m].
-  double load_mass = 0;            ///< [kg]
-  double load_inertia = 0;         ///< About z through the robot's origin [kg m²].
+  double grip = 1;                 ///< Share of that friction that its wheels still have.
+  double half_length = 0.38;       ///< Half of the chassis' length, along its x axis [m].
+  double half_width = 0.32;        ///< Half of its width [m].
+  double height = 0.40;            ///< Height of its highest point, tower down [m].
+  double load_mass = 0;            ///< Mass of the load [kg].
+  double load_inertia = 0;         ///< Its inertia about z through the robot's origin [kg m²].
   double load_centre[2] = {0, 0};  ///< Its centre of mass, in the chassis frame [m].
-  double load_height = 0;          ///< Of its centre of mass above what it stands on [m].
-  double load_foothold = 0;  ///< From there, seen from above, to the nearest edge of that [m].
-  double load_tipping_inertia = 0;  ///< Of the load about that edge [kg m²].
-  double load_half_length = 0;      ///< Of what it carries, along the chassis' x axis [m].
-  double load_half_width = 0;       ///< [m]
+  double load_height = 0;          ///< Height of its centre of mass above the plate [m].
+  double load_foothold = 0;        ///< Horizontal distance of that to the plate's nearest edge [m].
+  double load_tipping_inertia = 0;  ///< Inertia of the load about that edge [kg m²].
+  double load_half_length = 0;      ///< Half of its length, along the chassis' x axis [m].
+  double load_half_width = 0;       ///< Half of its width [m].
   DriveParameters drive;
   LiftParameters lift;
   LaserParameters laser;
   bool has_motion = false;
   bool has_rotation = false;
-  int ray_fan = -1;  ///< Index of its laser's directions among the world's.
+  int ray_fan = -1;  ///< Index of its laser's rays among the world's fans.
 };
 
-/// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
-/// on the floor.
+/// The posture of a jointed robot's chassis on its wheels and casters. All zero: upright, wheels on
+/// the floor.
 struct Stance {
-  double height = 0;      ///< Of the axle's middle, above where it is then [m].
-  double roll = 0;        ///< About the heading [rad].
-  double pitch = 0;       ///< About the axle, front down [rad].
-  double climb_rate = 0;  ///< [m/s] upwards.
-  double roll_rate = 0;   ///< Turning about the chassis' own x axis,
-  double pitch_rate = 0;  ///< and about its y axis [rad/s].
+  double height = 0;      ///< Height of the axle's middle above its place then [m].
+  double roll = 0;        ///< Rotation about the heading [rad].
+  double pitch = 0;       ///< Rotation about the axle, front down [rad].
+  double climb_rate = 0;  ///< Upward speed [m/s].
+  double roll_rate = 0;   ///< Rate about the chassis' own x axis [rad/s].
+  double pitch_rate = 0;  ///< Rate about its y axis [rad/s].
 };
 
 /// A place on the floor, in world [m].
@@ -156,7 +156,7 @@ struct PathPoint {
 
 /// A robot's report; fields as in Fleet.
 struct RobotReport {
-  double x = 0, y = 0, yaw = 0;         ///< In world [m, rad].
+  double x = 0, y = 0, yaw = 0;         ///< Pose in world [m, rad].
   double vx = 0, vy = 0, yaw_rate = 0;  ///< [m/s, rad/s]
   Status status = Status::kIdle;
   State state = State::kIdle;
@@ -182,25 +182,25 @@ struct Fleet {
   Column<double> vx, vy, yaw_rate;
   Column<double> wheel_speed[2];  ///< Left, right [rad/s].
   Column<double> wheel_angle[2];  ///< Left, right, unwrapped [rad].
-  Column<Stance> stance;          ///< Of jointed robots; others stand upright.
+  Column<Stance> stance;          ///< Posture of jointed robots; others stand upright.
   Column<double> tower;           ///< Height of the tower above its rest [m].
   Column<std::int32_t> unit;      ///< Index of the carried storage unit, -1 = none.
   Column<Status> status;
   Column<State> state;
-  /// How the last command ended: kDone or kBlocked of Event::Kind, 0 = none yet. It stays until
-  /// the next command is accepted.
+  /// End of the last command: kDone or kBlocked of Event::Kind, 0 = none yet. It stays until the
+  /// next command is accepted.
   Column<std::uint8_t> last_end;
   /// The path of the last command; 0, as are the two below, if that was no path.
   Column<std::uint32_t> path_id;
-  /// How many leading points of the path the robot's centre has reached, within a millimetre: 1 at
-  /// the beginning, since the robot stands on point 0, and all of them at the end.
+  /// Count of leading points of the path that the robot's centre has reached, within a millimetre:
+  /// 1 at the beginning, since the robot stands on point 0, and all of them at the end.
   Column<std::uint32_t> reached;
-  /// How many cells of leading points the robot and its load have left wholly. A cell is a square
-  /// of the grid's spacing around its point. Extents are those of straight driving: the corners of
-  /// a load that turns reach some centimetres out of its cell.
+  /// Count of cells of leading points that the robot and its load have left wholly. A cell is a
+  /// square of the grid's spacing around its point. Extents are those of straight driving: the
+  /// corners of a load that turns reach some centimetres out of its cell.
   Column<std::uint32_t> left;
   Column<std::uint8_t> stopped;   ///< 1 = stands until Command::Kind::kGoOn.
-  Column<std::uint8_t> failures;  ///< What is broken: bitOf() each Failure; 0 = nothing.
+  Column<std::uint8_t> failures;  ///< Set of failures: bitOf() each Failure; 0 = none.
   Column<float> charge;           ///< Charge of the battery, 0…1; 1 without a battery model.
   /// The speed that the protective field allows near people [m/s]: 0 = the robot stands, +inf =
   /// no person is near.
@@ -212,12 +212,12 @@ struct Fleet {
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }
-  /// Index of the robot with that id, -1 if there is none.
+  /// Returns the index of the robot with that id, or -1.
   int find(int id) const {
     return id > 0 && id < static_cast<int>(index_of_id.size()) ? index_of_id[id] : -1;
   }
 
-  std::vector<std::int32_t> index_of_id;  ///< -1 where no robot has that id.
+  std::vector<std::int32_t> index_of_id;  ///< Index by id; -1 for other ids.
 
   /// Appends a robot at rest and returns its index.
   int add(Robot robot, double x, double y, double yaw);

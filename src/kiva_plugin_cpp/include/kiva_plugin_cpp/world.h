@@ -75,7 +75,7 @@ struct FallenItem {
 };
 
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
-struct Floor {
+struct FloorExtent {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
   double z = 0;  ///< Height of the floor.
 };
@@ -217,7 +217,7 @@ class World {
   /// Returns a number that grows whenever a storage unit, or an item that lies on no unit, moves or
   /// changes its carrier.
   std::uint64_t unitsRevision() const;
-  const Floor& floor() const;
+  const FloorExtent& floor() const;
   Occupancy occupancy() const;
   double gridSpacing() const;  ///< [m]
 

@@ -10,56 +10,56 @@
 
 namespace kiva {
 
-std::optional<JointState> World::joint(const std::string& model, const std::string& joint) const {
-  const Model* found = state_->models.find(model);
-  const int index = found ? findJoint(*found, joint) : -1;
+std::optional<JointState> World::joint(const std::string& name, const std::string& joint) const {
+  const Model* model = state_->models.find(name);
+  const int index = model ? findJoint(*model, joint) : -1;
   if (index < 0) return std::nullopt;
-  return jointState(state_->view.fleet, *found, index);
+  return jointState(state_->view.fleet, *model, index);
 }
 
-std::optional<JointWrench> World::jointWrench(const std::string& model,
+std::optional<JointWrench> World::jointWrench(const std::string& name,
                                               const std::string& joint) const {
-  const Model* found = state_->models.find(model);
-  const int index = found ? findJoint(*found, joint) : -1;
+  const Model* model = state_->models.find(name);
+  const int index = model ? findJoint(*model, joint) : -1;
   if (index < 0) return std::nullopt;
-  return kiva::jointWrench(*found, index);
+  return kiva::jointWrench(*model, index);
 }
 
-bool World::setJoint(const std::string& model, const std::string& joint,
+bool World::setJoint(const std::string& name, const std::string& joint,
                      const JointSettings& settings) {
-  Model* found = state_->models.find(model);
-  const int index = found ? findJoint(*found, joint) : -1;
+  Model* model = state_->models.find(name);
+  const int index = model ? findJoint(*model, joint) : -1;
   if (index < 0) return false;
-  kiva::setJoint(*found, index, settings);
+  kiva::setJoint(*model, index, settings);
   return true;
 }
 
-void World::setJointPositions(const std::string& model,
+void World::setJointPositions(const std::string& name,
                               const std::map<std::string, double>& positions) {
-  Model* found = state_->models.find(model);
-  if (!found) throw std::invalid_argument("there is no model '" + model + "'");
-  placeJoints(state_->view, *found, positions);
+  Model* model = state_->models.find(name);
+  if (!model) throw std::invalid_argument("there is no model '" + name + "'");
+  placeJoints(state_->view, *model, positions);
 }
 
 const ExternalInputs& World::externalInputs() const { return state_->external_inputs; }
 
-bool World::applyWrench(const std::string& model, const std::string& link, const Vector3& force,
+bool World::applyWrench(const std::string& name, const std::string& link, const Vector3& force,
                         const Vector3& torque) {
-  Model* found = state_->models.find(model);
-  const int index = linkIndex(found, link);
-  return index >= 0 && pushLink(state_->view, *found, index, force, torque);
+  Model* model = state_->models.find(name);
+  const int index = linkIndex(model, link);
+  return index >= 0 && pushLink(state_->view, *model, index, force, torque);
 }
 
 bool World::apply(const Wrench& wrench) {
-  const Model* found = state_->models.find(wrench.model);
-  if (linkIndex(found, wrench.link) < 0 || found->isStatic()) return false;
+  const Model* model = state_->models.find(wrench.model);
+  if (linkIndex(model, wrench.link) < 0 || model->isStatic()) return false;
   state_->external_inputs.wrenches.push_back(wrench);
   return true;
 }
 
 bool World::apply(const Effort& effort) {
-  const Model* found = state_->models.find(effort.model);
-  if (!found || findJoint(*found, effort.joint) < 0 || found->joints.empty()) return false;
+  const Model* model = state_->models.find(effort.model);
+  if (!model || findJoint(*model, effort.joint) < 0 || model->joints.empty()) return false;
   state_->external_inputs.efforts.push_back(effort);
   return true;
 }

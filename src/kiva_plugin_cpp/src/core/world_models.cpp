@@ -40,8 +40,8 @@ void World::spawn(const std::vector<ModelInstance>& instances) {
 bool World::remove(const std::string& model) {
   const auto at = state_->models.slot_of_name.find(model);
   if (at == state_->models.slot_of_name.end()) return false;
-  const Model& found = *state_->models[at->second];
-  const int robot = found.owner->robot(state_->view, found);
+  const Model& leaving = *state_->models[at->second];
+  const int robot = leaving.owner->robot(state_->view, leaving);
   if (robot >= 0) endShadow(state_->shadows, state_->fleet.robots[robot].id);
   removeModel(state_->view, at->second);
   return true;
@@ -55,32 +55,32 @@ std::vector<std::string> World::modelNames() const {
   return names;
 }
 
-ModelKind World::kind(const std::string& model) const {
-  const Model* found = state_->models.find(model);
-  return found ? found->kind : ModelKind::kOther;
+ModelKind World::kind(const std::string& name) const {
+  const Model* model = state_->models.find(name);
+  return model ? model->kind : ModelKind::kOther;
 }
 
 std::uint64_t World::modelsRevision() const { return state_->models.revision; }
 
-std::optional<EntityState> World::state(const std::string& model, const std::string& link) const {
-  const Model* found = state_->models.find(model);
-  if (!found) return std::nullopt;
-  if (link.empty()) return modelState(state_->view, *found);
-  const int index = linkIndex(found, link);
+std::optional<EntityState> World::state(const std::string& name, const std::string& link) const {
+  const Model* model = state_->models.find(name);
+  if (!model) return std::nullopt;
+  if (link.empty()) return modelState(state_->view, *model);
+  const int index = linkIndex(model, link);
   if (index < 0) return std::nullopt;
-  return linkState(state_->view, *found, index);
+  return linkState(state_->view, *model, index);
 }
 
-std::shared_ptr<const ModelDescription> World::description(const std::string& model) const {
-  const Model* found = state_->models.find(model);
-  return found ? found->description : nullptr;
+std::shared_ptr<const ModelDescription> World::description(const std::string& name) const {
+  const Model* model = state_->models.find(name);
+  return model ? model->description : nullptr;
 }
 
-bool World::setState(const std::string& model, const EntityState& state) {
-  Model* found = state_->models.find(model);
-  if (!found) return false;
-  placeModel(state_->view, *found, state);
-  const int robot = found->owner->robot(state_->view, *found);
+bool World::setState(const std::string& name, const EntityState& state) {
+  Model* model = state_->models.find(name);
+  if (!model) return false;
+  placeModel(state_->view, *model, state);
+  const int robot = model->owner->robot(state_->view, *model);
   if (robot >= 0) recordPlacement(state_->view, state_->failures, robot);
   return true;
 }
@@ -92,23 +92,23 @@ void World::states(std::vector<EntityState>* out) const {
   }
 }
 
-bool World::setVelocity(const std::string& model, const Twist& twist) {
-  Model* found = state_->models.find(model);
-  if (!found || found->kind != ModelKind::kOther) return false;
-  if (!found->owner->followsBodies(*found)) return false;
+bool World::setVelocity(const std::string& name, const Twist& twist) {
+  Model* model = state_->models.find(name);
+  if (!model || model->kind != ModelKind::kOther) return false;
+  if (!model->owner->followsBodies(*model)) return false;
   if (!twist.linear.IsFinite() || !twist.angular.IsFinite()) {
-    throw DescriptionError("the velocity of '" + model + "' must be finite");
+    throw DescriptionError("the velocity of '" + name + "' must be finite");
   }
-  setModelTwist(*found, twist);
+  setModelTwist(*model, twist);
   return true;
 }
 
-bool World::setLinkState(const std::string& model, const std::string& link,
+bool World::setLinkState(const std::string& name, const std::string& link,
                          const EntityState& state) {
-  Model* found = state_->models.find(model);
-  const int index = linkIndex(found, link);
+  Model* model = state_->models.find(name);
+  const int index = linkIndex(model, link);
   if (index < 0) return false;
-  placeLink(state_->view, *found, index, state);
+  placeLink(state_->view, *model, index, state);
   return true;
 }
 
@@ -125,9 +125,9 @@ void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>
   }
 }
 
-bool World::setLinkInertia(const std::string& model, const Link& link) {
-  Model* found = state_->models.find(model);
-  const int index = linkIndex(found, link.name);
+bool World::setLinkInertia(const std::string& name, const Link& link) {
+  Model* model = state_->models.find(name);
+  const int index = linkIndex(model, link.name);
   if (index < 0) return false;
   const InertiaTensor inertia{link.principal_moments, Vector3::Zero};
   const bool is_usable =
@@ -139,7 +139,7 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
         "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
         "larger than the sum of the other two, and a centre of mass near the link");
   }
-  reweighLink(state_->view, *found, index, link);
+  reweighLink(state_->view, *model, index, link);
   return true;
 }
 

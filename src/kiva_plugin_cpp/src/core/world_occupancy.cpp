@@ -26,13 +26,13 @@ Line pointsWithin(double min, double max, double spacing) {
   return {static_cast<int>(first), std::max(0, static_cast<int>(last - first) + 1)};
 }
 
-bool isInTheWay(const Floor& floor, const Footprint& other) {
+bool isInTheWay(const FloorExtent& floor, const Footprint& other) {
   return !isLow(floor, other.z_max) && other.z_min < floor.z + kHigh;
 }
 
 /// Without a floor: all that stands there, on which nothing can drive.
-Floor withoutFloor(const Scene& world) {
-  Floor all{1e300, -1e300, 1e300, -1e300, 0};
+FloorExtent withoutFloor(const Scene& world) {
+  FloorExtent all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
     if (!model || model->owner->occupies(world, *model) != Occupancy::kTaken) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
@@ -44,7 +44,7 @@ Floor withoutFloor(const Scene& world) {
       all.max_y = std::max(all.max_y, f.y + reach);
     }
   }
-  return all.min_x < all.max_x ? all : Floor();
+  return all.min_x < all.max_x ? all : FloorExtent();
 }
 
 /// Returns whether a footprint reaches into the cell. Near a building a loaded robot needs room to
@@ -110,7 +110,7 @@ Occupancy World::occupancy() const {
   Occupancy map;
   map.spacing = world.settings.grid_spacing;
   const bool has_floor = world.floor.extent.max_x > world.floor.extent.min_x;
-  const Floor floor = has_floor ? world.floor.extent : withoutFloor(world);
+  const FloorExtent floor = has_floor ? world.floor.extent : withoutFloor(world);
   const Line x = pointsWithin(floor.min_x, floor.max_x, map.spacing);
   const Line y = pointsWithin(floor.min_y, floor.max_y, map.spacing);
   map.x = x.first * map.spacing;

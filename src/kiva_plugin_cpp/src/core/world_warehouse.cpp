@@ -48,7 +48,7 @@ Odometry World::odometry(int robot) const { return odometryOf(state_->view, robo
 double World::loadLimit(int robot) const { return kiva::loadLimit(state_->view, robot); }
 Pose World::basePose(int robot) const { return kiva::basePose(state_->view, robot); }
 std::uint64_t World::unitsRevision() const { return state_->storage.revision; }
-const Floor& World::floor() const { return state_->floor.extent; }
+const FloorExtent& World::floor() const { return state_->floor.extent; }
 double World::gridSpacing() const { return state_->settings.grid_spacing; }
 
 void World::scan(int robot, std::vector<float>* ranges) const {

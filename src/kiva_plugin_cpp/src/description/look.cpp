@@ -101,13 +101,13 @@ bool isSeen(const Link& link) { return !link.visuals.empty(); }
 
 Look lookOf(const ModelDescription& model) {
   Look out;
-  const bool seen = std::any_of(model.links.begin(), model.links.end(), isSeen);
+  const bool is_visible = std::any_of(model.links.begin(), model.links.end(), isSeen);
   for (const Link& link : model.links) {
     const int index = static_cast<int>(out.links.size());
     out.links.push_back(link.name);
     append(link.pose_in_model, &out.link_pose);
     addVisuals(index, link, &out);
-    if (seen) continue;
+    if (is_visible) continue;
     for (const Collision& c : link.collisions) {
       addShape(index, link, c.pose_in_link, c.shape, kPlain, &out);
     }

@@ -44,13 +44,13 @@ std::string range(Number lower, Number upper) {
 std::string prefix(const std::string& where) { return where.empty() ? "" : where + ": "; }
 
 template <typename Number>
-Number readNumber(const Parameters& parameters, const std::string& key, const std::string& given,
+Number readNumber(const Parameters& parameters, const std::string& key, const std::string& text,
                   const char* what, Number lower, Number upper) {
-  const auto value = parse<Number>(trimmed(given));
+  const auto value = parse<Number>(trimmed(text));
   // Written so that NaN, which compares with nothing, is refused too.
   if (value && *value >= lower && *value <= upper) return *value;
   throw DescriptionError(prefix(parameters.where()) + "parameter '" + key + "' is '" +
-                         trimmed(given) + "', expected " + what + " " + range(lower, upper));
+                         trimmed(text) + "', expected " + what + " " + range(lower, upper));
 }
 
 template <typename Keys>
@@ -64,24 +64,24 @@ std::string listed(const Keys& keys) {
 
 double Parameters::number(const std::string& key, double fallback, double lower,
                           double upper) const {
-  const std::string* given = find(key);
-  return given ? readNumber(*this, key, *given, "a number", lower, upper) : fallback;
+  const std::string* entry = find(key);
+  return entry ? readNumber(*this, key, *entry, "a number", lower, upper) : fallback;
 }
 
 int Parameters::whole(const std::string& key, int fallback, int lower, int upper) const {
-  const std::string* given = find(key);
-  return given ? readNumber(*this, key, *given, "a whole number", lower, upper) : fallback;
+  const std::string* entry = find(key);
+  return entry ? readNumber(*this, key, *entry, "a whole number", lower, upper) : fallback;
 }
 
 std::string Parameters::text(const std::string& key, const std::string& fallback) const {
-  const std::string* given = find(key);
-  return given ? trimmed(*given) : fallback;
+  const std::string* entry = find(key);
+  return entry ? trimmed(*entry) : fallback;
 }
 
 bool Parameters::flag(const std::string& key, bool fallback) const {
-  const std::string* given = find(key);
-  if (!given) return fallback;
-  const std::string text = trimmed(*given);
+  const std::string* entry = find(key);
+  if (!entry) return fallback;
+  const std::string text = trimmed(*entry);
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
   throw DescriptionError(prefix(where_) + "parameter '" + key + "' is '" + text +
@@ -90,16 +90,16 @@ bool Parameters::flag(const std::string& key, bool fallback) const {
 
 std::vector<double> Parameters::numbers(const std::string& key,
                                         const std::vector<double>& fallback) const {
-  const std::string* given = find(key);
-  if (!given) return fallback;
+  const std::string* entry = find(key);
+  if (!entry) return fallback;
   std::vector<double> out;
-  std::istringstream words(*given);
+  std::istringstream words(*entry);
   for (std::string word; words >> word;) {
     const auto value = parse<double>(word);
     if (value && std::isfinite(*value)) out.push_back(*value);
   }
   if (out.size() == fallback.size()) return out;
-  throw DescriptionError(prefix(where_) + "parameter '" + key + "' is '" + trimmed(*given) +
+  throw DescriptionError(prefix(where_) + "parameter '" + key + "' is '" + trimmed(*entry) +
                          "', expected " + std::to_string(fallback.size()) + " numbers");
 }
 
@@ -120,8 +120,8 @@ void Parameters::rejectUnread() const {
 
 const std::string* Parameters::find(const std::string& key) const {
   read_.insert(key);
-  const auto found = values_.find(key);
-  return found == values_.end() ? nullptr : &found->second;
+  const auto at = values_.find(key);
+  return at == values_.end() ? nullptr : &at->second;
 }
 
 }  // namespace kiva

@@ -115,10 +115,10 @@ class AxisSearch {
     for (const Signs& sign : kSigns) {
       const Vector2 turned1{sign.of_phi3 * g1.x, sign.of_phi2 * g1.y};
       const Vector2 turned2{g2.x, sign.of_phi2 * sign.of_phi3 * g2.y};
-      const double one = angleOf1(turned1), other = angleOf2(turned2);
-      if (!(chord(one, other) < least)) continue;
-      least = chord(one, other);
-      phi1 = one;
+      const double first_angle = angleOf1(turned1), second_angle = angleOf2(turned2);
+      if (!(chord(first_angle, second_angle) < least)) continue;
+      least = chord(first_angle, second_angle);
+      phi1 = first_angle;
       best = sign;
     }
     return turnBack(phi1, best.of_phi2 * phi2, best.of_phi3 * phi3);
@@ -205,8 +205,9 @@ bool InertiaTensor::isPossible(double mass) const {
   const Vector3 principal = principalMoments();
   const double slack = roundingOf(principal);
   for (int i = 0; i < 3; ++i) {
-    const double one = principal[i], next = principal[(i + 1) % 3], last = principal[(i + 2) % 3];
-    if (!(one + slack >= 0 && one + next + slack >= last)) return false;
+    const double moment = principal[i], next = principal[(i + 1) % 3],
+                 last = principal[(i + 2) % 3];
+    if (!(moment + slack >= 0 && moment + next + slack >= last)) return false;
   }
   return true;
 }

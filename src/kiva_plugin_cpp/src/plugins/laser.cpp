@@ -42,31 +42,31 @@ void planStop(RobotView& world, int i, double stop) {
   const double way = stop - here;
   const double usual = plannedAcceleration(world, i), hardest = plannedBraking(world, i);
   if (usual == 0) {
-    f.goal[i] = std::max(stop, here);
+    f.reference_end[i] = std::max(stop, here);
     return;
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
   const double shortest = speed * speed / (2 * hardest) + speed * world.clock.dt;
-  f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
+  f.reference_end[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
 /// What one look tells: places along the segment [m], speeds [m/s].
-struct View {
-  double reference;  // where this robot is commanded to be now
-  double goal;       // where it is to stop so far
-  double obstacle;   // where it is now
-  double approach;   // how fast it comes by itself
-  double speed;      // of this robot
-  double scan_time;  // until the next look [s]
+struct Ahead {
+  double reference;      // where this robot is commanded to be now
+  double reference_end;  // where it is to stop so far
+  double obstacle;       // where it is now
+  double approach;       // how fast it comes by itself
+  double speed;          // of this robot
+  double scan_time;      // until the next look [s]
 };
 
-View viewOf(const Scene& world, int i) {
+Ahead viewOf(const Scene& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
-  View view;
+  Ahead view;
   view.reference = f.command(i).position;
-  view.goal = f.goal[i];
+  view.reference_end = f.reference_end[i];
   view.scan_time = static_cast<double>(scanPeriod(world.clock, f.robots[i])) * world.clock.dt;
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
@@ -82,47 +82,48 @@ double usualBraking(const Scene& world, int i) {
 
 /// Returns where the obstacle is to be met: the other one comes on until it has seen this robot
 /// too, then brakes as this one does, with `braking` [m/s²].
-double expectedObstacle(const View& view, double braking) {
+double expectedObstacle(const Ahead& view, double braking) {
   return view.obstacle - 2 * view.approach * view.scan_time -
          view.approach * view.approach / (2 * braking);
 }
 
 /// Returns where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(const Scene& world, int robot, const View& view) {
-  const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
+double firstStop(const Scene& world, int robot, const Ahead& view) {
+  const auto isBehindGoal = [&](double stop) { return stop >= view.reference_end - kSoon; };
   // Most looks end here: how it can brake is worked out for the others alone.
   if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
-    return view.goal;
+    return view.reference_end;
   }
   const double usual = usualBraking(world, robot);
   const double expected = expectedObstacle(view, usual);
   const double stop = farthestStop(world, robot, expected);
-  if (isBehindGoal(stop)) return view.goal;  // its way ends before, anyway
+  if (isBehindGoal(stop)) return view.reference_end;  // its way ends before, anyway
   const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
   const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
-  return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
+  return next - view.reference > braking + kSoon ? view.reference_end
+                                                 : stop;  // while there is time
 }
 
 /// Returns the same for a robot that is stopping already: it keeps to its plan unless the place is
 /// taken by now, or even two hard stops would hardly do.
-double revisedStop(const Scene& world, int robot, const View& view) {
+double revisedStop(const Scene& world, int robot, const Ahead& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
   const double gap = view.obstacle - view.reference - halfLength(r);
   const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
                         (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
-  if (view.goal + halfLength(r) + kClearance <= view.obstacle) return view.goal;
-  return std::min(view.goal, farthestStop(world, robot, view.obstacle));
+  if (view.reference_end + halfLength(r) + kClearance <= view.obstacle) return view.reference_end;
+  return std::min(view.reference_end, farthestStop(world, robot, view.obstacle));
 }
 
 /// Returns whether a robot that brakes or stands on its path can go farther than to where it does.
 bool mayResume(const Scene& world, int i) {
   const Task& task = world.fleet.tasks[i];
-  const View view = viewOf(world, i);
+  const Ahead view = viewOf(world, i);
   if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
   const double expected = expectedObstacle(view, usualBraking(world, i));
-  return farthestStop(world, i, expected) > view.goal + kSoon;
+  return farthestStop(world, i, expected) > view.reference_end + kSoon;
 }
 
 void brake(TaskView& world, int i) {
@@ -131,11 +132,11 @@ void brake(TaskView& world, int i) {
   const bool is_obstructed = task.isHeldUp() || task.phase == Phase::kBraking;
   if (task.follows() && is_obstructed && mayResume(world, i)) return resumePath(world, i);
   if (!task.drives() || task.sighting.model < 0) return;
-  const View view = viewOf(world, i);
+  const Ahead view = viewOf(world, i);
   if (view.obstacle >= reachOfInterest(world, i)) return;
   const bool brakes = task.phase == Phase::kBraking;
   const double stop = brakes ? revisedStop(world, i, view) : firstStop(world, i, view);
-  if (stop == view.goal) return;
+  if (stop == view.reference_end) return;
   const std::string& name = world.models[task.sighting.model]->name;
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);

@@ -16,27 +16,28 @@
 namespace kiva {
 namespace {
 
-constexpr double kAlongGain = 10;    // [1/s] speed for distance lagged
-constexpr double kHeadingGain = 8;   // [1/s] yaw rate for heading error
-constexpr double kLineGain = 8;      // [1/m²] yaw rate for distance off the line and speed
-constexpr double kStuck = 0.15;      // [m] behind the profile
-constexpr double kSlid = 0.02;       // [m] off the profile, from which on wheels must have slipped
-constexpr double kHeldSlid = 0.001;  // [m] the same of a robot that is stopped
-constexpr double kLeastPlanned = 0.03;  // [m/s²] that it plans with where nothing grips
-constexpr double kMargin = 0.002;       // [m] of room beside a robot that backs to its goal
-constexpr double kRecoverSpeed = 0.3;   // [m/s] back to the grid
-constexpr double kSquare = 0.005;       // [rad] off its line as which a drive may end
-// None that a profile ends with: acceleration · dt is a round number.
-constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
+constexpr double kAlongGain = 10;       // speed a metre of lag [1/s]
+constexpr double kHeadingGain = 8;      // yaw rate a radian of heading error [1/s]
+constexpr double kLineGain = 8;         // yaw rate a metre off the line and m/s [rad/m²]
+constexpr double kStuck = 0.15;         // lag behind the profile of a robot that is stuck [m]
+constexpr double kSlid = 0.02;          // deviation from the profile that proves slip [m]
+constexpr double kHeldSlid = 0.001;     // the same for a stopped robot [m]
+constexpr double kLeastPlanned = 0.03;  // smallest planned acceleration, where nothing grips [m/s²]
+constexpr double kMargin = 0.002;       // room beside a robot that backs to its goal [m]
+constexpr double kRecoverSpeed = 0.3;   // speed on the way back to the grid [m/s]
+constexpr double kSquare = 0.005;       // largest heading error at the end of a drive [rad]
+// Largest speed of a robot at rest [m/s, rad/s]. No profile ends with it: acceleration · dt is
+// round.
+constexpr double kStill = 1.1e-4;
 
 struct OnLine {
-  double along;    // seen from where the reference is measured from [m]
-  double across;   // left of the line [m]
-  double speed;    // along the line [m/s]
-  double heading;  // off the line's [rad]
+  double along;    // distance along the line, from the origin of the reference [m]
+  double across;   // distance to the left of the line [m]
+  double speed;    // speed along the line [m/s]
+  double heading;  // heading relative to the line [rad]
 };
 
-/// Returns where the robot believes to be on that line.
+/// Returns the robot's estimated place on that line.
 OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
   const PlanarPose at = f.believed(i);
@@ -48,7 +49,7 @@ void begin(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
-  f.goal[i] = f.tasks[i].segments.front().goal;
+  f.reference_end[i] = f.tasks[i].segments.front().length;
   f.acceleration[i] = f.deceleration[i] = plannedAcceleration(world, i);
 }
 
@@ -57,15 +58,15 @@ ReferenceMotion alongLine(const MotionSegment& segment, double top_speed, double
 }
 
 bool arrived(const FleetState& f, int i, const OnLine& at) {
-  return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < kThereDistance &&
-         stands(f, i);
+  return f.reference[i] == f.reference_end[i] &&
+         std::abs(at.along - f.reference_end[i]) < kThereDistance && stands(f, i);
 }
 
 /// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
 bool giveUp(TaskView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
-  if (f.reference[i] == f.goal[i]) overdue += world.clock.dt;
+  if (f.reference[i] == f.reference_end[i]) overdue += world.clock.dt;
   const double lag = std::abs(f.reference[i] - at.along);
   if (lag < kStuck && overdue < kOverdue) return false;
   haltRobot(world, i, "", "is stuck: its wheels turn or stall without getting it on");
@@ -83,7 +84,7 @@ double allowedSpeed(const Scene& world, int i) {
 /// Returns the heading error to correct. At its goal a robot leaves the error that the last code
 /// showed to the next drive or turn: to correct it would take half a second of each stop.
 double headingToMend(const FleetState& f, int i, double heading) {
-  const bool is_there = f.localises && f.reference[i] == f.goal[i];
+  const bool is_there = f.localises && f.reference[i] == f.reference_end[i];
   return is_there && std::abs(heading) < kSquare ? 0 : heading;
 }
 
@@ -107,7 +108,7 @@ void feelSlip(RobotView& world, int i, const OnLine& at) {
 /// Returns whether the robot is past its goal and slides on.
 bool overshoots(const Scene& world, int i, const MotionSegment& segment, const OnLine& at) {
   const double sign = segment.reverse ? -1 : 1;
-  return sign * (at.along - world.fleet.goal[i]) > kSlid && sign * at.speed > kStill &&
+  return sign * (at.along - world.fleet.reference_end[i]) > kSlid && sign * at.speed > kStill &&
          isPatchy(world);
 }
 
@@ -167,7 +168,7 @@ void driveSegment(MotionView& world, int i) {
   feelSlip(world, i, at);
   if (giveUp(world, i, at)) return;
   const double lag = f.reference[i] - at.along;
-  const double past = segment.reverse ? 0 : f.reference[i] - f.goal[i];
+  const double past = segment.reverse ? 0 : f.reference[i] - f.reference_end[i];
   if (past > kSlid && stands(f, i) && isCutOff(world, i, past)) return;
   const bool backs = past > 0;
   const bool is_sure = segment.on_grid && !backs && !(f.localises && f.localisation[i].lost);
@@ -180,7 +181,7 @@ void driveSegment(MotionView& world, int i) {
     return;
   }
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.clock.dt);
+  command.advance(f.reference_end[i], top, f.acceleration[i], f.deceleration[i], world.clock.dt);
   f.follow(i, command);
   followLine(f, i, at, lag, f.reference_speed[i]);  // behind the reference as it was
 }

@@ -86,12 +86,12 @@ void turnSegment(MotionView& world, int i) {
     task.phase = Phase::kTurning;
     const double yaw = f.believed(i).yaw;
     f.setProfile(i, {yaw, f.yaw_rate[i]});
-    f.goal[i] = task.segments.front().yaw;
-    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - yaw));
+    f.reference_end[i] = task.segments.front().yaw;
+    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.reference_end[i] - yaw));
   }
   feelGrip(world, i);
   const double lag = f.reference[i] - f.believed(i).yaw;
-  const bool ended = f.reference[i] == f.goal[i];
+  const bool ended = f.reference[i] == f.reference_end[i];
   if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
@@ -104,7 +104,7 @@ void turnSegment(MotionView& world, int i) {
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
   if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, acceleration, acceleration, world.clock.dt);
+  command.advance(f.reference_end[i], top, acceleration, acceleration, world.clock.dt);
   f.follow(i, command);
   setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }

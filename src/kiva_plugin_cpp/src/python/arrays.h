@@ -49,21 +49,21 @@ template <typename T>
 class Numbers {
  public:
   Numbers(const char* name, const ArrayLike& value) : name_(name) {
-    const py::array given = py::array::ensure(value);
-    const char kind = given ? given.dtype().kind() : 'O';
+    const py::array array = py::array::ensure(value);
+    const char kind = array ? array.dtype().kind() : 'O';
     const bool fits = kind == 'i' || kind == 'u' || (kind == 'f' && std::is_floating_point_v<T>);
     if (!fits) {
       PyErr_Clear();
       throw py::type_error(std::string(name) + ": expected " +
                            (std::is_floating_point_v<T> ? "numbers" : "whole numbers") + ", not " +
-                           (given ? text(given.dtype()) : text(py::type::of(value))));
+                           (array ? text(array.dtype()) : text(py::type::of(value))));
     }
-    if (given.ndim() > 1) {
+    if (array.ndim() > 1) {
       throw py::value_error(std::string(name) + ": expected a number or an array of shape (n,)," +
-                            " not " + text(given.attr("shape")));
+                            " not " + text(array.attr("shape")));
     }
-    values_ = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(given);
-    if constexpr (std::is_integral_v<T>) checkRange(given);
+    values_ = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(array);
+    if constexpr (std::is_integral_v<T>) checkRange(array);
   }
 
   const char* name() const { return name_; }
@@ -73,10 +73,10 @@ class Numbers {
   const T* data() const { return values_.data(); }
 
  private:
-  void checkRange(const py::array& given) const {
-    const bool is_small = given.dtype().itemsize() < static_cast<py::ssize_t>(sizeof(T));
-    if (is_small && (std::is_signed_v<T> || given.dtype().kind() == 'u')) return;
-    const py::object same = values_.attr("__eq__")(given).attr("all")();
+  void checkRange(const py::array& array) const {
+    const bool is_small = array.dtype().itemsize() < static_cast<py::ssize_t>(sizeof(T));
+    if (is_small && (std::is_signed_v<T> || array.dtype().kind() == 'u')) return;
+    const py::object same = values_.attr("__eq__")(array).attr("all")();
     if (!same.cast<bool>()) {
       throw py::value_error(std::string(name_) + ": a value is too large for 32 bits" +
                             (std::is_signed_v<T> ? "" : ", or negative"));

@@ -179,7 +179,7 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
   world.def_property_readonly("grid_spacing", guarded([](World& w) { return w.gridSpacing(); }),
                               "Spacing of the grid points on which robots stand [m].");
   world.def_property_readonly("floor", guarded([](World& w) {
-                                const Floor& f = w.floor();
+                                const FloorExtent& f = w.floor();
                                 return py::make_tuple(f.min_x, f.max_x, f.min_y, f.max_y);
                               }),
                               "The floor: (min_x, max_x, min_y, max_y) in world [m].");

@@ -87,8 +87,8 @@ void Worlds::restore(const ArrayLike& which, const Checkpoints& checkpoints) {
   const Numbers<std::int32_t> worlds("world", which);
   const auto count = static_cast<std::size_t>(worlds.size());
   std::vector<std::string> bytes;
-  if (const auto* one = std::get_if<py::bytes>(&checkpoints)) {
-    bytes.assign(1, *one);
+  if (const auto* single = std::get_if<py::bytes>(&checkpoints)) {
+    bytes.assign(1, *single);
   } else {
     for (const py::bytes& each : std::get<1>(checkpoints)) bytes.push_back(each);
   }

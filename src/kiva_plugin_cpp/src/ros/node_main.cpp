@@ -82,7 +82,7 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
            world.name().c_str(), settings.world_file.c_str(), world.fleet().size(),
            world.storageUnits().size(), world.items().size(), world.stepSize(),
            rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as possible");
-  const kiva::Floor& floor = world.floor();
+  const kiva::FloorExtent& floor = world.floor();
   if (floor.min_x < floor.max_x) return;
   ROS_WARN(
       "%s has no floor: nothing in it that stands still is level within 10 cm of z = 0, so that "

@@ -15,8 +15,8 @@ namespace kiva {
 /// A model of its own file.
 struct LibraryModel {
   std::string name;
-  Pose pose;       ///< As its file has it, in world.
-  Pose placement;  ///< Of the model, in its placement frame: what an include's pose is about.
+  Pose pose;       ///< Pose in world by its file.
+  Pose placement;  ///< Pose of the model in its placement frame, to which an include's pose refers.
   std::shared_ptr<const ModelDescription> description;  ///< Null: the file holds no model,
   std::optional<Light> light;                           ///< but a light, say.
   std::vector<std::string> warnings;

@@ -46,12 +46,12 @@ void addModel(const XmlElement& model, const Origin& origin, std::vector<ModelIn
 
 /// The one that is marked as the default, else the first.
 const XmlElement* physicsOf(const XmlElement& world) {
-  const XmlElement* found = nullptr;
+  const XmlElement* physics_element = nullptr;
   forEach(world, "physics", [&](const XmlElement& physics) {
     const bool is_default = readFlag(attributeOf(physics, "default")).value_or(false);
-    if (!found || is_default) found = &physics;
+    if (!physics_element || is_default) physics_element = &physics;
   });
-  return found;
+  return physics_element;
 }
 
 void setPhysics(const XmlElement& from, WorldDescription* world) {
@@ -245,13 +245,13 @@ class Reading {
 
   /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
   const LibraryModel* library(const std::string& uri) {
-    auto [found, is_new] = models_.try_emplace(uri);
-    if (!is_new) return found->second.get();
+    auto [entry, is_new] = models_.try_emplace(uri);
+    if (!is_new) return entry->second.get();
     const std::string folder = findModel(uri, model_paths_);
     if (folder.empty()) return nullptr;
-    found->second = libraryModel(folder, model_paths_);
-    for (const std::string& warning : found->second->warnings) warn(warning);
-    return found->second.get();
+    entry->second = libraryModel(folder, model_paths_);
+    for (const std::string& warning : entry->second->warnings) warn(warning);
+    return entry->second.get();
   }
 
   std::string at(const Include& include) const {

@@ -75,15 +75,15 @@ struct Plan {
 };
 
 /// A robot's place in a plan.
-struct State {
+struct GridPose {
   Cell cell = kNowhere;
   Heading heading = 0;
-  bool operator==(const State& other) const {
+  bool operator==(const GridPose& other) const {
     return cell == other.cell && heading == other.heading;
   }
 };
 /// Returns where `action` leads on an open floor, allowed or not; kNowhere beyond its edge.
-State after(const Floor& floor, State state, Action action);
+GridPose after(const Floor& floor, GridPose state, Action action);
 
 /// Throws FloorError if a robot stands in a wall, two stand in one cell, a goal is off the floor,
 /// or lengths differ. The message has `names`, or "robot <index>".

@@ -186,12 +186,12 @@ plan. Raises FloorError if the plan is not one action for each robot and tick.)"
 }
 
 std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& rules,
-                                    std::uint64_t seed, const py::kwargs& given) {
+                                    std::uint64_t seed, const py::kwargs& keywords) {
   EpibtOptions options;
   const auto set = [&](const char* name, auto& value) {
-    if (!given.contains(name)) return;
-    value = given[name].cast<std::decay_t<decltype(value)>>();
-    given.attr("pop")(name);
+    if (!keywords.contains(name)) return;
+    value = keywords[name].cast<std::decay_t<decltype(value)>>();
+    keywords.attr("pop")(name);
   };
   set("depth", options.depth);
   set("horizon", options.horizon);
@@ -214,7 +214,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("resting", options.resting);
   set("at_lanes", options.at_lanes);
   set("memory", options.memory);
-  for (const auto& unknown : given) {
+  for (const auto& unknown : keywords) {
     throw py::type_error("no such option: " + unknown.first.cast<std::string>());
   }
   return std::make_unique<Started>(makeEpibt(options), std::move(floor), rules, seed);

@@ -253,8 +253,8 @@ class Warehouse {
   double runUntilIdle(int id, double deadline = 120, const std::function<void()>& each = {}) {
     return runUntil([this, id] { return status(id) == Status::kIdle; }, deadline, each);
   }
-  double runUntilState(int id, State wanted, double deadline = 120) {
-    return runUntil([this, id, wanted] { return state(id) == wanted; }, deadline);
+  double runUntilState(int id, State expected, double deadline = 120) {
+    return runUntil([this, id, expected] { return state(id) == expected; }, deadline);
   }
   /// Takes what happened into `events` and `changes`.
   void collect() {
@@ -269,9 +269,9 @@ class Warehouse {
 
   // --- robots
   int index(int id) const {
-    const int found = world.fleet().find(id);
-    if (found < 0) throw std::logic_error("no kiva" + std::to_string(id));
-    return found;
+    const int robot = world.fleet().find(id);
+    if (robot < 0) throw std::logic_error("no kiva" + std::to_string(id));
+    return robot;
   }
   double x(int id) const { return world.fleet().x[index(id)]; }
   double y(int id) const { return world.fleet().y[index(id)]; }
@@ -315,9 +315,9 @@ class Warehouse {
   // --- what happened
   /// How many events of that kind there were; of one model only, if it is named.
   int count(Event::Kind kind, const std::string& model = "") const {
-    int found = 0;
-    for (const Event& e : events) found += e.kind == kind && (model.empty() || e.model == model);
-    return found;
+    int count = 0;
+    for (const Event& e : events) count += e.kind == kind && (model.empty() || e.model == model);
+    return count;
   }
   /// The last one of that kind; an empty event if there was none.
   Event last(Event::Kind kind) const {

@@ -60,9 +60,9 @@ class Errands {
   Cell anyFree() { return free_[random_() % free_.size()]; }
 
   bool drive(int robot) {
-    const State before{fleet.cell[robot], fleet.heading[robot]};
+    const GridPose before{fleet.cell[robot], fleet.heading[robot]};
     const bool is_stopped = fleet.isStopped(robot);
-    const State state = is_stopped ? before : after(floor, before, plan_.at(robot, 0));
+    const GridPose state = is_stopped ? before : after(floor, before, plan_.at(robot, 0));
     fleet.cell[robot] = state.cell;
     fleet.heading[robot] = state.heading;
     ++since[robot];

@@ -96,10 +96,10 @@ class Shift {
     giveGoals();
     commit();
     planner_->plan(fleet, budget, plan);
-    const auto found = validate(floor, fleet, plan, rules_);
-    for (const Violation& violation : found) ADD_FAILURE() << describe(violation, floor);
+    const auto violations = validate(floor, fleet, plan, rules_);
+    for (const Violation& violation : violations) ADD_FAILURE() << describe(violation, floor);
     drive();
-    return found.empty();
+    return violations.empty();
   }
 
   const Floor floor;
@@ -150,7 +150,7 @@ class Shift {
 
   void drive() {
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;

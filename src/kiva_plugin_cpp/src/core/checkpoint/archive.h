@@ -154,7 +154,7 @@ class Archive : public Bytes {
 
   template <typename... Fields>
   Archive& operator()(Fields&... fields) {
-    (one(fields), ...);
+    (transfer(fields), ...);
     return *this;
   }
 
@@ -168,8 +168,8 @@ class Archive : public Bytes {
   /// A pose that is mostly equal to another one, which was described before it.
   void mostly(Pose& pose, const Pose& usual) {
     bool differs = !kReads && numbersOf(pose) != numbersOf(usual);
-    one(differs);
-    if (differs) return one(pose);
+    transfer(differs);
+    if (differs) return transfer(pose);
     if constexpr (kReads) pose = usual;
   }
 
@@ -181,12 +181,12 @@ class Archive : public Bytes {
   void inField(Name name, T& field) {
     if constexpr (kReads) {
       try {
-        one(field);
+        transfer(field);
       } catch (const ArchiveError& error) {
         throw error.in(name());
       }
     } else {
-      one(field);
+      transfer(field);
     }
   }
 
@@ -203,7 +203,7 @@ class Archive : public Bytes {
 
   static std::string indexed(std::size_t i) { return "[" + std::to_string(i) + "]"; }
 
-  void one(bool& value) {
+  void transfer(bool& value) {
     auto byte = static_cast<std::uint8_t>(value);
     this->raw(&byte, 1);
     if constexpr (kReads) {
@@ -213,33 +213,33 @@ class Archive : public Bytes {
   }
 
   template <typename T>
-  void one(Within<T>& field) {
-    one(field.value, field.least, field.most);
+  void transfer(Within<T>& field) {
+    transfer(field.value, field.least, field.most);
   }
 
   template <typename T>
-  void one(T& value, double least, double most) {
+  void transfer(T& value, double least, double most) {
     static_assert(std::is_arithmetic_v<T>);
     this->raw(&value, sizeof value);
     if constexpr (kReads) check(static_cast<double>(value), least, most);
   }
 
   template <typename T, typename Allocator>
-  void one(std::vector<T, Allocator>& list, double least, double most) {
+  void transfer(std::vector<T, Allocator>& list, double least, double most) {
     plain(list);
     for (std::size_t i = 0; kReads && i < list.size(); ++i) {
       checkIn(static_cast<double>(list[i]), i, least, most);
     }
   }
 
-  void one(std::vector<bool>& flags) {
+  void transfer(std::vector<bool>& flags) {
     std::vector<std::uint8_t> bytes(flags.begin(), flags.end());
-    one(bytes);
+    transfer(bytes);
     if constexpr (kReads) flags.assign(bytes.begin(), bytes.end());
   }
 
   template <typename T>
-  void one(T& value) {
+  void transfer(T& value) {
     if constexpr (kIsPlain<T>) {
       this->raw(&value, sizeof value);
       if constexpr (kReads) check(value);
@@ -249,26 +249,26 @@ class Archive : public Bytes {
   }
 
   template <typename T, std::size_t N>
-  void one(T (&values)[N]) {
+  void transfer(T (&values)[N]) {
     for (std::size_t i = 0; i < N; ++i) inField([i] { return indexed(i); }, values[i]);
   }
 
   template <typename T>
-  void one(std::optional<T>& value) {
+  void transfer(std::optional<T>& value) {
     bool has = value.has_value();
-    one(has);
+    transfer(has);
     if constexpr (kReads) value = has ? std::optional<T>(std::in_place) : std::nullopt;
-    if (has) one(*value);
+    if (has) transfer(*value);
   }
 
-  void one(std::string& text) {
+  void transfer(std::string& text) {
     const std::size_t size = count(text.size());
     if constexpr (kReads) text.resize(size);
     this->raw(text.data(), size);
   }
 
   template <typename T, typename Allocator>
-  void one(std::vector<T, Allocator>& list) {
+  void transfer(std::vector<T, Allocator>& list) {
     if constexpr (kIsPlain<T>) {
       plain(list);
       for (std::size_t i = 0; kReads && i < list.size(); ++i) checkIn(list[i], i);
@@ -296,7 +296,7 @@ class Archive : public Bytes {
   }
 
   template <typename T>
-  void one(std::deque<T>& list) {
+  void transfer(std::deque<T>& list) {
     each(list);
   }
 
@@ -309,7 +309,7 @@ class Archive : public Bytes {
       for (std::size_t i = 0; i < size; ++i)
         inField([i] { return indexed(i); }, list.emplace_back());
     } else {
-      for (auto& element : list) one(element);
+      for (auto& element : list) transfer(element);
     }
   }
 
@@ -341,12 +341,12 @@ template <class A>
 void describe(A& a, Pose& pose) {
   static const std::array<std::uint64_t, 7> identity = numbersOf(Pose::Zero);
   std::array<std::uint64_t, 7> numbers = numbersOf(pose);
-  std::uint8_t given = 0;
-  for (int i = 0; i < 7; ++i) given |= (numbers[i] != identity[i]) << i;
-  a(given);
+  std::uint8_t is_present = 0;
+  for (int i = 0; i < 7; ++i) is_present |= (numbers[i] != identity[i]) << i;
+  a(is_present);
   for (int i = 0; i < 7; ++i) {
     if (A::kReads) numbers[i] = identity[i];
-    if (given & (1 << i)) a(numbers[i]);
+    if (is_present & (1 << i)) a(numbers[i]);
   }
   if constexpr (A::kReads) {
     double n[7];

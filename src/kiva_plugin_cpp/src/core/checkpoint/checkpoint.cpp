@@ -134,7 +134,7 @@ void describeInbox(A& a, Inbox& inbox) {
     commands.push_back(pending.command);
     if (pending.command.kind == Command::Kind::kFollow) paths.push_back(pending.path);
   }
-  FIELDS(inbox.last_number, commands, paths);
+  FIELDS(inbox.last_command, commands, paths);
   if constexpr (A::kReads) pairUp(std::move(commands), std::move(paths), &inbox);
 }
 

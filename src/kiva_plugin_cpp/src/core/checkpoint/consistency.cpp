@@ -398,10 +398,10 @@ void checkLists(const WorldState& world) {
             "there is no such waypoint");
   }
   for (std::size_t i = 0; i < world.fallen.items.size(); ++i) {
-    const OffShelf& one = world.fallen.items[i];
-    const Model* item = modelAt(world, one.item);
-    const Model* unit = modelAt(world, one.unit);
-    require(item && item->kind == ModelKind::kItem && item->in_physics == one.lies, "off_shelf", i,
+    const OffShelf& off = world.fallen.items[i];
+    const Model* item = modelAt(world, off.item);
+    const Model* unit = modelAt(world, off.unit);
+    require(item && item->kind == ModelKind::kItem && item->in_physics == off.lies, "off_shelf", i,
             "item", "there is no such item");
     require(unit && unit->kind == ModelKind::kStorageUnit, "off_shelf", i, "unit",
             "there is no such storage unit");

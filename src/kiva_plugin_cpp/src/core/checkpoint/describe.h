@@ -168,7 +168,7 @@ void describe(A& a, LaserParameters& l) {
 template <class A>
 void describe(A& a, MotionSegment& l) {
   DESCRIBED(MotionSegment, 9);
-  FIELDS(l.kind, l.x, l.y, l.goal, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+  FIELDS(l.kind, l.x, l.y, l.length, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
 }
 
 template <class A>
@@ -192,9 +192,9 @@ void describe(A& a, ReleasedPath& p) {
 template <class A>
 void describe(A& a, Task& t) {
   DESCRIBED(Task, 13);
-  FIELDS(t.phase, t.command, t.goal, t.segments, t.path, t.cancelled, t.overdue,
+  FIELDS(t.phase, t.command, t.request, t.segments, t.path, t.cancelled, t.overdue,
          within(t.stop_at, -kEndless, kEndless), t.sighting, t.last_sighting, t.blocked_by,
-         t.blocked_reason, t.reported_shelf);
+         t.blocked_reason, t.reported_unit_id);
 }
 
 template <class A>
@@ -279,7 +279,7 @@ void describe(A& a, FleetState& f) {
          f.left, within(f.stopped, 0, 1), within(f.awake, 0, 1), within(f.activated, 0, 1),
          within(f.clear_until, -kEndless, kEndless), within(f.attend_at, -kEndless, kEndless),
          within(f.wedged_until, -kEndless, kEndless));
-  FIELDS(f.reference, f.reference_speed, f.goal, f.deceleration);
+  FIELDS(f.reference, f.reference_speed, f.reference_end, f.deceleration);
   FIELDS(within(f.cruising, -1, 0), f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed,
          f.acceleration);
   FIELDS(f.robots, f.index_of_id, f.tasks);
@@ -508,7 +508,7 @@ void describe(A& a, StatusChange& s) {
 template <class A>
 void describe(A& a, TouchingPair& t) {
   DESCRIBED(TouchingPair, 6);
-  FIELDS(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
+  FIELDS(t.model_a, t.model_b, t.last_step, t.impact, t.report_at, t.report_latest);
 }
 
 template <class A>
@@ -567,8 +567,8 @@ void describe(A& a, PluginState& p) {
 }
 
 template <class A>
-void describe(A& a, Floor& f) {
-  DESCRIBED(Floor, 5);
+void describe(A& a, FloorExtent& f) {
+  DESCRIBED(FloorExtent, 5);
   FIELDS(f.min_x, f.max_x, f.min_y, f.max_y, f.z);
 }
 

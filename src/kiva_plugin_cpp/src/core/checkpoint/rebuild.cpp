@@ -196,7 +196,7 @@ void rebuild(WorldState& world, const PhysicsState& state) {
   for (const ModelInPhysics& model : state.models) buildModel(world, model);
   writeContacts(world, state.contacts);
   rebuildObstacles(world, state);
-  if (!fixturesCameFirst(world, state)) world.origin = Origin();
+  if (!fixturesCameFirst(world, state)) world.origin = CheckpointOrigin();
   world.origin.fixtures = world.physics.fixtureChanges();
 }
 

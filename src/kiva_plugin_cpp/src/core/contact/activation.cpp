@@ -146,7 +146,7 @@ void release(ContactView& world) {
 
 /// Most blocks of a large fleet have none, and cost little.
 __attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
-    const std::uint8_t* awake, const std::int64_t* cruising, int count, std::vector<int>* found) {
+    const std::uint8_t* awake, const std::int64_t* cruising, int count, std::vector<int>* robots) {
   constexpr int kBlock = 16;
   for (int begin = 0; begin < count; begin += kBlock) {
     const int end = std::min(begin + kBlock, count);
@@ -154,16 +154,16 @@ __attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
     for (int i = begin; i < end; ++i) any |= awake[i] & ~cruising[i];
     if (any == 0) continue;
     for (int i = begin; i < end; ++i) {
-      if (awake[i] && cruising[i] == 0) found->push_back(i);
+      if (awake[i] && cruising[i] == 0) robots->push_back(i);
     }
   }
 }
 
 void findSteppedSingly(const Scene& world, StepSchedule& schedule) {
   const FleetState& f = world.fleet;
-  std::vector<int>* found = &schedule.stepped_singly;
-  found->clear();
-  findSteppedSingly(f.awake.data(), f.cruising.data(), f.size(), found);
+  std::vector<int>* robots = &schedule.stepped_singly;
+  robots->clear();
+  findSteppedSingly(f.awake.data(), f.cruising.data(), f.size(), robots);
 }
 
 }  // namespace

@@ -86,15 +86,15 @@ void publishCollision(const Scene& world, ContactLog& contact_log, EventLog& log
     std::swap(a, b);
     impact.normal = -impact.normal;
   }
-  pair->tell_at = 0;
+  pair->report_at = 0;
   log.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
   noteCrash(world, contact_log, *a, *b);
   noteCrash(world, contact_log, *b, *a);
 }
 
-void tellWhatIsOver(const Scene& world, ContactLog& contact_log, EventLog& log) {
+void reportEnded(const Scene& world, ContactLog& contact_log, EventLog& log) {
   for (TouchingPair& pair : contact_log.touching) {
-    if (pair.tell_at == 0 || pair.tell_at > world.clock.total_steps) continue;
+    if (pair.report_at == 0 || pair.report_at > world.clock.total_steps) continue;
     noteJolts(world, contact_log, pair);
     publishCollision(world, contact_log, log, &pair);
   }
@@ -118,10 +118,11 @@ void touch(ContactView& world, const Contact& contact) {
   }
   TouchingPair& pair = pairOf(world, world.contact_log, contact);
   pair.last_step = world.clock.total_steps;
-  if (pair.tell_at == 0) return;
+  if (pair.report_at == 0) return;
   pair.impact.impulse += contact.impulse;
   if (contact.nearing <= std::max(kNearing, kShare * pair.impact.speed)) return;
-  pair.tell_at = std::min(pair.tell_latest, world.clock.total_steps + world.clock.stepsIn(kQuiet));
+  pair.report_at =
+      std::min(pair.report_latest, world.clock.total_steps + world.clock.stepsIn(kQuiet));
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ void observeCollisions(ContactView& world) {
     if (isCollision(world, contact)) touch(world, contact);
   }
   rock(world, world.models);
-  tellWhatIsOver(world, world.contact_log, world.log);
+  reportEnded(world, world.contact_log, world.log);
   const auto keep = world.clock.stepsIn(kForget);
   const auto over = [&](const TouchingPair& pair) {
     return pair.last_step + keep < world.clock.total_steps && areApart(world, pair);
@@ -148,7 +149,7 @@ void forgetContacts(const Scene& world, ContactLog& contact_log, EventLog& log, 
     return slot < 0 || pair.model_a == slot || pair.model_b == slot;
   };
   for (TouchingPair& pair : contact_log.touching) {
-    if (has(pair) && pair.tell_at > 0) publishCollision(world, contact_log, log, &pair);
+    if (has(pair) && pair.report_at > 0) publishCollision(world, contact_log, log, &pair);
   }
   contact_log.touching.erase(
       std::remove_if(contact_log.touching.begin(), contact_log.touching.end(), has),

@@ -30,16 +30,16 @@ template <typename Input>
 void applyDue(ContactView& world, std::vector<Input>* all) {
   if (all->empty()) return;
   const double now = world.clock.time();
-  for (const Input& one : *all) {
-    if (hasBegun(one.period, now) && !isOver(one.period, now)) apply(world, one);
+  for (const Input& input : *all) {
+    if (hasBegun(input.period, now) && !isOver(input.period, now)) apply(world, input);
   }
-  const auto over = [now](const Input& one) { return isOver(one.period, now); };
+  const auto over = [now](const Input& input) { return isOver(input.period, now); };
   all->erase(std::remove_if(all->begin(), all->end(), over), all->end());
 }
 
 template <typename Input>
 void forget(const std::string& model, std::vector<Input>* all) {
-  const auto of = [&](const Input& one) { return one.model == model; };
+  const auto of = [&](const Input& input) { return input.model == model; };
   all->erase(std::remove_if(all->begin(), all->end(), of), all->end());
 }
 

@@ -85,7 +85,7 @@ double leastSupport(const std::vector<Foot>& feet) {
   return least;
 }
 
-Rocking rockingOf(const Settings& settings, const btRigidBody& body,
+Rocking rockingOf(const WorldSettings& settings, const btRigidBody& body,
                   const std::vector<Foot>& feet) {
   Rocking r;
   r.weight = body.getMass() * settings.gravityDown();

@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kLookAgain = 0.5;  // [s] between two searches for a way back
 
-struct Plan {
+struct CommandPlan {
   std::deque<MotionSegment> segments;
   std::string text;
   std::string other;
 };
 
-double checkedDistance(const Settings& settings, double distance) {
+double checkedDistance(const WorldSettings& settings, double distance) {
   if (!std::isfinite(distance)) {
     throw Refusal(format("distance %g: a finite number of metres was expected", distance));
   }
@@ -32,7 +32,7 @@ double checkedDistance(const Settings& settings, double distance) {
       format("distance %g m is not a whole number of %g m cells", distance, settings.grid_spacing));
 }
 
-Plan planMoveTo(const Scene& world, int robot, const Command& command) {
+CommandPlan planMoveTo(const Scene& world, int robot, const Command& command) {
   checkMotion(world.fleet, robot);
   const Point goal{checkedGoal(world.settings, command.x, 'x'),
                    checkedGoal(world.settings, command.y, 'y')};
@@ -43,7 +43,7 @@ Plan planMoveTo(const Scene& world, int robot, const Command& command) {
   return {route.takeSegments(), format("go to (%g, %g)", goal.x, goal.y), ""};
 }
 
-Plan planMoveAlong(const Scene& world, int robot, int axis, double asked) {
+CommandPlan planMoveAlong(const Scene& world, int robot, int axis, double asked) {
   checkMotion(world.fleet, robot);
   const double distance = checkedDistance(world.settings, asked);
   Route route(world, robot);
@@ -54,7 +54,7 @@ Plan planMoveAlong(const Scene& world, int robot, int axis, double asked) {
   return {route.takeSegments(), format("go %g m along %c", distance, axis == 0 ? 'x' : 'y'), ""};
 }
 
-Plan planRotate(const Scene& world, int robot, int direction) {
+CommandPlan planRotate(const Scene& world, int robot, int direction) {
   if (direction != 1 && direction != -1) {
     throw Refusal(
         format("direction %d: 1 (counterclockwise) or -1 (clockwise) was expected", direction));
@@ -105,7 +105,7 @@ int carriedUnit(const FleetState& fleet, int robot) {
   return unit;
 }
 
-Plan planLift(const Scene& world, int robot, const Command& command) {
+CommandPlan planLift(const Scene& world, int robot, const Command& command) {
   if (!world.fleet.robots[robot].lift.fitted) throw Refusal("it has no lift plugin");
   if (command.lift != 0 && command.lift != 1) {
     throw Refusal(format("status %d: 1 (carry) or 0 (drop) was expected", command.lift));
@@ -121,7 +121,7 @@ Plan planLift(const Scene& world, int robot, const Command& command) {
   return {route.takeSegments(), (carry ? "carry " : "drop ") + name, name};
 }
 
-Plan plan(const Scene& world, int robot, const Command& command) {
+CommandPlan plan(const Scene& world, int robot, const Command& command) {
   switch (command.kind) {
     case Command::Kind::kMoveTo:
       return planMoveTo(world, robot, command);
@@ -150,10 +150,10 @@ void checkIdle(const FleetState& fleet, int robot) {
   throw Refusal(std::string("it is not idle but ") + stateName(fleet.state[robot]));
 }
 
-void start(TaskView& world, int robot, std::uint32_t number, Plan plan) {
+void start(TaskView& world, int robot, std::uint32_t number, CommandPlan plan) {
   Task& task = world.fleet.tasks[robot];
   task.command = number;
-  task.goal = plan.text;
+  task.request = plan.text;
   reportCommand(world, world.log, Event::Kind::kAccepted, robot, plan.other, plan.text);
   beginTask(world, robot, std::move(plan.segments));
 }
@@ -203,13 +203,13 @@ void obey(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& co
   if (follows && changesPath(world.fleet, robot, path))
     return changePath(world, obstacles, robot, path);
   checkIdle(world.fleet, robot);
-  const std::uint32_t number = inbox.last_number + 1;
+  const std::uint32_t number = inbox.last_command + 1;
   if (follows) {
     startPath(world, robot, number, path);
   } else {
     start(world, robot, number, plan(world, robot, command));
   }
-  inbox.last_number = number;
+  inbox.last_command = number;
 }
 
 /// Postpones the next search for a way back: a client may command an idle robot at each step, and a
@@ -232,7 +232,7 @@ void answer(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& 
                                 is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
                                 "",
                                 refusal.what(),
-                                ++inbox.last_number,
+                                ++inbox.last_command,
                                 {}});
   }
 }

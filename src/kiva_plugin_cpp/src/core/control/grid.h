@@ -13,7 +13,7 @@ struct Point {
   double& operator[](int axis) { return axis == 0 ? x : y; }
 };
 
-double nearestGrid(const Settings& settings, double coordinate);
+double nearestGrid(const WorldSettings& settings, double coordinate);
 /// Returns whether the whole cell around the grid point lies on the floor.
 bool isOnFloor(const Scene& world, const Point& p);
 

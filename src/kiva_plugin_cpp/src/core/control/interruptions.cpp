@@ -30,9 +30,9 @@ void shortenDrive(RobotView& world, Obstacles& obstacles, int robot) {
   const double cell = world.settings.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
   while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.clock.dt)) stop += cell;
-  if (stop >= f.goal[robot]) return;
-  world.fleet.tasks[robot].segments.front().goal = stop;
-  setGoal(world, obstacles, robot, stop);
+  if (stop >= f.reference_end[robot]) return;
+  world.fleet.tasks[robot].segments.front().length = stop;
+  setReferenceEnd(world, obstacles, robot, stop);
 }
 
 }  // namespace
@@ -53,7 +53,8 @@ void cancel(TaskView& world, Obstacles& obstacles, int robot) {
   task.segments.erase(task.segments.begin() + static_cast<std::ptrdiff_t>(rest),
                       task.segments.end());
   if (task.phase == Phase::kDriving && now.on_grid) shortenDrive(world, obstacles, robot);
-  if (task.phase == Phase::kBraking) task.segments.front().goal = world.fleet.goal[robot];
+  if (task.phase == Phase::kBraking)
+    task.segments.front().length = world.fleet.reference_end[robot];
 }
 
 void stop(RobotView& world, int robot) {

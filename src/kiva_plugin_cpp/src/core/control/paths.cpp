@@ -175,11 +175,11 @@ RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
 void setRunEnd(TaskView& world, Obstacles& obstacles, int robot, double goal) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
-  if (task.segments.front().goal == goal) return;
-  task.segments.front().goal = goal;
-  if (task.phase == Phase::kDriving) setGoal(world, obstacles, robot, goal);
+  if (task.segments.front().length == goal) return;
+  task.segments.front().length = goal;
+  if (task.phase == Phase::kDriving) setReferenceEnd(world, obstacles, robot, goal);
   if (task.phase == Phase::kBraking)
-    setGoal(world, obstacles, robot, std::min(f.goal[robot], goal));
+    setReferenceEnd(world, obstacles, robot, std::min(f.reference_end[robot], goal));
 }
 
 }  // namespace
@@ -212,8 +212,8 @@ void startPath(TaskView& world, int robot, std::uint32_t number, const FollowPat
   }
   Task& task = world.fleet.tasks[robot];
   task.command = number;
-  task.goal = format("follow path %u", m.path_id);
-  reportCommand(world, world.log, Event::Kind::kAccepted, robot, "", task.goal);
+  task.request = format("follow path %u", m.path_id);
+  reportCommand(world, world.log, Event::Kind::kAccepted, robot, "", task.request);
   beginPath(world, robot, m.path_id, std::move(path), route.takeSegments());
 }
 

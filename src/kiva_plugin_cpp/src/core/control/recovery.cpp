@@ -22,7 +22,7 @@ constexpr double kSideClearance = 0.002, kScrape = -0.01;
 
 double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-std::vector<Point> gridAround(const Settings& settings, const Point& here) {
+std::vector<Point> gridAround(const WorldSettings& settings, const Point& here) {
   std::vector<Point> points;
   for (int i = -kCells; i <= kCells; ++i) {
     for (int j = -kCells; j <= kCells; ++j) {
@@ -58,7 +58,7 @@ PlanarPose shifted(const PlanarPose& from, double way) {
 }
 
 /// Returns how far straight on to look for room to turn [m]: in steps, and beside grid points.
-std::vector<double> waysToRoom(const Settings& settings, const PlanarPose& at) {
+std::vector<double> waysToRoom(const WorldSettings& settings, const PlanarPose& at) {
   std::vector<double> ways;
   for (int step = 1; step * kRoomStep <= kRoomReach; ++step) {
     for (double way : {step * kRoomStep, -step * kRoomStep}) ways.push_back(way);
@@ -165,8 +165,8 @@ StraightWay straightWay(const PlanarPose& from, const Point& to) {
 std::vector<Point> findWayBack(const Scene& world, int robot, const Point* back) {
   const PlanarPose at = world.fleet.believed(robot);
   const std::vector<Point> goals = goalsAround(world, {at.x, at.y});
-  const std::vector<Point> told = back ? only(*back, goals) : std::vector<Point>();
-  for (const std::vector<Point>& to : {told, goals}) {
+  const std::vector<Point> preferred = back ? only(*back, goals) : std::vector<Point>();
+  for (const std::vector<Point>& to : {preferred, goals}) {
     for (double margin : {kSideClearance, kScrape}) {
       if (to.empty()) continue;
       std::vector<Point> way = ReturnSearch(world, robot, to, margin).wayFromNear(at);

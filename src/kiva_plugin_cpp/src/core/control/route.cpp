@@ -19,13 +19,13 @@ constexpr double kAside = 0.05;  // [m] off its line from which a robot without 
 
 void checkGoal(const Scene& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
-  const Floor& f = world.floor.extent;
+  const FloorExtent& f = world.floor.extent;
   if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
   throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
                        goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
 }
 
-double checkedGoal(const Settings& settings, double coordinate, char axis) {
+double checkedGoal(const WorldSettings& settings, double coordinate, char axis) {
   if (!std::isfinite(coordinate)) {
     throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
   }

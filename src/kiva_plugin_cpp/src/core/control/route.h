@@ -35,7 +35,7 @@ std::string format(const char* pattern, Args... args) {
 
 /// Returns the coordinate of the grid point at `coordinate` along `axis` (x or y) [m]. Throws
 /// Refusal if there is none within kGoalTolerance.
-double checkedGoal(const Settings& settings, double coordinate, char axis);
+double checkedGoal(const WorldSettings& settings, double coordinate, char axis);
 /// Throws Refusal if the goal is off the floor.
 void checkGoal(const Scene& world, const Point& goal);
 /// Throws Refusal if the robot can't drive.

@@ -22,10 +22,10 @@ int findRobot(const Scene& world, int kiva_id) {
 }
 
 /// Returns the index of the unit that the report names, -1 if it names none.
-int findLoad(const Scene& world, int robot, int shelf_id) {
-  if (shelf_id == 0) return -1;
-  const std::string name = "storage_unit" + std::to_string(shelf_id);
-  const auto at = world.storage.unit_of_id.find(shelf_id);
+int findLoad(const Scene& world, int robot, int unit_id) {
+  if (unit_id == 0) return -1;
+  const std::string name = "storage_unit" + std::to_string(unit_id);
+  const auto at = world.storage.unit_of_id.find(unit_id);
   if (at == world.storage.unit_of_id.end()) fail("there is no " + name);
   const int carrier = world.storage.units[at->second].carrier;
   if (carrier >= 0 && carrier != robot) {
@@ -67,15 +67,15 @@ void exchangeLoad(ModelView& world, int robot, int unit) {
   if (unit >= 0) load(world, robot, unit);
 }
 
-void tell(TaskView& world, int robot, const ShadowReport& told) {
+void takeReport(TaskView& world, int robot, const ShadowReport& shadow) {
   FleetState& f = world.fleet;
-  setStatus(world, robot, told.report.status, told.report.state);
-  f.path_id[robot] = told.report.path_id;
-  f.reached[robot] = told.report.reached;
-  f.left[robot] = told.report.left;
-  f.last_end[robot] = told.report.last_end;
-  f.failures[robot] = told.failures;
-  f.charge[robot] = told.charge;
+  setStatus(world, robot, shadow.report.status, shadow.report.state);
+  f.path_id[robot] = shadow.report.path_id;
+  f.reached[robot] = shadow.report.reached;
+  f.left[robot] = shadow.report.left;
+  f.last_end[robot] = shadow.report.last_end;
+  f.failures[robot] = shadow.failures;
+  f.charge[robot] = shadow.charge;
 }
 
 /// Puts the robot there, its wheels at rest.
@@ -91,16 +91,16 @@ bool isThere(const Fleet& f, int robot, const RobotReport& report) {
 
 }  // namespace
 
-void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& told) {
-  checkReport(told);
+void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& shadow) {
+  checkReport(shadow);
   const int robot = findRobot(world, kiva_id);
-  const int unit = findLoad(world, robot, told.report.shelf_id);
-  if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, told.report)) {
-    place(world, robot, told.report);
+  const int unit = findLoad(world, robot, shadow.report.shelf_id);
+  if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, shadow.report)) {
+    place(world, robot, shadow.report);
   }
   shadows.kiva_ids.insert(kiva_id);
   exchangeLoad(world, robot, unit);
-  tell(world, robot, told);
+  takeReport(world, robot, shadow);
 }
 
 void endShadow(Shadows& shadows, int kiva_id) { shadows.kiva_ids.erase(kiva_id); }

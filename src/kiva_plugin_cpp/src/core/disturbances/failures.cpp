@@ -82,7 +82,7 @@ void repairDefect(TaskView& world, const Defect& defect) {
                std::string("repaired: ") + nameOf(defect.failure));
   if (defect.failure != Failure::kRadio) return;
   // Clients missed the status changes in the meantime.
-  f.tasks[robot].reported_shelf = -1;
+  f.tasks[robot].reported_unit_id = -1;
   setStatus(world, robot, f.status[robot], f.state[robot]);
 }
 

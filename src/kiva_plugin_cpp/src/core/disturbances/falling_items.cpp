@@ -22,7 +22,7 @@ constexpr double kUpright = 0.99;  // cosine of the tilt of a unit up to which i
 constexpr double kNextTry = 10;    // [s] between attempts to put items back on a unit that lies
 
 /// Returns the friction of an item on its board, the same each time it slides.
-double frictionOf(const Settings& settings, const Item& item) {
+double frictionOf(const WorldSettings& settings, const Item& item) {
   const LoadRealism& r = settings.realism.loads;
   RandomStream random(settings.options.seed, Matter::kItem, item.id, 0);
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
@@ -124,33 +124,33 @@ std::string placeOf(const Pose& pose) {
 }
 
 /// Drops an item over the edge of its board. Returns false if its landing place is taken.
-bool dropOverEdge(ModelView& world, OffShelf& one) {
-  Model& item = *world.models[one.item];
-  const Model& unit = *world.models[one.unit];
+bool dropOverEdge(ModelView& world, OffShelf& off) {
+  Model& item = *world.models[off.item];
+  const Model& unit = *world.models[off.unit];
   const EntityState below = modelState(world, unit);
   const Pose pose = below.pose * outside(unit, item, world.storage.items[item.index].pose_in_unit,
-                                         one.velocity.Normalized());
+                                         off.velocity.Normalized());
   if (!isFree(world, item, pose, unit.slot)) return false;
   EntityState state = carriedState(below, pose);
-  state.twist.linear += below.pose.Rot() * one.velocity;
+  state.twist.linear += below.pose.Rot() * off.velocity;
   fallOff(world, item, state);
-  one.lies = true;
+  off.lies = true;
   const double until = world.settings.realism.loads.pick_up_after;
-  one.due = until > 0 ? world.clock.total_steps + world.clock.stepsIn(until) : 0;
+  off.due = until > 0 ? world.clock.total_steps + world.clock.stepsIn(until) : 0;
   world.log.report(Event::Kind::kFell, item.name, unit.name,
                    item.name + " falls off " + unit.name + " at " + placeOf(pose));
   return true;
 }
 
-bool isUpright(const Scene& world, const OffShelf& one) {
-  const Model& unit = *world.models[one.unit];
+bool isUpright(const Scene& world, const OffShelf& off) {
+  const Model& unit = *world.models[off.unit];
   return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
 }
 
 /// Puts an item back from the floor in its place.
-void lift(ModelView& world, const OffShelf& one) {
-  Model& item = *world.models[one.item];
-  const Model& unit = *world.models[one.unit];
+void lift(ModelView& world, const OffShelf& off) {
+  Model& item = *world.models[off.item];
+  const Model& unit = *world.models[off.unit];
   const std::string from = placeOf(modelState(world, item).pose);
   putBack(world, item, unit);
   world.log.report(Event::Kind::kPickedUp, item.name, unit.name,
@@ -158,17 +158,17 @@ void lift(ModelView& world, const OffShelf& one) {
 }
 
 /// Does what is due for one item. Returns whether the item is back, or stays where it was.
-bool attend(ModelView& world, OffShelf& one) {
-  if (!one.lies) {
-    if (one.due > world.clock.total_steps || dropOverEdge(world, one)) return false;
-    return one.due + world.clock.stepsIn(kWaits) < world.clock.total_steps;
+bool attend(ModelView& world, OffShelf& off) {
+  if (!off.lies) {
+    if (off.due > world.clock.total_steps || dropOverEdge(world, off)) return false;
+    return off.due + world.clock.stepsIn(kWaits) < world.clock.total_steps;
   }
-  if (one.due == 0 || one.due > world.clock.total_steps) return false;
-  if (!isUpright(world, one)) {
-    one.due = world.clock.total_steps + world.clock.stepsIn(kNextTry);
+  if (off.due == 0 || off.due > world.clock.total_steps) return false;
+  if (!isUpright(world, off)) {
+    off.due = world.clock.total_steps + world.clock.stepsIn(kNextTry);
     return false;
   }
-  lift(world, one);
+  lift(world, off);
   return true;
 }
 
@@ -191,10 +191,10 @@ void stepFallingItems(ModelView& world) {
 
 std::vector<FallenItem> listFallenItems(const Scene& world) {
   std::vector<FallenItem> out;
-  for (const OffShelf& one : world.fallen.items) {
-    if (!one.lies) continue;
-    const Model& item = *world.models[one.item];
-    out.push_back({item.name, world.models[one.unit]->name, modelState(world, item).pose});
+  for (const OffShelf& off : world.fallen.items) {
+    if (!off.lies) continue;
+    const Model& item = *world.models[off.item];
+    out.push_back({item.name, world.models[off.unit]->name, modelState(world, item).pose});
   }
   return out;
 }
@@ -202,8 +202,8 @@ std::vector<FallenItem> listFallenItems(const Scene& world) {
 void pickUp(ModelView& world, const std::string& item) {
   const Model* model = world.models.find(item);
   auto& all = world.fallen.items;
-  const auto at = std::find_if(all.begin(), all.end(), [&](const OffShelf& one) {
-    return model && one.lies && one.item == model->slot;
+  const auto at = std::find_if(all.begin(), all.end(), [&](const OffShelf& off) {
+    return model && off.lies && off.item == model->slot;
   });
   if (at == all.end()) {
     throw std::invalid_argument("no '" + item + "' has fallen off a storage unit");

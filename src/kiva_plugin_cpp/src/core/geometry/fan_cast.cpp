@@ -214,7 +214,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
   const double x = from.x + from.c * middle, y = from.y + from.s * middle;
   const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;
   const double high = std::abs(from.s) * half + std::abs(from.c) * sector.aside;
-  const Range cells = range({x - wide, x + wide, y - high, y + high});
+  const CellRange cells = range({x - wide, x + wide, y - high, y + high});
   anyHandle(cells, cells, [&](int handle) {
     if (handle < 0) {
       if (~handle != group) addMover(~handle);

@@ -169,7 +169,8 @@ void Obstacles::linkMover(int robot) {
   link(~robot, mover.place, boxOfMover(robot));
 }
 
-Obstacles::Range Obstacles::range(double min_x, double max_x, double min_y, double max_y) const {
+Obstacles::CellRange Obstacles::range(double min_x, double max_x, double min_y,
+                                      double max_y) const {
   const auto column = [this](double x) {
     return static_cast<int>(std::clamp(std::floor((x - origin_x_) / kCell), -1.0, columns_ + 0.0));
   };
@@ -207,7 +208,7 @@ void Obstacles::setFootprint(int handle, const Footprint& f) {
 void Obstacles::link(int handle, Place& place, const Box& box) {
   place.linked = true;
   place.range = range(box);
-  const Range& cells = place.range;
+  const CellRange& cells = place.range;
   Corner& corner = handle < 0 ? mover_corner_[~handle] : spots_[handle].corner;
   corner = {static_cast<std::int16_t>(cells.x0), static_cast<std::int16_t>(cells.y0)};
   const long count = (cells.x1 - cells.x0 + 1L) * (cells.y1 - cells.y0 + 1L);
@@ -216,7 +217,7 @@ void Obstacles::link(int handle, Place& place, const Box& box) {
     everywhere_.push_back(handle);
     return;
   }
-  const Range& r = place.range;
+  const CellRange& r = place.range;
   for (int cy = r.y0; cy <= r.y1; ++cy) {
     for (int cx = r.x0; cx <= r.x1; ++cx) {
       auto& list = cells_[cell(cx, cy)];

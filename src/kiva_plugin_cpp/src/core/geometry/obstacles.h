@@ -88,7 +88,7 @@ class Obstacles {
   /// its mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
-    const Range cells = range({x - reach, x + reach, y - reach, y + reach});
+    const CellRange cells = range({x - reach, x + reach, y - reach, y + reach});
     return anyHandle(cells, cells, [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
                          : approaches(~handle, radius_[~handle]);
@@ -109,7 +109,7 @@ class Obstacles {
       return spots_[handle].isWithin(reach, x, y) && meets(entries_[handle].footprint);
     };
     const auto ask = [&](int handle) { return handle < 0 ? moves(~handle) : stands(handle); };
-    const Range near = range({x - reach, x + reach, y - reach, y + reach});
+    const CellRange near = range({x - reach, x + reach, y - reach, y + reach});
     const int movers = static_cast<int>(movers_.size());
     if (movers > kFew) {
       const double far = mover_reach;
@@ -132,9 +132,9 @@ class Obstacles {
  private:
   static constexpr int kFew = 32;  // movers
 
-  struct Range {  // of cells, inclusive
+  struct CellRange {  // of cells, inclusive
     int x0 = 0, x1 = -1, y0 = 0, y1 = -1;
-    bool operator==(const Range& o) const {
+    bool operator==(const CellRange& o) const {
       return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
     }
     bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
@@ -143,7 +143,7 @@ class Obstacles {
     double min_x, max_x, min_y, max_y;
   };
   struct Place {  // in the index
-    Range range;
+    CellRange range;
     bool everywhere = false;
     bool linked = false;
   };
@@ -152,7 +152,7 @@ class Obstacles {
     Place place;
     bool used = false;
   };
-  struct Corner {  // of a Range: where it begins
+  struct Corner {  // of a CellRange: where it begins
     std::int16_t x0 = 0, y0 = 0;
   };
   /// Most of what is near a robot is not near enough: to see that costs no look at all of it.
@@ -176,7 +176,7 @@ class Obstacles {
   /// Returns whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any
   /// other in one of `near`, asked once each.
   template <typename Ask>
-  bool anyHandle(const Range& near, const Range& far, Ask ask) const {
+  bool anyHandle(const CellRange& near, const CellRange& far, Ask ask) const {
     for (int cy = far.y0; cy <= far.y1; ++cy) {
       for (int cx = far.x0; cx <= far.x1; ++cx) {
         const bool is_near = near.holds(cx, cy);
@@ -184,7 +184,7 @@ class Obstacles {
           if (handle >= 0 && !is_near) break;  // so are all that follow
           // In the first of its cells that is one of these.
           const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
-          const Range& r = handle >= 0 ? near : far;
+          const CellRange& r = handle >= 0 ? near : far;
           const bool is_first =
               cx == std::max<int>(own.x0, r.x0) && cy == std::max<int>(own.y0, r.y0);
           if (is_first && ask(handle)) return true;
@@ -196,8 +196,8 @@ class Obstacles {
 
   static Box boxOf(const Footprint& footprint);
   Box boxOfMover(int robot) const;
-  Range range(double min_x, double max_x, double min_y, double max_y) const;
-  Range range(const Box& b) const { return range(b.min_x, b.max_x, b.min_y, b.max_y); }
+  CellRange range(double min_x, double max_x, double min_y, double max_y) const;
+  CellRange range(const Box& b) const { return range(b.min_x, b.max_x, b.min_y, b.max_y); }
   bool isInside(const Box& box) const;
   int cell(int cx, int cy) const { return cy * columns_ + cx; }
   void link(int handle, Place& place, const Box& box);

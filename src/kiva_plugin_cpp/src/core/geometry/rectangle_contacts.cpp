@@ -8,7 +8,7 @@
 namespace kiva {
 namespace {
 
-struct Point {
+struct PlanarVector {
   double x, y;
 };
 
@@ -47,7 +47,7 @@ struct FromFace {
 /// Both ends of the other's side that turns most to the face.
 std::array<FromFace, 2> opposingSide(const Rectangle& own, const Rectangle& other, const View& v,
                                      const Face& face) {
-  const auto seen = [&](double x, double y) -> FromFace {
+  const auto fromFace = [&](double x, double y) -> FromFace {
     const double at_x = v.x + v.c * x - v.s * y, at_y = v.y + v.s * x + v.c * y;
     if (face.axis == 0) return {face.sign * at_x - own.hx, at_y};
     return {face.sign * at_y - own.hy, at_x};
@@ -56,8 +56,8 @@ std::array<FromFace, 2> opposingSide(const Rectangle& own, const Rectangle& othe
   const double nx = face.sign * (face.axis == 0 ? v.c : v.s);
   const double ny = face.sign * (face.axis == 0 ? -v.s : v.c);
   const double x = nx > 0 ? -other.hx : other.hx, y = ny > 0 ? -other.hy : other.hy;
-  if (std::abs(nx) > std::abs(ny)) return {seen(x, -other.hy), seen(x, other.hy)};
-  return {seen(-other.hx, y), seen(other.hx, y)};
+  if (std::abs(nx) > std::abs(ny)) return {fromFace(x, -other.hy), fromFace(x, other.hy)};
+  return {fromFace(-other.hx, y), fromFace(other.hx, y)};
 }
 
 /// Cuts off what of the side lies beside the face. Returns false if that is all of it.
@@ -75,7 +75,7 @@ bool clip(std::array<FromFace, 2>* side, double half) {
   return true;
 }
 
-Point inWorld(const Rectangle& own, double x, double y) {
+PlanarVector inWorld(const Rectangle& own, double x, double y) {
   return {own.x + own.c * x - own.s * y, own.y + own.s * x + own.c * y};
 }
 
@@ -83,13 +83,13 @@ Point inWorld(const Rectangle& own, double x, double y) {
 OutlineContacts atFace(const Rectangle& own, const Face& face, std::array<FromFace, 2> side,
                        double reach, bool own_is_first) {
   OutlineContacts out;
-  const Point normal = face.axis == 0 ? Point{face.sign * own.c, face.sign * own.s}
-                                      : Point{-face.sign * own.s, face.sign * own.c};
+  const PlanarVector normal = face.axis == 0 ? PlanarVector{face.sign * own.c, face.sign * own.s}
+                                             : PlanarVector{-face.sign * own.s, face.sign * own.c};
   const double half = face.axis == 0 ? own.hx : own.hy;
   for (const FromFace& end : side) {
     if (end.out > reach) continue;
     const double outward = face.sign * (half + (own_is_first ? end.out : 0));
-    const Point at =
+    const PlanarVector at =
         face.axis == 0 ? inWorld(own, outward, end.along) : inWorld(own, end.along, outward);
     const double to_first = own_is_first ? -1 : 1;
     out.at[out.count++] = {at.x, at.y, to_first * normal.x, to_first * normal.y, end.out};
@@ -97,7 +97,7 @@ OutlineContacts atFace(const Rectangle& own, const Face& face, std::array<FromFa
   return out;
 }
 
-std::array<Point, 4> corners(const Rectangle& r) {
+std::array<PlanarVector, 4> corners(const Rectangle& r) {
   return {inWorld(r, r.hx, r.hy), inWorld(r, -r.hx, r.hy), inWorld(r, -r.hx, -r.hy),
           inWorld(r, r.hx, -r.hy)};
 }
@@ -105,8 +105,8 @@ std::array<Point, 4> corners(const Rectangle& r) {
 OutlineContacts atCorners(const Rectangle& a, const Rectangle& b, double reach) {
   OutlineContacts out;
   double least = reach;
-  for (const Point& p : corners(a)) {
-    for (const Point& q : corners(b)) {
+  for (const PlanarVector& p : corners(a)) {
+    for (const PlanarVector& q : corners(b)) {
       const double dx = p.x - q.x, dy = p.y - q.y, apart = std::hypot(dx, dy);
       if (apart > least || apart == 0) continue;
       least = apart;
@@ -136,8 +136,9 @@ OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reac
   const Face& face = on_a ? of_a : of_b;
   auto side = on_a ? opposingSide(a, b, from_a, face) : opposingSide(b, a, from_b, face);
   const bool is_faced = clip(&side, face.axis == 0 ? own.hy : own.hx);
-  const OutlineContacts found = is_faced ? atFace(own, face, side, reach, on_a) : OutlineContacts();
-  return found.count > 0 ? found : atCorners(a, b, reach);
+  const OutlineContacts contacts =
+      is_faced ? atFace(own, face, side, reach, on_a) : OutlineContacts();
+  return contacts.count > 0 ? contacts : atCorners(a, b, reach);
 }
 
 }  // namespace kiva

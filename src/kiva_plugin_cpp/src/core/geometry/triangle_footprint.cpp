@@ -49,15 +49,15 @@ struct CutEnd {
 /// Finds where the triangle is cut at height z. Returns false if it is not.
 bool slice(const Triangle& triangle, double z, CutEnd* from, CutEnd* to) {
   CutEnd* const ends[] = {from, to};
-  int found = 0;
-  for (int i = 0; i < 3 && found < 2; ++i) {
+  int count = 0;
+  for (int i = 0; i < 3 && count < 2; ++i) {
     const Vector3& a = triangle[i];
     const Vector3& b = triangle[(i + 1) % 3];
     if ((a.Z() >= z) == (b.Z() >= z)) continue;
     const double share = (z - a.Z()) / (b.Z() - a.Z());
-    *ends[found++] = {a.X() + share * (b.X() - a.X()), a.Y() + share * (b.Y() - a.Y())};
+    *ends[count++] = {a.X() + share * (b.X() - a.X()), a.Y() + share * (b.Y() - a.Y())};
   }
-  return found == 2;
+  return count == 2;
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr double kJoint = 0.1;       // [m]: narrower gaps are joints of slabs
 constexpr double kMostCells = 1e5;   // among which gaps are looked for
 constexpr double kLeastGrip = 1e-3;  // Coulomb coefficient with which a cell takes half a minute
 
-void widen(Floor* floor, const LevelSurface& surface) {
+void widen(FloorExtent* floor, const LevelSurface& surface) {
   floor->min_x = std::min(floor->min_x, surface.min_x);
   floor->max_x = std::max(floor->max_x, surface.max_x);
   floor->min_y = std::min(floor->min_y, surface.min_y);
@@ -64,12 +64,12 @@ std::optional<double> floorHeight(const Scene& world) {
     }
   });
   double most = plane ? 2 * kRoom : 0;
-  for (const auto& [step, found] : bounded) {
-    if (!plane || found.second > *plane) most = std::max(most, found.first);
+  for (const auto& [step, surface] : bounded) {
+    if (!plane || surface.second > *plane) most = std::max(most, surface.first);
   }
   std::optional<double> height = plane;
-  for (const auto& [step, found] : bounded) {
-    if (found.first >= most / 2 && (!plane || found.second > *plane)) height = found.second;
+  for (const auto& [step, surface] : bounded) {
+    if (surface.first >= most / 2 && (!plane || surface.second > *plane)) height = surface.second;
   }
   return height;
 }
@@ -100,7 +100,7 @@ void warnOfBumps(const Scene& world, EventLog& log) {
 /// Returns the first grid point from which a grid line leads over a gap in the floor to a next
 /// point that lies on the floor.
 std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
-  const Floor& extent = world.floor.extent;
+  const FloorExtent& extent = world.floor.extent;
   const double cell = world.settings.grid_spacing;
   const auto is_gap = [&](double x, double y, double dx, double dy) {
     return !cover.covers(x, y, 0) && !cover.covers(x + kJoint * dx, y + kJoint * dy, 0);
@@ -134,7 +134,7 @@ bool mayHaveGaps(const Scene& world) {
     ++parts;
     has_plane = has_plane || surface.is_plane;
   });
-  const Floor& extent = world.floor.extent;
+  const FloorExtent& extent = world.floor.extent;
   const double cell = world.settings.grid_spacing;
   const double cells =
       (extent.max_x - extent.min_x) * (extent.max_y - extent.min_y) / (cell * cell);
@@ -175,7 +175,7 @@ void fitToFloor(ContactView& world) {
 void measureFloor(ModelView& world) {
   const double before = world.floor.extent.z;
   const auto height = floorHeight(world);
-  world.floor.extent = Floor();
+  world.floor.extent = FloorExtent();
   world.floor.friction = 1;
   world.floor.cover_due = true;
   if (height) {

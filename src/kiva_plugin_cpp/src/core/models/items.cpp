@@ -152,8 +152,8 @@ void forgetFallen(FallenItems& fallen, int slot) {
 }
 
 void putAllBack(ModelView& world) {
-  for (const OffShelf& one : world.fallen.items) {
-    if (one.lies) putBack(world, *world.models[one.item], *world.models[one.unit]);
+  for (const OffShelf& off : world.fallen.items) {
+    if (off.lies) putBack(world, *world.models[off.item], *world.models[off.unit]);
   }
   world.fallen.items.clear();
 }

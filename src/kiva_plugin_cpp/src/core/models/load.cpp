@@ -15,10 +15,11 @@ namespace kiva {
 namespace {
 
 constexpr char kTowerLink[] = "tower";
-constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the tower's guide centres
+constexpr double kGuided =
+    0.02;  // largest offset [m] and angle [rad] that the tower's guide corrects
 
-/// Returns how far the plate on which loads stand reaches from the middle, at least [m]; the
-/// chassis where there is none.
+/// Returns the smallest distance from the middle to an edge of the plate on which loads stand, or
+/// of the chassis without a plate [m].
 double plateReach(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   Bounds box;
@@ -32,7 +33,7 @@ double plateReach(const Scene& world, int robot) {
   return std::min({box.max.X(), -box.min.X(), box.max.Y(), -box.min.Y()});
 }
 
-/// How the load, given in the robot's frame as is its underside, stands on the plate.
+/// Sets the foothold of a load on the plate, from its inertia and underside in the robot's frame.
 void setFoothold(RobotView& world, int robot, const SpatialInertia& load, double underside) {
   Robot& r = world.fleet.robots[robot];
   const Vector3 centre = load.centre();

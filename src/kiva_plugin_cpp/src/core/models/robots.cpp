@@ -83,7 +83,7 @@ void checkRealism(const Scene& world, const Parameters& parameters) {
 }
 
 /// The world's is that of the first robot whose file says anything of it, unless it was given.
-void adoptRealism(const Scene& world, FleetState& fleet, Settings& settings,
+void adoptRealism(const Scene& world, FleetState& fleet, WorldSettings& settings,
                   const ModelDescription& description) {
   if (settings.options.realism || settings.realism_of_models) return;
   for (const PluginDescription& plugin : description.plugins) {
@@ -146,7 +146,7 @@ void stand(FleetState& f, int robot, const EntityState& at) {
 }
 
 /// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
-void setSpread(const Settings& settings, Robot* robot) {
+void setSpread(const WorldSettings& settings, Robot* robot) {
   constexpr double kMost = 3;  // deviations that are delivered
   const ActuationRealism& real = settings.realism.actuation;
   if (!real.enabled) return;

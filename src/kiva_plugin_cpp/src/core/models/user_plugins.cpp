@@ -65,7 +65,8 @@ std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::stri
   const std::string path = locate(filename, why);
   if (path.empty()) return nullptr;
   const warehouse::PluginLibrary library = opened(path, filename, where);
-  if (const auto* const found = library.first<Plugin>()) return library.make<Plugin>(*found);
+  if (const auto* const plugin_class = library.first<Plugin>())
+    return library.make<Plugin>(*plugin_class);
   const std::string others = library.contents();
   throw DescriptionError(where + ": library '" + filename +
                          "' holds no class registered with WAREHOUSE_ADD_PLUGIN(…, kiva::Plugin)" +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves in a step: robots by arrays or by Bullet, storage units and other bodies by Bullet.
+// The motion of a step: robots by arrays or by Bullet, storage units and other bodies by Bullet.
 #pragma once
 
 #include "core/state/views/motion_view.h"

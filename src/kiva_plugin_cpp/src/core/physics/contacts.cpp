@@ -55,7 +55,7 @@ void Physics::noteMotions(double dt) {
 }
 
 double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint& point,
-                         Velocity Motion::*when) const {
+                         Velocity BodyMotion::*when) const {
   const btVector3 at = point.getPositionWorldOnB();
   const auto velocity = [&](const btCollisionObject* body) {
     const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
@@ -72,8 +72,8 @@ double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint
 /// forces added in it: the contact let pass what closes the gap.
 double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const {
   const double closing = std::max(0.0, point.getDistance()) / dt_;
-  const double was = approach(pair, point, &Motion::before) - closing;
-  const double is = approach(pair, point, &Motion::pushed) - closing;
+  const double was = approach(pair, point, &BodyMotion::before) - closing;
+  const double is = approach(pair, point, &BodyMotion::pushed) - closing;
   if (was <= 0) return 0;
   return is > was ? was / is : 1;
 }
@@ -108,7 +108,7 @@ void Physics::contacts(std::vector<Contact>* out) const {
     Contact* const pair = &(*out)[at->second];
     const double impulse = point.getAppliedImpulse();
     pair->impulse += impulse * impactShare(manifold, point);
-    const double speed = approach(manifold, point, &Motion::driven);
+    const double speed = approach(manifold, point, &BodyMotion::driven);
     pair->nearing = std::max(pair->nearing, speed);
     if (impulse <= pair->most) return;
     pair->most = impulse;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What makes Bullet's next step, read from bodies and joints and put back. In world, SI units.
+// The state that Bullet's next step follows from, read from bodies and joints and put back. In
+// world, SI units.
 #pragma once
 
 #include <vector>
@@ -14,21 +15,22 @@ struct BodyState {
   btTransform pose, predicted_pose;
   btVector3 velocity, angular_velocity;
   btVector3 predicted_velocity, predicted_angular_velocity;
-  btVector3 force, torque;  ///< For the next step.
+  btVector3 force, torque;  ///< Forces of the next step.
   double mass = 0;
-  btVector3 inverse_inertia;  ///< Along the principal axes.
+  btVector3 inverse_inertia;  ///< Inverse moments along the principal axes.
   int activation = 0;
-  bool placed = false;             ///< Since the last step.
-  double resting = 0;              ///< Since it moved last [s].
-  std::vector<btTransform> parts;  ///< In the body.
+  bool placed = false;             ///< Placed since the last step.
+  double resting = 0;              ///< Time since its last motion [s].
+  std::vector<btTransform> parts;  ///< Poses of the parts in the body.
   std::vector<bool> faceted;       ///< Whose boxes know their faces and edges.
 };
 
-/// What a joint's motor was told last.
+/// The last command of a joint's motor.
 struct MotorState {
   bool powered = false;
-  double speed = 0;   ///< [rad/s], [m/s]
-  double effort = 0;  ///< In Bullet's units: a hinge's per step [Nms], a slider's [N].
+  double speed = 0;  ///< [rad/s], [m/s]
+  double effort =
+      0;  ///< Largest effort in Bullet's units: of a hinge a step [Nms], of a slider [N].
 };
 
 BodyState readBody(const btRigidBody& body);

@@ -25,7 +25,7 @@ constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
 /// Returns the margin at a path's end, less what noise alone may seem to bring nearer.
-double endMargin(const Settings& settings) {
+double endMargin(const WorldSettings& settings) {
   const LaserRealism& real = settings.realism.lasers;
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
@@ -43,14 +43,14 @@ Sighting sightingOf(const Scene& world, const Scans& scans, int robot) {
   const RayFan& fan = scans.fans[r.ray_fan];
   const double half = halfWidth(r) + kSideMargin;
   static thread_local FanHits hits;
-  Sighting seen;
-  seen.taken = true;
-  seen.along = alongSegment(world.fleet, robot);
-  const double reach = reachOfInterest(world, robot) - seen.along - r.laser.x;
+  Sighting sighting;
+  sighting.taken = true;
+  sighting.along = alongSegment(world.fleet, robot);
+  const double reach = reachOfInterest(world, robot) - sighting.along - r.laser.x;
   const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
   // A ray is of interest until it leaves the corridor.
   castRays(world, scans, robot, {farthest, half}, &hits);
-  seen.distance = std::numeric_limits<double>::infinity();
+  sighting.distance = std::numeric_limits<double>::infinity();
   int before = -1;  // what the ray before this one met
   double before_distance = 0;
   int stopping = -1, passed = -1;  // models of which that is known
@@ -63,17 +63,17 @@ Sighting sightingOf(const Scene& world, const Scans& scans, int robot) {
     const double distance = r.laser.x + hits.range[ray] * fan.c[ray];
     const bool faces =
         model >= 0 && model == before && std::abs(distance - before_distance) < kFlat;
-    if (model >= 0 && distance < seen.distance) {
-      seen.distance = distance;
-      seen.model = model;
-      seen.faces = faces;
-    } else if (faces && before_distance == seen.distance) {
-      seen.faces = true;
+    if (model >= 0 && distance < sighting.distance) {
+      sighting.distance = distance;
+      sighting.model = model;
+      sighting.faces = faces;
+    } else if (faces && before_distance == sighting.distance) {
+      sighting.faces = true;
     }
     before = model;
     before_distance = distance;
   }
-  return seen;
+  return sighting;
 }
 
 bool isOnGuard(const FleetState& f, int robot) {
@@ -124,7 +124,7 @@ double reachOfInterest(const Scene& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const MotionSegment& segment = task.segments.front();
   if (!task.follows() || !segment.on_grid) return std::numeric_limits<double>::infinity();
-  return segment.goal + halfLength(world.fleet.robots[robot]) + endMargin(world.settings);
+  return segment.length + halfLength(world.fleet.robots[robot]) + endMargin(world.settings);
 }
 
 }  // namespace kiva

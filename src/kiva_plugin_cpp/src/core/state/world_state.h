@@ -7,8 +7,8 @@
 //   estimation     the Kalman filter by which a robot locates itself
 //   state          the parts, and what follows from them alone
 //   sensing        scans, and what lies ahead of a robot
-//   motion         wheels on the floor, references that drives follow, until when a way is free
-//   contact        what Bullet steps and what arrays do, collisions, forces from outside
+//   motion         wheels on the floor, references that drives follow, clearance of ways
+//   contact        which models Bullet steps, collisions, forces from outside
 //   models         robots, storage units, items and all else, which come and go
 //   control        commands, and the routes that robots take for them
 //   communication  the links by which commands reach robots and reports reach clients
@@ -33,7 +33,7 @@ struct WorldState {
   explicit WorldState(const WorldDescription& description, const WorldOptions& options);
   ~WorldState();
 
-  Settings settings;
+  WorldSettings settings;
   Clock clock;
 
   Physics physics;
@@ -59,9 +59,9 @@ struct WorldState {
   People people;
   Shadows shadows;
   StepSchedule schedule;
-  Origin origin;
+  CheckpointOrigin origin;
 
-  /// What the rooms work on; each takes the part of the view that it writes.
+  /// The widest view; each function takes the narrowest that it needs (core/state/views).
   ModelView view;
 };
 

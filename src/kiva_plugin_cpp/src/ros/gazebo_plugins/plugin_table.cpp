@@ -73,9 +73,9 @@ kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_que
   }
   return [=, &root, &publish_queue, &inputs](const std::string& filename,
                                              const kiva::SensorDescription* sensor) {
-    const auto found = table.find(filename);
+    const auto entry = table.find(filename);
     const PluginContext context{root, publish_queue, inputs, sensor};
-    return found == table.end() ? nullptr : found->second(context);
+    return entry == table.end() ? nullptr : entry->second(context);
   };
 }
 

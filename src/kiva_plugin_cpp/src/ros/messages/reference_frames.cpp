@@ -32,13 +32,14 @@ class PlainLinks {
     world_ = &world;
     revision_ = world.modelsRevision();
     first_.clear();
-    std::unordered_set<std::string> models;              // that came before
-    std::shared_ptr<const kiva::ModelDescription> seen;  // instances of one file stand in a row
+    std::unordered_set<std::string> models;  // that came before
+    std::shared_ptr<const kiva::ModelDescription>
+        last_description;  // instances of one file stand in a row
     for (const std::string& model : world.modelNames()) {
       models.insert(model);
       const auto description = world.description(model);
-      if (description == seen) continue;
-      seen = description;
+      if (description == last_description) continue;
+      last_description = description;
       for (const kiva::Link& link : description->links) {
         const std::string name = withoutScope(link.name);
         if (!models.count(name)) first_.emplace(name, ScopedName(model, link.name));

@@ -21,8 +21,8 @@ constexpr auto kObjectsInterval = std::chrono::milliseconds(100);
 constexpr auto kLatchedStatusInterval = std::chrono::milliseconds(400);
 
 kiva::Pose poseOfLink(const kiva::ModelDescription& model, const char* link) {
-  const kiva::Link* found = model.findLink(link);
-  return found ? found->pose_in_model : kiva::Pose();
+  const kiva::Link* description = model.findLink(link);
+  return description ? description->pose_in_model : kiva::Pose();
 }
 
 RobotInfos robotInfos(const kiva::World& world) {

@@ -65,7 +65,7 @@ bool isScenery(kiva::ModelKind kind) {
 warehouse_msgs::Scenery sceneryOf(const kiva::World& world) {
   warehouse_msgs::Scenery out;
   out.header = header(world.time(), "world");
-  const kiva::Floor& floor = world.floor();
+  const kiva::FloorExtent& floor = world.floor();
   out.floor = {floor.min_x, floor.max_x, floor.min_y, floor.max_y};
   out.grid_spacing = world.gridSpacing();
   Looks looks(world, &out.looks);

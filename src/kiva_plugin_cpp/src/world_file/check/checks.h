@@ -5,8 +5,8 @@
 
 namespace kiva {
 
-/// What the format allows and no world can be made of: names that are taken, joints of links that
-/// are not there. Repairs or leaves out what the rest can do without, with a warning; throws
+/// Checks for faults that the format allows and no world can have: names that are taken, joints of
+/// missing links. Repairs or leaves out what the rest can do without, with a warning; throws
 /// SdfError where nothing would be left.
 void checkElements(XmlElement* root, Faults* warnings);
 

@@ -8,12 +8,12 @@
 
 namespace kiva {
 
-/// Holds an `<sdf>` of version 1.9 to the format: what is faulty in it is left out, as small a part
-/// as the rest can do without, and `left_out` is told; `unknown` is told what SDF does not know,
-/// which stays. Includes are not looked into. Throws SdfError where nothing would be left.
+/// Holds an `<sdf>` of version 1.9 to the format. Removes faulty parts, as small as possible, and
+/// adds them to `left_out`; adds parts that SDF does not know, which stay, to `unknown`. Does not
+/// look into includes. Throws SdfError where nothing would be left.
 void validate(XmlElement* sdf, Faults* left_out, Faults* unknown);
 
-/// The first fault of a document; nothing: none.
+/// Returns the first fault of a document, if there is one.
 std::optional<Fault> firstFault(XmlElement* sdf);
 
 }  // namespace kiva

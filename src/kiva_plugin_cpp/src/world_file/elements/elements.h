@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What models, links, joints and sensors have in common: plugins and parameters.
+// Elements that models, links, joints and sensors have in common: plugins and parameters.
 #pragma once
 
 #include <string>

@@ -40,50 +40,50 @@ class Table {
     const char* const begin = at_;
     const char* const stops = is_quoted ? "'" : " \n)<>";
     at_ += std::strcspn(at_, stops);
-    std::string found(begin, at_);
-    for (char& letter : found) letter = letter == '\n' ? ' ' : letter;
+    std::string word(begin, at_);
+    for (char& letter : word) letter = letter == '\n' ? ' ' : letter;
     if (is_quoted) ++at_;
-    return found;
+    return word;
   }
   ValueFormat value() {
-    ValueFormat found;
-    found.type = *at_++;
+    ValueFormat format;
+    format.type = *at_++;
     ++at_;  // =
-    found.otherwise = text();
-    for (auto* limit : {&found.least, &found.most}) {
-      if (*at_ != (limit == &found.least ? '<' : '>')) continue;
+    format.otherwise = text();
+    for (auto* limit : {&format.least, &format.most}) {
+      if (*at_ != (limit == &format.least ? '<' : '>')) continue;
       char* end;
       *limit = std::strtod(at_ + 1, &end);
       at_ = end;
       while (*at_ && !std::strchr(" \n)>", *at_)) ++at_;
     }
-    return found;
+    return format;
   }
 
   Child element(std::vector<const ElementFormat*> around) {
     elements_.emplace_back();
-    ElementFormat& found = elements_.back();
-    found.name = word();
-    Child child{&found, *at_++};
+    ElementFormat& element = elements_.back();
+    element.name = word();
+    Child child{&element, *at_++};
     if (*at_ == ':') {
       ++at_;
-      found.value = value();
+      element.value = value();
     }
-    around.push_back(&found);
+    around.push_back(&element);
     for (skipBlanks(); *at_ == '@' || *at_ == '~' || *at_ == '('; skipBlanks()) {
       const char kind = *at_++;
-      if (kind == '~') found.is_open = true;
-      if (kind == '@') attribute(&found);
-      if (kind == '(') children(&found, around);
+      if (kind == '~') element.is_open = true;
+      if (kind == '@') attribute(&element);
+      if (kind == '(') children(&element, around);
     }
     return child;
   }
   void attribute(ElementFormat* of) {
-    AttributeFormat found;
-    found.name = word();
-    found.is_required = *at_++ == '!';
-    found.value = value();
-    of->attributes.push_back(found);
+    AttributeFormat attribute;
+    attribute.name = word();
+    attribute.is_required = *at_++ == '!';
+    attribute.value = value();
+    of->attributes.push_back(attribute);
   }
   void children(ElementFormat* of, const std::vector<const ElementFormat*>& around) {
     while (skipBlanks(), *at_ != ')') {
@@ -109,8 +109,8 @@ class Table {
 }  // namespace
 
 const ElementFormat::Child* ElementFormat::child(const std::string& of_name) const {
-  for (const Child& one : children) {
-    if (one.format->name == of_name) return &one;
+  for (const Child& child : children) {
+    if (child.format->name == of_name) return &child;
   }
   return nullptr;
 }
@@ -130,8 +130,8 @@ std::string wordsFor(char type) {
                                                      {'3', "three numbers"},
                                                      {'c', "red green blue alpha"},
                                                      {'p', "six numbers, x y z roll pitch yaw"}};
-  const auto found = kWords.find(type);
-  return found == kWords.end() ? "" : found->second;
+  const auto entry = kWords.find(type);
+  return entry == kWords.end() ? "" : entry->second;
 }
 
 std::string defaultText(const ValueFormat& format) {

@@ -13,7 +13,7 @@ extern const char* const kFormatText;
 /// A text that SDF has in an element or an attribute.
 struct ValueFormat {
   char type = 's';
-  std::string otherwise;  ///< What it is if it is not given.
+  std::string otherwise;  ///< Default of a missing value.
   std::optional<double> least, most;
 };
 
@@ -23,7 +23,7 @@ struct AttributeFormat {
   ValueFormat value;
 };
 
-/// What SDF allows in an element.
+/// The attributes and children that SDF allows in an element.
 struct ElementFormat {
   struct Child {
     const ElementFormat* format = nullptr;
@@ -43,10 +43,10 @@ struct ElementFormat {
 /// `<sdf>` of version 1.9.
 const ElementFormat& sdfFormat();
 
-/// What a value of that type looks like, for a person: "a number"; empty for text.
+/// Returns the words for a value of that type, such as "a number"; empty for text.
 std::string wordsFor(char type);
 
-/// A default as a text: numbers with all their digits.
+/// Returns a default as a text: numbers with all their digits.
 std::string defaultText(const ValueFormat& format);
 
 }  // namespace kiva

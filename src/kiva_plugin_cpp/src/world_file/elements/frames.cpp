@@ -40,9 +40,9 @@ class Search {
   }
 
   Pose around(const XmlElement& part) {
-    const XmlElement* const given = part.FirstChildElement("pose");
-    const std::string name = given ? attributeOf(*given, "relative_to") : "";
-    const Pose pose = valueOfPose(given);
+    const XmlElement* const pose_element = part.FirstChildElement("pose");
+    const std::string name = pose_element ? attributeOf(*pose_element, "relative_to") : "";
+    const Pose pose = valueOfPose(pose_element);
     const std::string base = name.empty() ? usualFrame(part) : name;
     const Pose result = base.empty() ? pose : frame(scopeOf(part), base) * pose;
     if (!is(part, "model")) return result;
@@ -80,13 +80,13 @@ class Search {
 }  // namespace
 
 Pose poseAround(const XmlElement& part) {
-  const XmlElement* const given = part.FirstChildElement("pose");
-  const std::string name = given ? attributeOf(*given, "relative_to") : "";
+  const XmlElement* const pose_element = part.FirstChildElement("pose");
+  const std::string name = pose_element ? attributeOf(*pose_element, "relative_to") : "";
   const XmlElement* const link = part.Parent()->ToElement();
   if (!link || !is(*link, "link")) return Search().around(part);
-  if (name.empty()) return valueOfPose(given);
+  if (name.empty()) return valueOfPose(pose_element);
   const XmlElement& scope = scopeOf(part);
-  return Search().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(given));
+  return Search().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(pose_element));
 }
 
 Pose frameIn(const XmlElement& scope, const std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the parts of a model or a world stand: poses are told relative to frames, by their names.
+// Frames, by whose names SDF gives the poses of the parts of a model or a world.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace kiva {
 
-/// The pose of a link, joint, frame, light, collision, visual, sensor or model in the model or the
-/// world around it; for parts of a link, in the link. Throws SdfError where frames are told in a
-/// circle or are not there.
+/// Returns the pose of a link, joint, frame, light, collision, visual, sensor or model in the model
+/// or the world around it; for parts of a link, in the link. Throws SdfError where frames refer to
+/// each other in a circle or are missing.
 Pose poseAround(const XmlElement& part);
 
-/// The frame of that name, in the model or world `scope`. Throws SdfError.
+/// Returns the frame of that name in the model or world `scope`. Throws SdfError.
 Pose frameIn(const XmlElement& scope, const std::string& name);
 
-/// The name, within `model`, of the link that a link, joint, frame or nested model of that name
-/// belongs to; "world" for that. Throws SdfError.
+/// Returns the name, within `model`, of the link that a link, joint, frame or nested model of that
+/// name belongs to, or "world". Throws SdfError.
 std::string linkOf(const XmlElement& model, const std::string& name);
 
-/// The link that stands for a whole model, `nested::link` if it is in a nested one; empty: none.
+/// Returns the link that stands for a whole model, `nested::link` if it is in a nested one, or "".
 std::string canonicalLinkOf(const XmlElement& model);
 
 }  // namespace kiva

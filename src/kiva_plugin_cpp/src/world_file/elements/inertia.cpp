@@ -39,10 +39,10 @@ void repairInertial(XmlElement* link, Faults* warnings) {
   if (!inertial) return;
   const double mass = numberIn(*inertial, "mass", 1);
   if (!isMass(mass)) {
-    const XmlElement* const given = inertial->FirstChildElement("mass");
-    warnings->push_back(noteAt(*given, "expected a mass above 0 kg, 1e9 at most, found " +
-                                           contentOf(given) +
-                                           "; this link has 1 kg and 1 kg m² instead"));
+    const XmlElement* const inertia_element = inertial->FirstChildElement("mass");
+    warnings->push_back(noteAt(*inertia_element, "expected a mass above 0 kg, 1e9 at most, found " +
+                                                     contentOf(inertia_element) +
+                                                     "; this link has 1 kg and 1 kg m² instead"));
     link->DeleteChild(inertial);
   } else if (!isPossible(mass, tensorIn(*inertial))) {
     XmlElement* const inertia = inertial->FirstChildElement("inertia");

@@ -138,18 +138,18 @@ std::string faultOfPoseText(const XmlElement& pose) {
 }
 
 double numberIn(const XmlElement& element, const char* child, double otherwise) {
-  const XmlElement* const given = element.FirstChildElement(child);
-  return given ? readDouble(contentOf(given)).value_or(otherwise) : otherwise;
+  const XmlElement* const child_element = element.FirstChildElement(child);
+  return child_element ? readDouble(contentOf(child_element)).value_or(otherwise) : otherwise;
 }
 
 bool flagIn(const XmlElement& element, const char* child, bool otherwise) {
-  const XmlElement* const given = element.FirstChildElement(child);
-  return given ? readFlag(contentOf(given)).value_or(otherwise) : otherwise;
+  const XmlElement* const child_element = element.FirstChildElement(child);
+  return child_element ? readFlag(contentOf(child_element)).value_or(otherwise) : otherwise;
 }
 
 Vector3 vectorIn(const XmlElement& element, const char* child, const Vector3& otherwise) {
-  const XmlElement* const given = element.FirstChildElement(child);
-  return given ? readVector(contentOf(given)).value_or(otherwise) : otherwise;
+  const XmlElement* const child_element = element.FirstChildElement(child);
+  return child_element ? readVector(contentOf(child_element)).value_or(otherwise) : otherwise;
 }
 
 Vector3 vectorIn(const XmlElement& element) {

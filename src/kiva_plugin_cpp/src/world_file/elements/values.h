@@ -11,11 +11,11 @@
 
 namespace kiva {
 
-/// What is wrong with a text as a value of that format, for a person; empty: nothing. `name` is the
-/// element's or the attribute's.
+/// Returns the fault of a text as a value of that format, in words, or "". `name` is that of the
+/// element or the attribute.
 std::string faultOfValue(const std::string& text, const std::string& name,
                          const ValueFormat& format);
-/// The same for the text of a `<pose>` with its attributes.
+/// Does the same for the text of a `<pose>` with its attributes.
 std::string faultOfPoseText(const XmlElement& pose);
 
 std::optional<double> readDouble(const std::string& text);
@@ -23,12 +23,12 @@ std::optional<bool> readFlag(const std::string& text);
 std::optional<Vector3> readVector(const std::string& text);
 std::optional<std::vector<double>> readColour(const std::string& text);  ///< Four of 0…1.
 
-/// Of a child that the format knows, checked before: what it holds, or `otherwise`.
+/// Returns the value of a child that the format knows, checked before, or `otherwise`.
 double numberIn(const XmlElement& element, const char* child, double otherwise);
 bool flagIn(const XmlElement& element, const char* child, bool otherwise);
 Vector3 vectorIn(const XmlElement& element, const char* child, const Vector3& otherwise);
 Vector3 vectorIn(const XmlElement& element);
-/// Of a `<pose>`; zero for null.
+/// Returns the pose of a `<pose>`; zero for null.
 Pose valueOfPose(const XmlElement* pose);
 
 }  // namespace kiva

@@ -18,11 +18,11 @@ class BoundedCache {
 
   explicit BoundedCache(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Nothing if there is none.
+  /// Returns the value of a key, or null.
   Entry find(const std::string& key) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = entries_.find(key);
-    return found == entries_.end() ? nullptr : found->second;
+    const auto entry = entries_.find(key);
+    return entry == entries_.end() ? nullptr : entry->second;
   }
 
   void put(const std::string& key, Entry value) {

@@ -13,7 +13,7 @@ namespace kiva {
 /// A text as SDF 1.9 without faults in form: what it includes is in it.
 struct SdfDocument {
   std::unique_ptr<XmlDocument> xml;
-  std::deque<Source> sources;  ///< Of what it included, or was URDF.
+  std::deque<Source> sources;  ///< Files of its includes, and of URDF.
   Faults warnings;
   /// Those of the models that the text includes, and where it looked for those that are missing.
   std::set<std::string> files;

@@ -127,8 +127,8 @@ std::string findModel(const std::string& uri, const ModelPaths& paths) {
   if (path.empty()) return "";
   if (fs::path(path).is_absolute()) return isModel(path) ? path : "";
   for (const std::string& folder : foldersFor(uri, "", paths)) {
-    const fs::path found = fs::path(folder) / path;
-    if (isModel(found)) return found.string();
+    const fs::path candidate = fs::path(folder) / path;
+    if (isModel(candidate)) return candidate.string();
   }
   return "";
 }
@@ -138,8 +138,8 @@ std::string findFile(const std::string& uri, const std::string& folder, const Mo
   if (path.empty()) return "";
   if (fs::path(path).is_absolute()) return existing(path);
   for (const std::string& around : foldersFor(uri, folderOr(folder), paths)) {
-    const std::string found = existing(fs::path(around) / path);
-    if (!found.empty()) return found;
+    const std::string file = existing(fs::path(around) / path);
+    if (!file.empty()) return file;
   }
   return "";
 }

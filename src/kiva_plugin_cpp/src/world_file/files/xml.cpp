@@ -102,9 +102,9 @@ Fault faultOfXml(const XmlDocument& document) {
   }
   for (char& letter : cause) letter = letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
   if (startsWith(cause, "parsing")) cause = "error while " + cause;
-  const std::string told = document.ErrorStr();
-  const std::size_t detail = told.find(": ", told.find("Line number="));
-  if (detail != std::string::npos) cause += " (" + told.substr(detail + 2) + ")";
+  const std::string message = document.ErrorStr();
+  const std::size_t detail = message.find(": ", message.find("Line number="));
+  if (detail != std::string::npos) cause += " (" + message.substr(detail + 2) + ")";
   return {"the XML is ill-formed: " + cause, "", "", document.ErrorLineNum()};
 }
 
@@ -124,8 +124,8 @@ const XmlElement* XmlDocument::findFrame(const XmlElement& scope, const std::str
       if (isFrame(*part)) frames->second.emplace(attributeOf(*part, "name"), part);
     }
   }
-  const auto found = frames->second.find(name);
-  return found == frames->second.end() ? nullptr : found->second;
+  const auto frame = frames->second.find(name);
+  return frame == frames->second.end() ? nullptr : frame->second;
 }
 
 std::unique_ptr<XmlDocument> parseXml(const std::string& text) {

@@ -21,7 +21,7 @@ using XmlElement = tinyxml2::XMLElement;
 /// A document that can look up the frames of its models.
 class XmlDocument : public tinyxml2::XMLDocument {
  public:
-  /// From now on nothing in it is renamed, moved or taken out.
+  /// Ends changes: nothing in it is renamed, moved or removed from now on.
   void setFinal() { is_final_ = true; }
 
   /// Returns the link, joint, frame or model of that name right below `scope`, an element of an
@@ -41,21 +41,21 @@ constexpr std::size_t kMostBytes = 20'000'000;
 /// Throws SdfError with the line where a text is no XML, is too long, or nests too deep.
 std::unique_ptr<XmlDocument> parseXml(const std::string& text);
 
-/// The text of a whole document, every element on its line, without comments. Elements that were
-/// added follow on the line of what is before them.
+/// Returns the text of a whole document, every element on its line, without comments. Elements that
+/// were added follow on the line of the element before them.
 std::string textOf(const XmlDocument& document);
-/// The text of one element on one line; `but`, if given, is left out.
+/// Returns the text of one element on one line, without `but`.
 std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
 
-/// Where an element stands that came from another file or from URDF: its user data. Others stand in
-/// the document that was given.
+/// The place of an element from another file or from URDF: its user data. Others are in the
+/// caller's document.
 struct Source {
-  std::string file;  ///< Empty: the document that was given.
+  std::string file;  ///< Empty = the caller's document.
   int line = 0;
 };
 const Source* sourceOf(const XmlElement& element);
 
-/// A message at the file, line and entity of `element`.
+/// Returns a message at the file, line and entity of `element`.
 Fault noteAt(const XmlElement& element, const std::string& message);
 [[noreturn]] void failAt(const XmlElement& element, const std::string& message);
 
@@ -70,8 +70,8 @@ std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
 bool startsWith(const std::string& text, const std::string& start);
 
-/// Calls visit(element) for `element` and all below it, but for what is inside plugins: that is
-/// their own affair. `visit` may remove children of what it is given.
+/// Calls visit(element) for `element` and all below it, except inside plugins. `visit` may remove
+/// children of its element.
 template <typename Visit>
 void forAll(XmlElement* element, const Visit& visit) {
   visit(element);

@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// What an SDF `<mesh>` asks for.
+/// The contents of an SDF `<mesh>`.
 struct MeshRequest {
   std::string file;  ///< Path.
   Vector3 scale{1, 1, 1};

@@ -8,12 +8,12 @@
 
 namespace kiva {
 
-/// Where the first waypoint of an actor is, else its pose, on the ground: an actor's origin is
-/// somewhere in its skin.
+/// Returns the place of an actor's first waypoint, or else its pose, on the ground: an actor's
+/// origin is somewhere in its skin.
 Pose placeOf(const XmlElement& actor);
 
-/// How it walks, as its waypoints and their times tell; without a script it stays where it is.
-/// Waypoints that make no sense are left out, and `warnings` is told so.
+/// Returns the walk by an actor's waypoints and their times; without a script the actor stays.
+/// Leaves out waypoints that make no sense, each with a warning.
 Walk scriptOf(const XmlElement& actor, Faults* warnings);
 
 }  // namespace kiva

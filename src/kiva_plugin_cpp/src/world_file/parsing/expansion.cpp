@@ -99,10 +99,10 @@ class Expansion {
       model->SetAttribute("placement_frame", contentOf(frame).c_str());
     }
     for (const char* part : {"pose", "static"}) {
-      const XmlElement* const given = include.FirstChildElement(part);
-      if (!given) continue;
+      const XmlElement* const override_element = include.FirstChildElement(part);
+      if (!override_element) continue;
       if (XmlElement* const own = model->FirstChildElement(part)) model->DeleteChild(own);
-      model->InsertFirstChild(given->DeepClone(document_->xml.get()));
+      model->InsertFirstChild(override_element->DeepClone(document_->xml.get()));
     }
     for (const auto* plugin = include.FirstChildElement("plugin"); plugin;
          plugin = plugin->NextSiblingElement("plugin")) {

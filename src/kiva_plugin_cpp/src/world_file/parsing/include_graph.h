@@ -16,23 +16,23 @@ namespace kiva {
 
 class IncludeGraph {
  public:
-  /// `fault_of(text, file)` tells what is wrong in a file of its own, its includes apart; empty:
-  /// nothing.
+  /// `fault_of(text, file)` returns the fault of a file by itself, without its includes; empty
+  /// without a fault.
   using FaultOf = std::function<std::string(const std::string& text, const std::string& file)>;
   IncludeGraph(const ModelPaths& model_paths, FaultOf fault_of);
 
-  /// Takes out the includes in a document that lead nowhere or too far, each with a warning. What
-  /// they would have put there is unknown: a stand-in takes its place, if there is one.
+  /// Removes the includes of a document that lead nowhere or too far, each with a warning.
+  /// Stand-ins, if there are any, take the place of their unknown models.
   void prune(XmlDocument* document, Faults* warnings);
 
-  /// Those that it has read, and where it looked for what is missing.
+  /// Returns the files that it has read, and the places where it looked for missing ones.
   const std::set<std::string>& files() const { return files_; }
 
  private:
-  /// What will be read.
+  /// The cost of reading a file with its includes.
   struct Cost {
     double includes = 0, bytes = 0;
-    std::string fault;  ///< What is wrong in there; empty: nothing.
+    std::string fault;  ///< Fault in there, or empty.
   };
   Cost follow(const std::string& uri);
   Cost read(const std::string& file);

@@ -17,9 +17,9 @@ namespace {
 XmlElement* sdfOf(XmlDocument* document) {
   XmlElement* const root = document->RootElement();
   if (root && is(*root, "sdf") && root->Attribute("version")) return root;
-  const std::string found =
+  const std::string folder =
       !root || is(*root, "sdf") ? "no version" : "<" + std::string(root->Name()) + ">";
-  throw SdfError({"expected <sdf version=\"…\"> as the root element, found " + found, "", "",
+  throw SdfError({"expected <sdf version=\"…\"> as the root element, found " + folder, "", "",
                   root ? root->GetLineNum() : 0});
 }
 
@@ -35,19 +35,19 @@ void dropIncludes(XmlElement* root) {
 std::string faultOfFile(const std::string& text, const std::string& file) {
   static BoundedCache<std::string> cache(1024);
   if (const auto known = cache.find(text)) return *known;
-  std::string told;
+  std::string list;
   try {
     const auto document = parseXml(text);
     XmlElement* const root = sdfOf(document.get());
     dropIncludes(root);
     modernizePoses(document.get());
     convert(root);
-    if (const auto fault = firstFault(root)) told = describe(*fault, file);
+    if (const auto fault = firstFault(root)) list = describe(*fault, file);
   } catch (const SdfError& error) {
-    told = describe(error.error(), file);
+    list = describe(error.error(), file);
   }
-  cache.put(text, std::make_shared<const std::string>(told));
-  return told;
+  cache.put(text, std::make_shared<const std::string>(list));
+  return list;
 }
 
 }  // namespace

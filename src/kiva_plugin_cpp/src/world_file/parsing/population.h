@@ -8,11 +8,11 @@
 
 namespace kiva {
 
-/// What a `<population>` puts where.
+/// A `<population>`: a pattern and the poses of its clones.
 struct Population {
   const XmlElement* pattern = nullptr;  ///< A `<model>` or an `<include>`.
-  std::string name;                     ///< Of the pattern; clones are called `name_clone_0`, …
-  std::vector<Pose> poses;              ///< Of the clones, in world.
+  std::string name;                     ///< Name of the pattern; clones are `name_clone_0`, …
+  std::vector<Pose> poses;              ///< Poses of the clones in world.
 };
 
 /// Reads a `<population>`; random places are the same each time. Throws DescriptionError with the

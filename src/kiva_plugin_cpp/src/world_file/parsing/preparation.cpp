@@ -237,26 +237,26 @@ class Preparation {
     world->DeleteChild(population);
   }
 
-  void addClones(XmlElement* world, XmlElement* population, const Population& found) {
-    const bool is_include = is(*found.pattern, "include");
-    const auto simple = is_include ? readInclude(*found.pattern) : std::nullopt;
-    const std::size_t size = textOf(*found.pattern).size();
+  void addClones(XmlElement* world, XmlElement* population, const Population& from) {
+    const bool is_include = is(*from.pattern, "include");
+    const auto simple = is_include ? readInclude(*from.pattern) : std::nullopt;
+    const std::size_t size = textOf(*from.pattern).size();
     XmlElement* behind = population;
-    for (std::size_t i = 0; i < found.poses.size(); ++i) {
-      const std::string name = found.name + "_clone_" + std::to_string(i);
+    for (std::size_t i = 0; i < from.poses.size(); ++i) {
+      const std::string name = from.name + "_clone_" + std::to_string(i);
       if (splits_ && (simple || (!is_include && i > 0))) {
         Include clone = simple.value_or(Include());
-        if (!simple) clone.copy_of = found.name + "_clone_0";
+        if (!simple) clone.copy_of = from.name + "_clone_0";
         clone.name = name;
-        clone.pose = simple ? found.poses[i] : found.poses[i] * found.poses[0].Inverse();
-        add(clone, *found.pattern);
+        clone.pose = simple ? from.poses[i] : from.poses[i] * from.poses[0].Inverse();
+        add(clone, *from.pattern);
         continue;
       }
       if (size * (i + 1) > kMostBytes) throw DescriptionError("it is too large");
-      XmlElement* const clone = found.pattern->DeepClone(document_.get())->ToElement();
+      XmlElement* const clone = from.pattern->DeepClone(document_.get())->ToElement();
       if (!is_include) clone->SetAttribute("name", name.c_str());
       if (is_include) setContent(clone, "name", name);
-      setContent(clone, "pose", textOf(found.poses[i]));
+      setContent(clone, "pose", textOf(from.poses[i]));
       behind = world->InsertAfterChild(behind, clone)->ToElement();
       result_.order.push_back(PreparedText::kOfRest);
     }

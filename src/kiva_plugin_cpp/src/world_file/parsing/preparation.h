@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a world file may hold beyond SDF, and what it holds in great numbers: a world of 5000
-// shelves includes the same model 5000 times. Most includes say no more than which model stands
-// where: those are taken out of the text here, and the model they name is read once. So are models
-// whose text has been there before, the clones of populations, and people.
+// Preparation of a world's text: elements beyond SDF, and elements in great numbers. A world of
+// 5000 shelves includes the same model 5000 times. Most includes only name a model and its pose:
+// these are taken out of the text here, and the model is read once. So are models whose text has
+// been there before, the clones of populations, and people.
 #pragma once
 
 #include <map>
@@ -20,33 +20,33 @@ namespace kiva {
 /// `<model>` that differs from one before it in name and pose alone.
 struct Include {
   std::string uri;
-  std::string copy_of;            ///< Instead of a uri: the name of a model in the rest.
-  std::string name;               ///< Empty: that of the model.
-  std::optional<Pose> pose;       ///< In world; none: that of the model. A copy's is relative to
-                                  ///< what it is a copy of, seen from the world.
-  std::optional<bool> is_static;  ///< None: as the model has it.
-  std::optional<Walk> walk;       ///< Of an actor.
+  std::string copy_of;            ///< Name of a model in the rest, instead of a uri.
+  std::string name;               ///< Empty = the model's name.
+  std::optional<Pose> pose;       ///< Pose in world; default: the model's. That of a copy is
+                                  ///< relative to the original, along the world's axes.
+  std::optional<bool> is_static;  ///< Default: the model's flag.
+  std::optional<Walk> walk;       ///< An actor's walk.
   int line = 0;
 };
 
 struct PreparedText {
-  std::string rest;  ///< On the lines where it was.
+  std::string rest;  ///< The rest of the text, on its lines.
   std::vector<Include> includes;
   /// The world's models in the order of the text: index of an include, or kOfRest.
   std::vector<int> order;
   static constexpr int kOfRest = -1;
   Faults warnings;
-  /// The world's name, where SDF keeps it for itself and another was put there.
+  /// The world's name, if SDF reserves it and another took its place.
   std::optional<std::string> world_name;
-  /// Where a world's `<state>`, as Gazebo saves it, has its models; by name.
+  /// Poses of models by name, in a world's `<state>` as Gazebo saves it.
   std::map<std::string, Pose> poses;
 };
 
-/// Leaves in place what it does not understand, and all includes and models if parts of the world
-/// refer to each other. Throws SdfError.
+/// Takes includes, copies and people out of a world's text. Keeps elements that it does not know,
+/// and everything if parts of the world refer to each other. Throws SdfError.
 PreparedText prepare(const std::string& xml);
 
-/// `<pose frame="">` and the like, which is not in newer versions of SDF.
+/// Removes `<pose frame="">` and the like, which newer versions of SDF don't have.
 void modernizePoses(XmlDocument* document);
 
 }  // namespace kiva

@@ -7,13 +7,13 @@
 
 namespace kiva {
 
-/// Where a nested model's parts go in the one that is flattened.
+/// The place of a nested model's parts in the flattened model.
 struct Scope {
   const Origin& origin;
   std::string prefix;  ///< `nested::`, empty for the outermost model.
-  Pose pose;           ///< Of the nested model, in the outermost one.
+  Pose pose;           ///< Pose of the nested model in the outermost one.
   bool is_static;
-  bool self_collide;  ///< What its links do that do not say.
+  bool self_collide;  ///< Default of its links.
 };
 
 /// Throw SdfError.

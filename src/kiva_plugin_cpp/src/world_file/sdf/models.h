@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// With nested models flattened. Throws SdfError.
+/// Returns the description of a model, with nested models flattened. Throws SdfError.
 ModelDescription describeModel(const XmlElement& model, const Origin& origin, Faults* warnings);
 
 }  // namespace kiva

@@ -121,10 +121,10 @@ void readPlane(const XmlElement& plane, Shape* shape) {
     failAt(*plane.FirstChildElement("normal"), "expected a normal that points somewhere");
   }
   shape->normal.Normalize();
-  const XmlElement* const given = plane.FirstChildElement("size");
-  const Vector2 size = given ? pairIn(*given) : Vector2{1, 1};
-  if (given) checkPositive(*given, size.x);
-  if (given) checkPositive(*given, size.y);
+  const XmlElement* const normal = plane.FirstChildElement("size");
+  const Vector2 size = normal ? pairIn(*normal) : Vector2{1, 1};
+  if (normal) checkPositive(*normal, size.x);
+  if (normal) checkPositive(*normal, size.y);
   shape->plane_size[0] = size.x;
   shape->plane_size[1] = size.y;
 }
@@ -167,9 +167,9 @@ void readWithin(const XmlElement* parent, const char* name, double lower, double
                 double* value, Faults* warnings) {
   const XmlElement* const element = parent ? parent->FirstChildElement(name) : nullptr;
   if (!element) return;
-  const double given = readDouble(contentOf(element)).value_or(*value);
-  if (given >= lower && given <= upper) {
-    *value = given;
+  const double number = readDouble(contentOf(element)).value_or(*value);
+  if (number >= lower && number <= upper) {
+    *value = number;
     return;
   }
   const std::string range = std::isfinite(upper) ? "from 0 to 1" : "of 0 or above";
@@ -225,8 +225,8 @@ void readSurface(const XmlElement& element, Collision* collision, Faults* warnin
 void readMaterial(const XmlElement& element, Visual* visual, Faults* warnings) {
   const XmlElement* const material = element.FirstChildElement("material");
   for (const char* name : {"diffuse", "ambient"}) {
-    const XmlElement* const given = material ? material->FirstChildElement(name) : nullptr;
-    const auto colour = given ? readColour(contentOf(given)) : std::nullopt;
+    const XmlElement* const child = material ? material->FirstChildElement(name) : nullptr;
+    const auto colour = child ? readColour(contentOf(child)) : std::nullopt;
     if (!colour) continue;
     for (const int i : {0, 1, 2, 3}) visual->rgba[i] = std::clamp<double>((*colour)[i], 0, 1);
     break;

@@ -10,19 +10,19 @@
 
 namespace kiva {
 
-/// Where a document comes from.
+/// The origin of a document.
 struct Origin {
-  /// What errors call the document: its path, if it is a file; empty for one without a name.
+  /// Name of the document in errors: its path, if it is a file, or empty.
   std::string where;
   const ModelPaths& model_paths;
 };
 
-/// A mesh that is touched is read, one that is only seen is named.
+/// How meshes are treated: those of collisions are read, those of visuals only named.
 enum class MeshUse { kTouched, kSeen };
 
-/// The shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`.
-/// Throws SdfError at a mesh that can't be had, at a size that is not positive, and at a kind we
-/// can't build.
+/// Returns the shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`.
+/// Throws SdfError at a mesh that can't be read, at a size that is not positive, and at an unknown
+/// kind.
 std::optional<Shape> readShape(const XmlElement& owner, const Origin& origin, MeshUse use);
 
 /// Reads friction and restitution of a `<collision>`.

@@ -23,7 +23,7 @@ Shape boxOf(const Vector3& size) {
 /// The shapes that the link shows, at `place` in it or anywhere.
 std::vector<Collision> visualsOf(const XmlElement& from, const std::optional<Pose>& place,
                                  const Origin& origin) {
-  std::vector<Collision> found;
+  std::vector<Collision> visuals;
   forEach(from, "visual", [&](const XmlElement& visual) {
     Faults ignored;  // Told where visuals are read.
     buildOrLeaveOut("visual", &ignored, [&] {
@@ -34,10 +34,10 @@ std::vector<Collision> visualsOf(const XmlElement& from, const std::optional<Pos
       Collision collision;
       collision.pose_in_link = pose;
       collision.shape = *shape;
-      found.push_back(collision);
+      visuals.push_back(collision);
     });
   });
-  return found;
+  return visuals;
 }
 
 /// SDF has a heightmap around its origin, and above it.
@@ -88,22 +88,22 @@ void addStandIn(const XmlElement& from, const XmlElement& collision, const Colli
                 const SdfError& cause, const Origin& origin, bool is_static, Link* link,
                 Faults* warnings) {
   std::string instead = "; what the link shows stands in for it";
-  std::vector<Collision> found = visualsOf(from, lost.pose_in_link, origin);
-  if (found.empty()) found = visualsOf(from, std::nullopt, origin);
+  std::vector<Collision> visuals = visualsOf(from, lost.pose_in_link, origin);
+  if (visuals.empty()) visuals = visualsOf(from, std::nullopt, origin);
   if (const XmlElement* const heightmap = heightmapOf(collision)) {
-    found = boxOfHeightmap(lost, *heightmap);
+    visuals = boxOfHeightmap(lost, *heightmap);
     instead = "; the box around it stands in for it";
   }
-  if (found.empty() && is_static) {
-    found = {boxAround(lost, link->pose_in_model)};
+  if (visuals.empty() && is_static) {
+    visuals = {boxAround(lost, link->pose_in_model)};
     instead = kStandsIn;
   }
-  warn(cause, found.empty() ? "" : instead, warnings);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    found[i].name = lost.name + (i > 0 ? "_" + std::to_string(i + 1) : "");
-    found[i].friction = lost.friction;
-    found[i].restitution = lost.restitution;
-    link->collisions.push_back(found[i]);
+  warn(cause, visuals.empty() ? "" : instead, warnings);
+  for (std::size_t i = 0; i < visuals.size(); ++i) {
+    visuals[i].name = lost.name + (i > 0 ? "_" + std::to_string(i + 1) : "");
+    visuals[i].friction = lost.friction;
+    visuals[i].restitution = lost.restitution;
+    link->collisions.push_back(visuals[i]);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What can't be loaded is never free floor: something stands in its place.
+// Stand-ins for parts that can't be loaded, which must never count as free floor.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace kiva {
 
 /// The model that stands in for one that an include names and that can't be had.
 constexpr char kUnknownObstacle[] = "model://unknown_obstacle";
-/// What a warning of such an include ends with.
+/// The end of a warning about such an include.
 constexpr char kStandsIn[] = "; a box of 1 m by 1 m stands in for it, where nothing drives";
-/// What its model is called if the include does not say: the last part of its uri.
+/// Returns the name of an include's model without a `<name>`: the last part of its uri.
 std::string nameIn(const std::string& uri);
 
 /// Adds to `link`, which was made of `from`, what stands in for `lost`, a collision of it whose
@@ -25,8 +25,8 @@ void addStandIn(const XmlElement& from, const XmlElement& collision, const Colli
                 const SdfError& cause, const Origin& origin, bool is_static, Link* link,
                 Faults* warnings);
 
-/// Without any of its collisions a model that moves would fall through the floor: a cube of 1 m on
-/// its origin stands in for them.
+/// Adds a cube of 1 m on the origin of a model that moves and lost all of its collisions: it would
+/// fall through the floor.
 void addStandIn(const XmlElement& from, ModelDescription* description, Faults* warnings);
 
 }  // namespace kiva

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// URDF as people have halls in it: a building that is fixed to the world, without masses.
+// Halls in URDF: buildings that are fixed to the world, without masses.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace kiva {
 
-/// Returns the model that a `<robot>` describes, as SDF. `parsed` is told the lines that its
-/// elements come from, and in warnings which numbers are none. Throws SdfError.
+/// Returns the model that a `<robot>` describes, as SDF. Adds to `parsed` the lines of its
+/// elements, and a warning for each text that should be a number. Throws SdfError.
 std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed);
 
 /// A URDF whose links without an inertial have one: Gazebo leaves out those that have none,

@@ -29,8 +29,8 @@ class Attributes {
 
  private:
   Vector3 triple(const XmlElement& element, const char* attribute) const {
-    const auto found = readVector(attributeOf(element, attribute));
-    return found ? *found : warned(element, attribute, "three numbers", Vector3::Zero);
+    const auto vector = readVector(attributeOf(element, attribute));
+    return vector ? *vector : warned(element, attribute, "three numbers", Vector3::Zero);
   }
 
   template <typename Value>
@@ -60,16 +60,16 @@ Matrix3 turned(const UrdfInertia& inertia) {
 }
 
 UrdfInertia readInertia(const XmlElement& inertial, const Attributes& attributes) {
-  UrdfInertia found;
+  UrdfInertia result;
   const XmlElement* const mass = inertial.FirstChildElement("mass");
   const XmlElement* const inertia = inertial.FirstChildElement("inertia");
-  if (mass) found.mass = attributes.number(*mass, "value");
-  found.pose = attributes.originIn(inertial);
-  if (!inertia) return found;
+  if (mass) result.mass = attributes.number(*mass, "value");
+  result.pose = attributes.originIn(inertial);
+  if (!inertia) return result;
   const auto moment = [&](const char* name) { return attributes.number(*inertia, name); };
-  found.moments = {moment("ixx"), moment("iyy"), moment("izz")};
-  found.products = {moment("ixy"), moment("ixz"), moment("iyz")};
-  return found;
+  result.moments = {moment("ixx"), moment("iyy"), moment("izz")};
+  result.products = {moment("ixy"), moment("ixz"), moment("iyz")};
+  return result;
 }
 
 std::vector<UrdfShape> readShapes(const XmlElement& link, const char* kind,

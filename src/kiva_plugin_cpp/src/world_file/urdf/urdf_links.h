@@ -13,10 +13,10 @@ namespace kiva {
 /// A mass with its centre and its inertia about that, all along the axes of a link.
 struct UrdfInertia {
   double mass = 0;  ///< [kg]
-  Pose pose;        ///< Of the inertial's own frame.
+  Pose pose;        ///< Pose of the inertial's own frame.
   Vector3 moments, products;
 
-  /// The same, and another one that stands at `pose` in this link's frame, as one body.
+  /// Adds another inertia, which stands at `pose` in this link's frame, as one body.
   void add(UrdfInertia other, const Pose& pose);
 };
 
@@ -25,19 +25,20 @@ struct UrdfShape {
   const XmlElement* element = nullptr;
   std::string name;  ///< Its own, or that of its link.
   std::string from;  ///< The link that it was written for.
-  Pose pose;         ///< In the link that has it now.
+  Pose pose;         ///< Pose in the link that has it now.
 };
 
 struct UrdfJoint {
   const XmlElement* element = nullptr;
   std::string name, type, parent, child;
-  Pose pose;  ///< In the parent link.
+  Pose pose;  ///< Pose in the parent link.
 };
 
-/// What `<gazebo reference="…">` puts into a link, perhaps from another that was lumped into it.
+/// The elements of `<gazebo reference="…">` for a link, perhaps from a link that was lumped into
+/// it.
 struct UrdfExtension {
   const XmlElement* element = nullptr;
-  Pose pose;  ///< Of the link that it was written for.
+  Pose pose;  ///< Pose of the link that it was written for.
   bool is_lumped = false;
 };
 
@@ -58,7 +59,7 @@ struct UrdfTree {
   std::map<std::string, UrdfLink> links;
   std::map<std::string, UrdfJoint> joints;
   std::string root;
-  /// Of each link that was lumped: the one that holds its parts now, and where it stands in that.
+  /// By lumped link: the link that holds its parts now, and its pose in that.
   struct Place {
     std::string link;
     Pose pose;
@@ -66,12 +67,12 @@ struct UrdfTree {
   std::map<std::string, Place> lumped;
 };
 
-/// What an element within `<gazebo>` says: in an attribute `value`, or as its text. Null says
-/// nothing.
+/// Returns the value of an element within `<gazebo>`: its attribute `value`, or its text. Nothing
+/// for null.
 std::string valueOf(const XmlElement* element);
 
-/// Texts that are no numbers count as if they were not given, with a warning each. Throws SdfError
-/// where the links are no tree.
+/// Reads the links of a `<robot>`. Ignores texts that should be numbers, with a warning each.
+/// Throws SdfError where the links are no tree.
 UrdfTree readUrdf(const XmlElement& robot, Faults* warnings);
 
 }  // namespace kiva

@@ -107,11 +107,11 @@ class Writer {
   void writeInertia(const UrdfLink& of, XmlElement* link) {
     const UrdfInertia& from = of.inertia;
     const XmlElement* const own = of.element->FirstChildElement("inertial");
-    const XmlElement& given = own ? *own : *of.element;
-    XmlElement* const inertial = insert(link, "inertial", given);
+    const XmlElement& geometry = own ? *own : *of.element;
+    XmlElement* const inertial = insert(link, "inertial", geometry);
     addPose(inertial, from.pose);
     add(inertial, "mass", exact(from.mass));
-    XmlElement* const inertia = insert(inertial, "inertia", given);
+    XmlElement* const inertia = insert(inertial, "inertia", geometry);
     const Vector3 &m = from.moments, &p = from.products;
     const std::pair<const char*, double> parts[] = {{"ixx", m.X()}, {"iyy", m.Y()}, {"izz", m.Z()},
                                                     {"ixy", p.X()}, {"ixz", p.Y()}, {"iyz", p.Z()}};
@@ -125,9 +125,9 @@ class Writer {
     XmlElement* const shape = insert(to, kind.c_str(), *from.element);
     shape->SetAttribute("name", name.c_str());
     addPose(shape, from.pose);
-    const XmlElement* const given = from.element->FirstChildElement("geometry");
-    XmlElement* const geometry = insert(shape, "geometry", given ? *given : *from.element);
-    if (given && given->FirstChildElement()) writeGeometry(*given->FirstChildElement(), geometry);
+    const XmlElement* const child = from.element->FirstChildElement("geometry");
+    XmlElement* const geometry = insert(shape, "geometry", child ? *child : *from.element);
+    if (child && child->FirstChildElement()) writeGeometry(*child->FirstChildElement(), geometry);
     return shape;
   }
 
@@ -145,21 +145,21 @@ class Writer {
 
   /// The last that `<gazebo reference="NAME">` says of an element for a link or a joint.
   const XmlElement* extensionOf(const std::string& name, const char* key) const {
-    const XmlElement* found = nullptr;
+    const XmlElement* element = nullptr;
     forEach(robot_, "gazebo", [&](const XmlElement& extension) {
       if (attributeOf(extension, "reference") != name) return;
-      if (const XmlElement* const own = extension.FirstChildElement(key)) found = own;
+      if (const XmlElement* const own = extension.FirstChildElement(key)) element = own;
     });
-    return found;
+    return element;
   }
 
   void writeFriction(const UrdfShape& from, XmlElement* collision) {
     const XmlElement* const along = extensionOf(from.from, "mu1");
     const XmlElement* const across = extensionOf(from.from, "mu2");
     if (!along && !across) return;
-    const XmlElement& given = along ? *along : *across;
-    XmlElement* const surface = insert(collision, "surface", given);
-    XmlElement* const ode = insert(insert(surface, "friction", given), "ode", given);
+    const XmlElement& axis = along ? *along : *across;
+    XmlElement* const surface = insert(collision, "surface", axis);
+    XmlElement* const ode = insert(insert(surface, "friction", axis), "ode", axis);
     if (along) add(ode, "mu", valueOf(along));
     if (across) add(ode, "mu2", valueOf(across));
   }
@@ -262,7 +262,7 @@ class Writer {
     const Pose offset = pose * own;
     constexpr char kDone[] = "ignition::corrected_offsets";  // as Gazebo calls it
     for (const char* name : {"xyzOffset", "rpyOffset", kDone}) {
-      if (XmlElement* const given = plugin->FirstChildElement(name)) plugin->DeleteChild(given);
+      if (XmlElement* const child = plugin->FirstChildElement(name)) plugin->DeleteChild(child);
     }
     add(plugin, "xyzOffset", exact(offset.Pos()));
     add(plugin, "rpyOffset", exact(offset.Rot().Euler()));
@@ -283,9 +283,9 @@ class Writer {
   }
 
   void writeAxis(const XmlElement& from, bool is_continuous, XmlElement* joint) {
-    const XmlElement* const given = from.FirstChildElement("axis");
-    XmlElement* const axis = insert(joint, "axis", given ? *given : from);
-    add(axis, "xyz", given && given->Attribute("xyz") ? attributeOf(*given, "xyz") : "1 0 0");
+    const XmlElement* const child = from.FirstChildElement("axis");
+    XmlElement* const axis = insert(joint, "axis", child ? *child : from);
+    add(axis, "xyz", child && child->Attribute("xyz") ? attributeOf(*child, "xyz") : "1 0 0");
     const XmlElement* const limit = from.FirstChildElement("limit");
     XmlElement* const limits = insert(axis, "limit", limit ? *limit : from);
     const auto text = [](const XmlElement* element, const char* name,

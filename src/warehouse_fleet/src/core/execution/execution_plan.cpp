@@ -108,7 +108,7 @@ void Execution::take(int robot, const Plan& plan, int index) {
   course.plan.clear();
   course.waits_by_plan = false;
   if (course.plan_is_stale || course.isWithdrawn()) return;
-  State state{asked_.cell[index], asked_.heading[index]};
+  GridPose state{asked_.cell[index], asked_.heading[index]};
   std::vector<Step> steps;
   for (int tick = 0; tick < plan.horizon; ++tick) {
     const Action action = plan.at(index, tick);

@@ -18,9 +18,9 @@ void PassingOrder::set(const std::vector<int>& robots, const std::vector<Course>
   for (const int robot : robots) {
     for (const Step& step : courses[robot].plan) claims_.push_back({step.cell, step.tick, robot});
   }
-  std::sort(claims_.begin(), claims_.end(), [](const Claim& one, const Claim& other) {
-    if (one.cell != other.cell) return one.cell < other.cell;
-    return one.tick != other.tick ? one.tick < other.tick : one.robot < other.robot;
+  std::sort(claims_.begin(), claims_.end(), [](const Claim& claim, const Claim& other) {
+    if (claim.cell != other.cell) return claim.cell < other.cell;
+    return claim.tick != other.tick ? claim.tick < other.tick : claim.robot < other.robot;
   });
   for (std::size_t i = claims_.size(); i-- > 0;) next_[claims_[i].cell] = static_cast<int>(i);
 }

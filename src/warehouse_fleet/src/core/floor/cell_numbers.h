@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of the cells on which a robot can stand: on a floor that is not a full rectangle, tables
-// of all cells have a word for these alone.
+// Numbers of the cells on which a robot can stand. On a floor that is not a full rectangle, tables
+// have a word for these cells alone.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct CellNumbers {
   int words() const { return static_cast<int>(cells.size()) + 1; }
 };
 
-/// Returns the numbers of a floor; nullptr if it has few other cells, which are not worth them.
+/// Returns the numbers of a floor; nullptr where too few other cells would be saved.
 std::unique_ptr<CellNumbers> numbered(const Floor& floor);
 
 }  // namespace fleet

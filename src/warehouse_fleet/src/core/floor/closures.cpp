@@ -63,8 +63,8 @@ Closures::Closed Closures::now(const Fleet& fleet) const {
 /// Returns whether the nearest robot behind a unit in a lane carries one.
 bool Closures::isWaitedFor(Cell unit, const Fleet& fleet) const {
   for (Cell cell = before(floor_, unit); cell != kNowhere; cell = before(floor_, cell)) {
-    const auto found = std::find(fleet.cell.begin(), fleet.cell.end(), cell);
-    if (found != fleet.cell.end()) return fleet.isLoaded(found - fleet.cell.begin());
+    const auto at = std::find(fleet.cell.begin(), fleet.cell.end(), cell);
+    if (at != fleet.cell.end()) return fleet.isLoaded(at - fleet.cell.begin());
   }
   return false;
 }

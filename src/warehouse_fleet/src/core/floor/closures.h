@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The edges that are open in a step: those of the floor, but for cells that are closed, that hold a
-// stopped robot or, to robots with a load, a storage unit. Where such cells stay closed, one-way
-// streets that they cut lead back as well (severed.h).
+// The edges that are open in a step. Closed cells, cells of stopped robots and, for robots with a
+// load, cells of storage units are left out. Where such cells stay closed, one-way streets that
+// they cut lead back as well (severed.h).
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class Closures {
   /// Begins with every edge of the floor open. `costs` are those of Guidance.
   Closures(const Floor& floor, const std::vector<std::uint8_t>& costs);
 
-  /// Removes the edges that lead into closed cells, and restores those of cells that are open
-  /// again. Notes where a load can't be turned. Called once a tick.
+  /// Removes edges into closed cells, restores edges into reopened ones, and notes where a load
+  /// can't be turned. Called once a tick.
   void update(const Fleet& fleet);
 
   /// Returns the edges; their address stays the same.
@@ -30,7 +30,7 @@ class Closures {
   int version() const { return version_; }
 
  private:
-  /// Cells that are closed; all sorted.
+  /// Closed cells, sorted.
   struct Closed {
     std::vector<Cell> cells;    ///< to all robots
     std::vector<Cell> units;    ///< to loaded ones
@@ -54,10 +54,10 @@ class Closures {
   Edges edges_;
   int version_ = 0;
   int tick_ = 0;
-  std::map<Cell, int> since_;  ///< tick from which on each cell has been closed
-  Closed closed_;              ///< now
-  Closed lasting_;             ///< those of them that have been closed for long
-  std::vector<Cell> tight_;    ///< now
+  std::map<Cell, int> since_;  ///< tick at which each cell was closed
+  Closed closed_;              ///< in this tick
+  Closed lasting_;             ///< cells closed for long
+  std::vector<Cell> tight_;    ///< in this tick
 };
 
 }  // namespace fleet

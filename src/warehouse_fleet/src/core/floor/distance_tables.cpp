@@ -157,10 +157,10 @@ const DistanceTable* DistanceTables::find(Deck deck, Cell from, Cell goal, bool 
   return &entry->table;
 }
 
-bool DistanceTables::areNear(Cell one, Cell other) const {
+bool DistanceTables::areNear(Cell cell, Cell other) const {
   const int reach = regions_ == nullptr ? floor_.size() : this->reach();
-  return std::abs(floor_.x(one) - floor_.x(other)) <= reach &&
-         std::abs(floor_.y(one) - floor_.y(other)) <= reach;
+  return std::abs(floor_.x(cell) - floor_.x(other)) <= reach &&
+         std::abs(floor_.y(cell) - floor_.y(other)) <= reach;
 }
 
 void DistanceTables::ask(Entry& entry, bool is_urgent) {
@@ -186,7 +186,7 @@ std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, 
     return std::make_tuple(!entry->is_urgent, entry->table.made_, entry->key);
   };
   std::sort(old.begin(), old.end(),
-            [&](const Entry* one, const Entry* other) { return turn(one) < turn(other); });
+            [&](const Entry* entry, const Entry* other) { return turn(entry) < turn(other); });
   constexpr int kLeastShare = 4;  // of the work is left for them in any case
   work_ = std::min(work, std::max(work / kLeastShare, work_));
   has_worked_ = false;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far it is to a goal from every cell and heading, one table a goal and deck. On a floor of
+// The distance to a goal from every cell and heading, one table a goal and deck. On a floor of
 // moderate size a table has all cells. On a larger one it has the cells around its goal; beyond
-// them all goals of a region share the table of the region's middle. Tables are made when they are
-// asked for, on all threads, and dropped when they were not asked for the longest.
+// them all goals of a region share the table of the region's middle. Tables are made on demand, on
+// all threads. The least recently used table is dropped first.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,13 @@
 
 namespace fleet {
 
-/// Costs to one goal. 32 bits a cell: 16 for the heading from which it is nearest, four for what
-/// each of the others is farther, at most 15: a turn in place is never worse than half a circle,
-/// which takes 12 if a quarter costs a tick.
+/// Costs to one goal. A cell has 32 bits: 16 for the cheapest heading, and four for the extra cost
+/// of each other heading, at most 15. A turn in place is at most half a circle, which costs 12 if a
+/// quarter costs a tick.
 ///
-/// A table of the cells around its goal adds to the far table what it costs at most to get from the
-/// region's middle to the goal, and has no more than that in any cell of its own. So from anywhere
-/// some action leads to where it is nearer: nothing to get stuck in where the two meet.
+/// A table of the cells around its goal adds the largest cost from the region's middle to the goal
+/// to the far table, and no cell of its own has a larger cost. So from everywhere some action leads
+/// nearer to the goal, and a robot can't get stuck where the two tables meet.
 class DistanceTable {
  public:
   int at(Cell cell, int heading) const {
@@ -46,7 +46,7 @@ class DistanceTable {
     const std::uint32_t word = words_[index];
     return static_cast<int>(word >> 16) + static_cast<int>(word >> (4 * heading) & 0xf);
   }
-  /// Of its words; -1 beyond its window.
+  /// Returns the index of a cell's word; -1 beyond the window.
   int indexOf(Cell cell) const {
     if (far_ == nullptr) return numbers_ == nullptr ? cell : numbers_[cell];
     const auto y = static_cast<int>(static_cast<std::uint64_t>(cell) * inverse_ >> kInverseBits);
@@ -55,28 +55,29 @@ class DistanceTable {
                            static_cast<unsigned>(row) < static_cast<unsigned>(window_.rows);
     return is_inside ? row * window_.columns + column : -1;
   }
-  /// Has it hold the cells of a window alone.
+  /// Restricts the table to the cells of a window.
   void enclose(const Floor& floor, const Window& window, const DistanceTable& far, int detour);
 
-  /// Dividing by the floor's width is multiplying by its inverse: exact for 2^20 columns and 2^20
-  /// rows.
+  /// The inverse of the floor's width, by which to multiply instead of dividing: exact for 2^20
+  /// columns and 2^20 rows.
   static constexpr int kInverseBits = 40;
   std::vector<std::uint32_t> words_;
-  const std::int32_t* numbers_ = nullptr;  ///< of its words, by cell; nullptr: the cells' own
-  const DistanceTable* far_ = nullptr;     ///< for cells beyond its window; nullptr: it has all
-  int detour_ = 0;                         ///< to be added to what that says
+  const std::int32_t* numbers_ = nullptr;  ///< of words, by cell; nullptr: the cells' own
+  const DistanceTable* far_ =
+      nullptr;      ///< for cells beyond the window; nullptr: all cells are here
+  int detour_ = 0;  ///< added to costs of the far table
   Window window_;
   std::uint64_t inverse_ = 0;
   int width_ = 0;
-  int version_ = 0;  ///< of the edges that it was made for
-  int made_ = 0;     ///< when
+  int version_ = 0;  ///< of the edges
+  int made_ = 0;     ///< time of making
 };
 
 struct TableOptions {
-  int turn_ticks = 1;     ///< what a quarter turn costs, up to kMaxTurnTicks
-  std::size_t bytes = 0;  ///< of tables kept, at most
-  Cell whole_up_to = 0;   ///< cells of a floor each of whose tables has all cells; of one eight
-                          ///< times as large those to goals in lanes still have
+  int turn_ticks = 1;     ///< cost of a quarter turn, up to kMaxTurnTicks
+  std::size_t bytes = 0;  ///< largest size of all tables
+  Cell whole_up_to = 0;   ///< largest floor on which each table has all cells; on one up to eight
+                          ///< times as large, tables to goals in lanes still have
 };
 
 class DistanceTables {
@@ -84,41 +85,40 @@ class DistanceTables {
   DistanceTables(const Floor& floor, const Edges& edges, const TableOptions& options,
                  const Threads& threads);
 
-  /// A step begins: at that time, with edges of that version. New tables may have so many states
-  /// (cells and headings) in it, at least one table.
+  /// Begins a step at that time, with edges of that version. New tables of the step may have
+  /// `work` states (cells and headings) in all; one table is always allowed.
   void begin(int now, int version, std::int64_t work);
 
-  /// Takes in what edges cost by now; steps with edges of another version do so by themselves.
+  /// Takes in the present costs of edges; steps with edges of another version do so by themselves.
   void reprice() { prices_.update(edges_); }
 
-  /// A robot needs this table in this step: it will be made if there is none.
+  /// Notes that a robot needs this table in this step, so that it is made if it is missing.
   void need(Deck deck, Cell goal);
-  /// Makes what was needed, on all threads.
+  /// Makes the missing tables, on all threads.
   void make();
 
-  /// Returns the table for a robot in the cell `from`, perhaps an outdated one; nullptr if it is
-  /// not there. It is urgent to a robot that makes no progress.
+  /// Returns the table for a robot in the cell `from`, perhaps an outdated one; nullptr if there is
+  /// no table. `is_urgent`: the robot makes no progress.
   const DistanceTable* find(Deck deck, Cell from, Cell goal, bool is_urgent);
 
-  /// Renews some of the tables that were found in this step, of so many states, or fewer where new
-  /// tables took much of the step: the urgent and the oldest first, that are older than `max_age`
-  /// or of earlier edges.
+  /// Renews tables used in this step that are older than `max_age` or of earlier edges, the urgent
+  /// and the oldest first. `work` limits their states; new tables of the step count against it.
   void renew(int max_age, std::int64_t work);
 
-  /// Makes the tables of all regions ahead of need, as long as `goes_on` says so and there is room.
+  /// Makes the tables of all regions ahead of need, while `goes_on` returns true and there is room.
   void prepare(const std::function<bool()>& goes_on);
 
-  /// Writes the tables of regions; or reads them. Throws std::runtime_error that says what is
-  /// wrong, for example that they were made for another floor.
+  /// Writes or reads the tables of regions. Throws std::runtime_error with the reason, for example
+  /// tables of another floor.
   void save(std::ostream& out) const;
   void load(std::istream& in);
-  /// The same with the file at a path, which what is thrown names.
+  /// Does the same with the file at a path, which errors name.
   void save(const std::string& path) const;
   void load(const std::string& path);
 
   bool hasRegions() const { return regions_ != nullptr; }
-  /// Returns whether one of two cells is among those that a table around the other has.
-  bool areNear(Cell one, Cell other) const;
+  /// Returns whether a table around either cell contains the other cell.
+  bool areNear(Cell cell, Cell other) const;
   std::size_t bytes() const { return used_; }
   int count() const { return static_cast<int>(tables_.size()); }
 
@@ -129,12 +129,12 @@ class DistanceTables {
     Kind kind = Kind::kWhole;
     Deck deck = Deck::kUnder;
     Cell goal = kNowhere;
-    Entry* far = nullptr;  ///< of a near table
-    int far_made = -1;     ///< when that was made
+    Entry* far = nullptr;  ///< the far table of a near one
+    int far_made = -1;     ///< time at which the far table was made
     std::size_t bytes = 0;
     bool is_made = false;
-    int needed = -1;  ///< when it was needed last
-    int asked = -1;   ///< when it was asked for last
+    int needed = -1;  ///< time of the last need()
+    int asked = -1;   ///< time of the last find()
     bool is_urgent = false;
     std::list<Entry>::iterator self;
     DistanceTable table;
@@ -150,10 +150,10 @@ class DistanceTables {
   bool hasRoom(std::size_t bytes);
   bool takesWork(std::int64_t states);
   int cells(Kind kind, Cell goal) const;
-  /// How many columns and rows from its goal a table ends that has a far one: behind the middle of
-  /// its region, wherever that is.
+  /// Returns the reach of a near table in columns and rows from its goal: beyond the middle of its
+  /// region, wherever that is.
   int reach() const { return regions_->side() * 3 / 2; }
-  /// The same of a table to a goal: from a lane the middle may be that of a region beside it.
+  /// Returns the reach of the table to a goal: in a lane the middle may be a neighbouring region's.
   int reach(Cell goal) const { return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach(); }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
@@ -174,12 +174,12 @@ class DistanceTables {
   std::unique_ptr<Regions> regions_;      ///< nullptr: each table has all cells
   std::unique_ptr<CellNumbers> numbers_;  ///< nullptr: tables of all cells have a word for each
   std::size_t used_ = 0;                  ///< bytes
-  std::list<Entry> tables_;               ///< what was needed last comes first
+  std::list<Entry> tables_;               ///< the most recently needed first
   std::unordered_map<std::int64_t, Entry*> index_;
   std::vector<Entry*> to_make_, asked_;                    ///< in this step
   std::vector<std::unique_ptr<DistanceSearch>> searches_;  ///< one a thread
   int now_ = 0, version_ = 0;
-  std::int64_t work_ = 0;  ///< that may still be done in this step
+  std::int64_t work_ = 0;  ///< states that may still be computed in this step
   bool has_worked_ = false;
 };
 

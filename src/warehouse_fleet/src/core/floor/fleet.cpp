@@ -86,7 +86,7 @@ int Fleet::commitments(int robot) const {
   return ticks;
 }
 
-State after(const Floor& floor, State state, Action action) {
+GridPose after(const Floor& floor, GridPose state, Action action) {
   if (action == Action::kForward) return {floor.beside(state.cell, state.heading), state.heading};
   return {state.cell, turned(state.heading, quarters(action))};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each edge of the floor costs: a tick, and more against the traffic. Learnt while robots
-// drive, after Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding (2024):
-// aisles find their direction by themselves, and crowds are driven around.
+// The cost of each edge of the floor: a tick, and more against the traffic. It is learnt while
+// robots drive, after Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding
+// (2024): aisles find their direction by themselves, and robots drive around crowds.
 #pragma once
 
 #include <cstdint>
@@ -12,43 +12,44 @@
 
 namespace fleet {
 
-/// A tick in the units of all costs: fine enough for what guidance adds to one.
+/// The cost of a tick: fine enough for the fractions that guidance adds.
 constexpr int kTickCost = 6;
-/// No edge costs more.
+/// The highest cost of an edge.
 constexpr int kMaxEdgeCost = 60;
 
 struct GuidanceOptions {
-  double against = 0;   ///< cost of meeting one robot a tick, in ticks
-  double crowd = 0;     ///< cost of one robot a tick that waits in the cell, in ticks
-  double resting = 0;   ///< cost of a cell where a robot is where it was to go, in ticks
-  double at_lanes = 0;  ///< cost beside stations' lanes, which is for who goes there, in ticks
-  double memory = 200;  ///< ticks after which what was seen counts 1/e
+  double against = 0;  ///< cost of meeting one robot a tick, in ticks
+  double crowd = 0;    ///< cost of one robot a tick that waits in the cell, in ticks
+  double resting = 0;  ///< cost of a cell where a robot rests at its goal, in ticks
+  double at_lanes =
+      0;  ///< cost beside stations' lanes, of which robots of these lanes are free, in ticks
+  double memory = 200;  ///< ticks after which traffic counts 1/e
 };
 
 class Guidance {
  public:
   Guidance(const Floor& floor, const GuidanceOptions& options);
 
-  /// A robot drove from `cell` towards `heading` in this tick, or waited there.
+  /// Records that a robot drove from `cell` towards `heading` in this tick, or waited there.
   void drove(Cell cell, int heading) { drove_[cell * kHeadings + heading] += gain_; }
   void waited(Cell cell) { waited_[cell] += gain_; }
-  /// A robot has come to its goal and stands there until it gets another.
+  /// Records that a robot stands at its goal until it gets another.
   void rests(Cell cell) { resting_.push_back(cell); }
-  /// The tick is over.
+  /// Ends the tick.
   void tick();
 
-  /// Computes the costs again from the traffic seen.
+  /// Computes the costs again from the recorded traffic.
   void refresh();
-  /// By cell and heading, in kTickCost.
+  /// Returns the costs by cell and heading [kTickCost].
   const std::vector<std::uint8_t>& costs() const { return costs_; }
 
  private:
   const Floor& floor_;
   GuidanceOptions options_;
-  // What is seen counts more and more instead of what was seen less and less.
+  // New traffic counts more and more; old traffic need not be reduced every tick.
   double gain_ = 1;
   std::vector<float> drove_, waited_;
-  std::vector<Cell> resting_;  ///< now
+  std::vector<Cell> resting_;  ///< in this tick
   std::vector<std::uint8_t> is_at_lanes_;
   std::vector<std::uint8_t> costs_;
 };

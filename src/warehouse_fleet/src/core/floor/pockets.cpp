@@ -16,7 +16,7 @@ class DepthFirst {
     order_.clear();
     visit(root);
     while (!way_.empty()) {
-      Step& step = way_.back();
+      Visit& step = way_.back();
       if (step.next == step.beside.size()) {
         leave();
         continue;
@@ -46,7 +46,7 @@ class DepthFirst {
   int size(Cell cell) const { return size_[cell]; }
 
  private:
-  struct Step {
+  struct Visit {
     Cell cell;
     std::vector<Cell> beside;
     std::size_t next = 0;
@@ -72,7 +72,7 @@ class DepthFirst {
   const Floor& floor_;
   std::vector<int> number_, lowest_, size_;
   std::vector<Cell> order_, cut_;
-  std::vector<Step> way_;
+  std::vector<Visit> way_;
 };
 
 /// A cell in the middle of the search tree: in no pocket of less than half of the cells.

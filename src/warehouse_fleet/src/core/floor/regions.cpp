@@ -14,17 +14,18 @@ bool carries(const Floor& floor, Deck deck, Cell cell) {
 }
 
 /// The cells of the part around `start`, whatever the direction of its edges; marks them.
-std::vector<Cell> part(const Floor& floor, Deck deck, Cell start, std::vector<std::uint8_t>& seen) {
+std::vector<Cell> part(const Floor& floor, Deck deck, Cell start,
+                       std::vector<std::uint8_t>& visited) {
   std::vector<Cell> cells{start};
-  seen[start] = 1;
+  visited[start] = 1;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const Cell beside = floor.beside(cells[i], heading);
-      if (beside == kNowhere || seen[beside] || !carries(floor, deck, beside)) continue;
+      if (beside == kNowhere || visited[beside] || !carries(floor, deck, beside)) continue;
       const bool is_joined = floor.next(deck, cells[i], heading) == beside ||
                              floor.next(deck, beside, turned(heading, 2)) == cells[i];
       if (!is_joined) continue;
-      seen[beside] = 1;
+      visited[beside] = 1;
       cells.push_back(beside);
     }
   }
@@ -32,11 +33,11 @@ std::vector<Cell> part(const Floor& floor, Deck deck, Cell start, std::vector<st
 }
 
 std::vector<Cell> largestPart(const Floor& floor, Deck deck) {
-  std::vector<std::uint8_t> seen(floor.size());
+  std::vector<std::uint8_t> visited(floor.size());
   std::vector<Cell> largest;
   for (Cell cell = 0; cell < floor.size(); ++cell) {
-    if (seen[cell] || !carries(floor, deck, cell)) continue;
-    std::vector<Cell> cells = part(floor, deck, cell, seen);
+    if (visited[cell] || !carries(floor, deck, cell)) continue;
+    std::vector<Cell> cells = part(floor, deck, cell, visited);
     if (cells.size() > largest.size()) largest.swap(cells);
   }
   return largest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One-way streets that obstacles cut into parts: how robots get out of them, and to units there.
+// One-way streets that obstacles cut into parts, and the edges by which robots leave them and reach
+// units there.
 #pragma once
 
 #include <vector>
@@ -15,14 +16,14 @@ struct BackEdge {
   Heading heading;
 };
 
-/// Returns the edges that are to lead back as well while cells are `closed` (sorted), for all
-/// robots. Those between two strongly connected parts of the streets do, so that what obstacles
-/// leave connected can be driven to and left again; and those into closed cells, where robots may
+/// Returns the edges that lead back as well, for all robots, while cells are `closed` (sorted).
+/// These are edges between strongly connected parts of the streets, so that every cell that is
+/// still connected can be reached and left again; and edges into closed cells, where robots may
 /// stand. Stations' lanes stay one-way: loads have no room to turn there.
 std::vector<BackEdge> waysBack(const Floor& floor, const std::vector<Cell>& closed);
 
-/// Returns the edges on which a robot without a load comes to `units` in streets and lanes from
-/// beyond: those that wait behind a unit may fill the street that leads to it. `closed`: sorted.
+/// Returns the edges on which a robot without a load reaches `units` in streets and lanes from the
+/// far end: robots that wait behind a unit may fill the street that leads to it. `closed`: sorted.
 std::vector<BackEdge> waysToUnits(const Floor& floor, const std::vector<Cell>& closed,
                                   const std::vector<Cell>& units);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Loops whose turns are independent of each other, shared among threads: the result is the same for
-// any number of threads.
+// Loops with independent turns, shared among threads. The result is the same for any number of
+// threads.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@ namespace fleet {
 
 class Threads {
  public:
-  /// The caller and `threads` - 1 others; 0: as many as the machine has cores.
+  /// Uses the caller and `threads` - 1 others; 0 = one thread a core.
   explicit Threads(int threads);
 
   int count() const { return count_; }
 
-  /// Calls turn(i, thread) for each i of [0, turns), on as many threads as have `worth` turns each;
-  /// `thread` is a number below count(), for what a thread needs of its own. The first exception of
-  /// a turn is thrown when all threads have ended. Threads live for one loop only: a child that was
-  /// forked in between misses none.
+  /// Calls turn(i, thread) for each i of [0, turns), with at least `worth` turns a thread. `thread`
+  /// is below count() and serves as the index of a thread's own memory. The first exception of a
+  /// turn is thrown when all threads have ended. Threads live for one loop only, so that a forked
+  /// child misses none.
   void share(int turns, int worth, const std::function<void(int, int)>& turn) const;
 
  private:

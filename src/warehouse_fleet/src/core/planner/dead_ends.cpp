@@ -46,7 +46,7 @@ Cell DeadEnds::roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) c
   for (const Cell cell : neighbours(floor_, gate)) {
     const std::vector<Cell> around = neighbours(floor_, cell);
     const auto open =
-        std::count_if(around.begin(), around.end(), [&](Cell one) { return !is_inside[one]; });
+        std::count_if(around.begin(), around.end(), [&](Cell cell) { return !is_inside[cell]; });
     if (is_inside[cell] || open <= most) continue;
     most = open;
     best = cell;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dead ends, and pockets behind a passage: cells that one can't leave but by a single cell before
-// them. A robot that is to go into one where others stand would push them to its end and stand
-// before them for ever; so those in its way come out first, the outermost first, past the robot,
-// which makes way for them.
+// Dead ends, and pockets behind a passage: cells that can be left by a single cell only. A robot
+// with a goal in one where others stand would push them to its end and stand before them for ever.
+// So the robots in its way come out first, the outermost first, past the robot, which makes way for
+// them.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ class DeadEnds {
  public:
   explicit DeadEnds(const Floor& floor);
 
-  /// Sees to the dead ends in which robots have goals that they pursue, one robot an entrance.
-  /// While others are in its way, the outermost gets an urgent goal outside and the robot yields;
-  /// then the way in is kept for it. Overwrites their wishes.
+  /// Serves one robot an entrance of those that pursue goals in dead ends. While others are in its
+  /// way, the outermost of them gets an urgent goal outside and the robot yields; then the way in
+  /// is kept for the robot. Overwrites their wishes.
   void empty(DistanceTables& tables, Candidates& candidates, std::vector<Wish>& wishes);
 
  private:
@@ -29,10 +29,10 @@ class DeadEnds {
   Cell roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) const;
 
   const Floor& floor_;
-  std::vector<Cell> out_;      ///< by cell: the next on the way out; kNowhere: in no dead end
-  std::vector<Cell> outside_;  ///< by entrance: a cell beyond, for those that come out
-  std::vector<int> served_;    ///< by entrance: the robot that goes in, or -1
-  std::vector<int> standing_;  ///< by cell: who, or -1
+  std::vector<Cell> out_;      ///< by cell: the next on the way out; kNowhere outside dead ends
+  std::vector<Cell> outside_;  ///< by entrance: a cell beyond, as goal of robots that come out
+  std::vector<int> served_;    ///< by entrance: the robot that drives in, or -1
+  std::vector<int> standing_;  ///< by cell: the robot there, or -1
 };
 
 }  // namespace fleet

@@ -183,7 +183,7 @@ void Epibt::updateFleet(const Fleet& fleet) {
     const Cell goal = std::exchange(goals_[robot], fleet.goal[robot]);
     if (goal != fleet.goal[robot] || fleet.cell[robot] == goal) waiting_[robot] = 0;
     if (static_cast<int>(wishes_.size()) <= robot) continue;
-    const State& was = wishes_[robot].state;
+    const GridPose& was = wishes_[robot].state;
     if (was.cell != fleet.cell[robot]) {
       guidance_->drove(was.cell, was.heading);
     } else if (was.heading == fleet.heading[robot] && wishes_[robot].goal != kNowhere) {

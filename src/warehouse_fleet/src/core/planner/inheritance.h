@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a step keeps of the last: every robot begins with what is left of its path, so there is a
-// plan without conflicts before anything is searched.
+// The paths that a step keeps of the last one. Every robot begins with the rest of its path, so
+// that there is a plan without conflicts before any search.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace fleet {
 
 class Inheritance {
  public:
-  /// All references must outlive it.
+  /// Keeps all references, which must outlive the object.
   Inheritance(const std::vector<Wish>& wishes, const Candidates& candidates, Reservations& reserved,
               const Threads& threads)
       : wishes_(wishes), candidates_(candidates), reserved_(reserved), threads_(threads) {}
 
-  /// Gives each robot the rest of its path, if it still can be driven. If a robot is not where its
-  /// plan has it, all stand, and take up their paths again where they block no other.
+  /// Gives each robot the rest of its path, if it can still be driven. If a robot is elsewhere than
+  /// planned, all stand, and resume their paths where they block no other.
   void begin(const Fleet& fleet);
   /// Remembers where the paths of this step begin.
   void remember();
 
  private:
   struct Begin {
-    State state;
+    GridPose state;
     Deck deck = Deck::kUnder;
   };
 
@@ -39,8 +39,8 @@ class Inheritance {
   const Candidates& candidates_;
   Reservations& reserved_;
   const Threads& threads_;
-  std::vector<Begin> begins_;  ///< by robot; kNowhere: it has no path
-  // Of a step, by robot:
+  std::vector<Begin> begins_;  ///< by robot; kNowhere without a path
+  // By robot, in this step:
   std::vector<Path> rests_;
   std::vector<std::uint8_t> is_as_planned_;
 };

@@ -13,13 +13,13 @@ std::shared_ptr<Planner> loadPlanner(const std::string& path, const std::string&
   };
   const std::string contents = library.contents();
   if (contents.empty()) fail("no library with a registered planner");
-  const warehouse::PluginClass* const found = library.find(class_name);
-  if (!found) fail("no class " + class_name + "; it has " + contents);
-  if (!library.is<Planner>(*found)) {
-    fail(class_name + " is registered as " + found->interface + "; WAREHOUSE_ADD_PLUGIN(" +
+  const warehouse::PluginClass* const plugin_class = library.find(class_name);
+  if (!plugin_class) fail("no class " + class_name + "; it has " + contents);
+  if (!library.is<Planner>(*plugin_class)) {
+    fail(class_name + " is registered as " + plugin_class->interface + "; WAREHOUSE_ADD_PLUGIN(" +
          class_name + ", fleet::Planner) was expected");
   }
-  return library.make<Planner>(*found);
+  return library.make<Planner>(*plugin_class);
 }
 
 }  // namespace fleet

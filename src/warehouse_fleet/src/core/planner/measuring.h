@@ -13,19 +13,19 @@
 namespace fleet {
 
 struct MeasuringOptions {
-  int table_work = 0;    ///< states a robot that tables made in one step may have
-  int renewal_work = 0;  ///< states a robot that tables renewed in one step may have
-  int renewal_age = 0;   ///< ticks after which a table is renewed, if there is work left
+  int table_work = 0;    ///< largest number of states a robot in new tables of one step
+  int renewal_work = 0;  ///< largest number of states a robot in renewed tables of one step
+  int renewal_age = 0;   ///< age at which a table is renewed, if there is work left [ticks]
 };
 
 class Measuring {
  public:
-  /// All references must outlive it.
+  /// Keeps all references, which must outlive the object.
   Measuring(const Floor& floor, const MeasuringOptions& options, DistanceTables& tables)
       : floor_(floor), options_(options), tables_(tables) {}
 
-  /// Sets the tables of all wishes, at that time, with edges of that version. A goal that can't be
-  /// reached is taken away. Robots that stand (`way`) get renewed tables first.
+  /// Sets the tables of all wishes, at that time, with edges of that version. Removes goals that
+  /// can't be reached. Robots that stand (`way`) get renewed tables first.
   void measure(int now, int version, const MakingWay& way, std::vector<Wish>& wishes);
 
  private:

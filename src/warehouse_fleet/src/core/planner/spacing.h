@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a cell must have been left a tick before it is entered: paths that follow each other
-// closely are driven as they are, but later, in the order in which the plan passes each cell. Since
-// no plan moves robots around in a ring, who comes first can always go on.
+// Delays for floors on which a cell must be left a tick before it is entered. Paths that follow
+// each other closely are driven unchanged, but later, in the order in which the plan passes each
+// cell. Since no plan moves robots around in a ring, the first robot can always go on.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ class Spacing {
  public:
   explicit Spacing(int horizon) : horizon_(horizon) {}
 
-  /// What each does with waiting put in, so many actions a robot as the paths have.
+  /// Returns the actions with waits put in, as many a robot as the paths have.
   const std::vector<Action>& space(const Fleet& fleet, const Floor& floor,
                                    const Reservations& reserved);
 
@@ -27,9 +27,9 @@ class Spacing {
                const Reservations& reserved) const;
 
   const int horizon_;
-  std::vector<int> done_;           ///< actions of its path that a robot has done
-  std::vector<int> begun_;          ///< the same when the tick began
-  std::vector<std::uint8_t> acts_;  ///< does its next action in this tick
+  std::vector<int> done_;           ///< by robot: finished actions of its path
+  std::vector<int> begun_;          ///< done_ at the begin of the tick
+  std::vector<std::uint8_t> acts_;  ///< by robot: its next action is in this tick
   std::vector<Action> actions_;
 };
 

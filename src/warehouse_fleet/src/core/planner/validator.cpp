@@ -35,15 +35,15 @@ class Drive {
     now_ = then_;
   }
 
-  std::vector<Violation> found;
+  std::vector<Violation> violations;
 
  private:
   void note(Kind kind, std::vector<int> robots, Cell cell) {
-    found.push_back({kind, tick_, std::move(robots), cell});
+    violations.push_back({kind, tick_, std::move(robots), cell});
   }
 
-  State drive(int robot) {
-    const State state = now_[robot];
+  GridPose drive(int robot) {
+    const GridPose state = now_[robot];
     const Action action = plan_.at(robot, tick_);
     if (fleet_.isStopped(robot) && action != Action::kWait) {
       note(Kind::kStopped, {robot}, state.cell);
@@ -115,7 +115,7 @@ class Drive {
   const Rules rules_;
   std::unordered_map<Cell, int> closed_;
   int tick_ = 0;
-  std::vector<State> now_, then_;
+  std::vector<GridPose> now_, then_;
   Standing stood_;
 };
 
@@ -140,7 +140,7 @@ std::vector<Violation> validate(const Floor& floor, const Fleet& fleet, const Pl
   Drive drive(floor, fleet, plan, rules);
   const int end = ticks < 0 ? plan.horizon : std::min(ticks, plan.horizon);
   for (int tick = 0; tick < end; ++tick) drive.tick(tick);
-  return drive.found;
+  return drive.violations;
 }
 
 std::string describe(const Violation& violation, const Floor& floor,

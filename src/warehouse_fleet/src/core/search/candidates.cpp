@@ -71,7 +71,7 @@ void Candidates::find(int robot, const Wish& wish, Scratch& scratch) {
 
 Path Candidates::standing(const Wish& wish) const {
   Path path;
-  const State state = commit(wish, path);
+  const GridPose state = commit(wish, path);
   for (int tick = wish.committed; tick < horizon_; ++tick) {
     path.actions[tick] = Action::kWait;
     path.cells[tick + 1] = state.cell;
@@ -82,7 +82,7 @@ Path Candidates::standing(const Wish& wish) const {
 
 Path Candidates::along(const Wish& wish, const Actions& actions) const {
   Path path;
-  State state = wish.state;
+  GridPose state = wish.state;
   path.cells[0] = state.cell;
   for (int tick = 0; tick < horizon_; ++tick) {
     state = after(floor_, state, actions[tick]);
@@ -93,12 +93,12 @@ Path Candidates::along(const Wish& wish, const Actions& actions) const {
   return path;
 }
 
-Path Candidates::rest(const Path& path, const State& begin, const Wish& wish,
+Path Candidates::rest(const Path& path, const GridPose& begin, const Wish& wish,
                       bool& is_punctual) const {
   Path rest;
-  State state = commit(wish, rest);
+  GridPose state = commit(wish, rest);
   // Where the path comes by there: best after a tick, as was planned; else as early as it does.
-  std::array<State, kMaxHorizon + 1> states{begin};
+  std::array<GridPose, kMaxHorizon + 1> states{begin};
   for (int tick = 0; tick < horizon_; ++tick) {
     const int heading = turned(states[tick].heading, quarters(path.actions[tick]));
     states[tick + 1] = {path.cells[tick + 1], static_cast<Heading>(heading)};
@@ -117,7 +117,7 @@ Path Candidates::rest(const Path& path, const State& begin, const Wish& wish,
 }
 
 bool Candidates::canDrive(const Path& path, const Wish& wish) const {
-  State state = wish.state;
+  GridPose state = wish.state;
   for (int tick = 0; tick < horizon_; ++tick) {
     const Action action = path.actions[tick];
     if (wish.stopped ? action != Action::kWait
@@ -138,11 +138,11 @@ bool Candidates::canDrive(const Path& path, const Wish& wish) const {
 }
 
 /// The committed part of a path; where it leads.
-State Candidates::commit(const Wish& wish, Path& path) const {
-  State state = wish.state;
+GridPose Candidates::commit(const Wish& wish, Path& path) const {
+  GridPose state = wish.state;
   path.cells[0] = state.cell;
   for (int tick = 0; tick < wish.committed; ++tick) {
-    const State there = after(floor_, state, wish.commitment[tick]);
+    const GridPose there = after(floor_, state, wish.commitment[tick]);
     if (there.cell != kNowhere) state = there;
     path.actions[tick] = wish.commitment[tick];
     path.cells[tick + 1] = state.cell;
@@ -180,7 +180,7 @@ void Candidates::grow(const Wish& wish, Scratch& scratch) const {
   std::vector<Cell>& reached = scratch.reached;
   scratch.paths.clear();
   Path path;
-  const State start = commit(wish, path);
+  const GridPose start = commit(wish, path);
   const int free = std::min(depth_, horizon_ - wish.committed);
   const int end = wish.committed + free;
   const Operations& operations = *operations_[free];
@@ -231,7 +231,7 @@ int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
   return kFine * distance(wish, {end, static_cast<Heading>(heading)});
 }
 
-int Candidates::distance(const Wish& wish, State state) const {
+int Candidates::distance(const Wish& wish, GridPose state) const {
   if (wish.table != nullptr) return wish.table->at(state.cell, state.heading);
   return kTickCost * (std::abs(floor_.x(state.cell) - floor_.x(wish.goal)) +
                       std::abs(floor_.y(state.cell) - floor_.y(wish.goal)));

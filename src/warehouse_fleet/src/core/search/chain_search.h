@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves a robot into a cell that is taken on a floor with hardly a free cell: the shortest chain of
-// robots, each into the cell of the next, the last into a free cell or, where rings are allowed,
-// into the cell of the first. All turn first, then all move in the same tick. Breadth first, so it
-// takes no longer than the floor has cells; priority inheritance would try all orders of pushing.
+// Chains that move a robot into a taken cell, on a floor with hardly a free cell: the shortest
+// chain of robots, each into the cell of the next, the last into a free cell or, where rings are
+// allowed, into the cell of the first. All turn first, then all move in the same tick. The search
+// is breadth first, so its time is linear in the floor's cells; priority inheritance would try all
+// orders of pushing.
 #pragma once
 
 #include <vector>
@@ -14,16 +15,16 @@ namespace fleet {
 
 class ChainSearch {
  public:
-  /// All references must outlive it.
+  /// Keeps all references, which must outlive the object.
   ChainSearch(const Floor& floor, const Rules& rules, int horizon, const std::vector<Wish>& wishes,
               const Priorities& priorities, const Candidates& candidates, Reservations& reserved,
               PushSearch& pushes);
 
-  /// Tells whether its path leads a robot no nearer to its goal.
+  /// Returns whether a robot's path leads it no nearer to its goal.
   bool isStuck(int robot) const;
 
-  /// Moves a robot a cell nearer to its goal, and robots of lower rank that are not settled out of
-  /// its way; settles them all. Returns false and leaves all paths as they were if it can't.
+  /// Moves a robot a cell nearer to its goal, and unsettled robots of lower rank out of its way;
+  /// settles them all. Returns false, with all paths unchanged, if it can't.
   bool advance(int robot);
 
  private:
@@ -43,12 +44,12 @@ class ChainSearch {
   const Candidates& candidates_;
   Reservations& reserved_;
   PushSearch& pushes_;
-  int robot_ = 0;              ///< that is to get nearer
+  int robot_ = 0;              ///< the robot to get nearer
   std::vector<Cell> from_;     ///< by cell: the cell before it in the chain
-  std::vector<int> searched_;  ///< by cell: the search that came to it last
+  std::vector<int> searched_;  ///< by cell: the last search that reached it
   int search_ = 0;
   std::vector<Cell> queue_;
-  std::vector<Cell> chain_;  ///< what was found, the last cell first, the robot's own at the end
+  std::vector<Cell> chain_;  ///< the chain, the last cell first, the robot's own at the end
 };
 
 }  // namespace fleet

@@ -6,9 +6,9 @@
 namespace fleet {
 namespace {
 
-constexpr int kStalled = 120;  // ticks without having come nearer after which a robot presses
-constexpr int kToldFor = 12;   // ticks in which to reach the next cell, and for each in its way
-constexpr int kToldForEach = 3;
+constexpr int kStalled = 120;     // ticks without having come nearer after which a robot presses
+constexpr int kDirectedFor = 12;  // ticks in which to reach the next cell, and for each in its way
+constexpr int kDirectedForEach = 3;
 constexpr int kEffort = 2000;  // cells that are tried for one robot
 constexpr int kPressing = 16;  // robots a step
 
@@ -25,15 +25,15 @@ void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidate
   watch(candidates, wishes);
   if (may_press) {
     for (const int robot : pressing()) {
-      if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
+      if (progress_[robot].next == kNowhere) press(robot, candidates, wishes);
     }
   }
   for (int robot = 0; robot < fleet.size(); ++robot) {
-    const Cell told = progress_[robot].told;
-    if (told == kNowhere) continue;
-    wishes[robot].goal = told;
+    const Cell cell = progress_[robot].next;
+    if (cell == kNowhere) continue;
+    wishes[robot].goal = cell;
     wishes[robot].table = nullptr;
-    candidates.keep(told);
+    candidates.keep(cell);
   }
 }
 
@@ -43,11 +43,11 @@ std::vector<int> MakingWay::pressing() const {
   for (int robot = 0; robot < static_cast<int>(progress_.size()); ++robot) {
     const Progress& progress = progress_[robot];
     const bool presses = progress.still > patience_ || progress.stalled > kStalled;
-    if (presses && progress.told == kNowhere) pressing.push_back(robot);
+    if (presses && progress.next == kNowhere) pressing.push_back(robot);
   }
-  std::sort(pressing.begin(), pressing.end(), [&](int one, int other) {
-    const int ours = progress_[one].stalled, theirs = progress_[other].stalled;
-    return ours != theirs ? ours > theirs : one < other;
+  std::sort(pressing.begin(), pressing.end(), [&](int robot, int other) {
+    const int ours = progress_[robot].stalled, theirs = progress_[other].stalled;
+    return ours != theirs ? ours > theirs : robot < other;
   });
   if (pressing.size() > kPressing) pressing.resize(kPressing);
   return pressing;
@@ -70,10 +70,10 @@ void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wis
     progress.still = progress.cell == wish.state.cell && is_under_way ? progress.still + 1 : 0;
     progress.cell = wish.state.cell;
     measure(candidates, wish, progress);
-    if (progress.cell == progress.told || --progress.patience < 0 || !can_move) {
-      progress.told = kNowhere;
+    if (progress.cell == progress.next || --progress.patience < 0 || !can_move) {
+      progress.next = kNowhere;
     }
-    if (progress.told != kNowhere) entering_[progress.told] = robot;
+    if (progress.next != kNowhere) entering_[progress.next] = robot;
   }
 }
 
@@ -96,9 +96,10 @@ void MakingWay::press(int robot, const Candidates& candidates, const std::vector
   is_asked_.assign(wishes.size(), 0);
   int effort = kEffort;
   if (!move(robot, candidates, wishes, effort)) return;
-  for (const int told : chain_) {
-    progress_[told].told = to_[told];
-    progress_[told].patience = kToldFor + kToldForEach * static_cast<int>(chain_.size());
+  for (const int directed : chain_) {
+    progress_[directed].next = to_[directed];
+    progress_[directed].patience =
+        kDirectedFor + kDirectedForEach * static_cast<int>(chain_.size());
   }
 }
 
@@ -110,7 +111,7 @@ bool MakingWay::move(int robot, const Candidates& candidates, const std::vector<
     if (entering_[cell] >= 0) continue;
     const int other = standing_[cell];
     if (other >= 0) {
-      const bool is_leaving = progress_[other].told != kNowhere || drivesOn(wishes[other]);
+      const bool is_leaving = progress_[other].next != kNowhere || drivesOn(wishes[other]);
       const bool can_leave =
           !is_asked_[other] && !wishes[other].stopped && wishes[other].committed == 0;
       if (!is_leaving && !can_leave) continue;

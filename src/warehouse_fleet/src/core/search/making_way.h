@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// For robots that get no nearer: a crowd in which everybody must turn before anybody can leave is
+// Making way for robots without progress. A crowd in which all must turn before one can leave is
 // not undone within the few ticks of an operation. Here priority inheritance with backtracking
-// (Okumura et al., 2019) goes over cells alone, whatever the headings, and tells each robot in such
-// a one's way the cell that it goes to next; that takes the ticks that it takes.
+// (Okumura et al., 2019) goes over cells alone, whatever the headings, and directs each robot in
+// the way to its next cell, however many ticks that takes.
 #pragma once
 
 #include <vector>
@@ -14,32 +14,32 @@ namespace fleet {
 
 class MakingWay {
  public:
-  /// Who stands in a cell for more than `patience` ticks presses.
+  /// `patience`: ticks in one cell after which a robot presses.
   MakingWay(const Floor& floor, int patience) : floor_(floor), patience_(patience) {}
 
-  /// Tells who presses and who makes way where to go: overwrites their goals in `wishes`.
-  /// `candidates` knows how far it is, and keeps their next cells for them: a robot that drives
-  /// past would else always be there before one that must turn first.
-  /// Without `may_press` no other robot begins to press.
+  /// Directs robots that press, and robots that make way: overwrites their goals in `wishes`.
+  /// `candidates` knows distances, and keeps their next cells for them: a robot that drives past
+  /// would otherwise always be there before a robot that must turn first. No further robot begins
+  /// to press unless `may_press`.
   void direct(const Fleet& fleet, bool may_press, Candidates& candidates,
               std::vector<Wish>& wishes);
 
-  /// Whether a robot was told where to go; those come first of all.
-  bool isTold(int robot) const { return progress_[robot].told != kNowhere; }
-  /// For how many ticks a robot had been in its cell on its way to a goal, a step ago.
+  /// Returns whether a robot is directed to a cell; directed robots choose first.
+  bool isDirected(int robot) const { return progress_[robot].next != kNowhere; }
+  /// Returns the ticks that a robot had been in its cell on its way to a goal, a step ago.
   int still(int robot) const {
     return robot < static_cast<int>(progress_.size()) ? progress_[robot].still : 0;
   }
 
  private:
   struct Progress {
-    Cell cell = kNowhere;  ///< where it is
-    int still = 0;         ///< ticks for which it has been there on its way to a goal
+    Cell cell = kNowhere;  ///< the robot's
+    int still = 0;         ///< ticks there on its way to a goal
     Cell goal = kNowhere;
-    int nearest = 0;       ///< the least that it had still to go
+    int nearest = 0;       ///< smallest distance to the goal so far
     int stalled = 0;       ///< ticks since then
-    Cell told = kNowhere;  ///< where to go next
-    int patience = 0;      ///< ticks for which that holds
+    Cell next = kNowhere;  ///< the cell to which it is directed
+    int patience = 0;      ///< ticks for which the direction holds
   };
 
   void watch(const Candidates& candidates, const std::vector<Wish>& wishes);
@@ -52,11 +52,11 @@ class MakingWay {
   const Floor& floor_;
   const int patience_;
   std::vector<Progress> progress_;
-  std::vector<int> standing_;  ///< by cell: who, or -1
-  std::vector<int> entering_;  ///< by cell: who was told to go there, or -1
-  std::vector<int> chain_;     ///< those who were told in this search, the last first
+  std::vector<int> standing_;  ///< by cell: the robot there, or -1
+  std::vector<int> entering_;  ///< by cell: the robot directed there, or -1
+  std::vector<int> chain_;     ///< robots directed in this search, the last first
   std::vector<std::uint8_t> is_asked_;
-  std::vector<Cell> to_;  ///< of this search, by robot
+  std::vector<Cell> to_;  ///< by robot, in this search
 };
 
 }  // namespace fleet

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operations: all that one robot can do in a few ticks, as Yukhnevich and Andreychuk, Enhancing
-// PIBT via Multi-Action Operations (AAAI 2026), have it. Two that pass the same cells at the same
-// ticks and end with the same heading are one.
+// Operations: all that one robot can do in a few ticks (Yukhnevich and Andreychuk, Enhancing PIBT
+// via Multi-Action Operations, AAAI 2026). Action sequences that pass the same cells at the same
+// ticks and end with the same heading are one operation.
 #pragma once
 
 #include <array>
@@ -17,24 +17,24 @@ constexpr int kMaxDepth = 5;    ///< ticks of an operation
 constexpr int kMaxHorizon = 7;  ///< ticks of a plan: what is committed, and an operation
 using Actions = std::array<Action, kMaxHorizon>;
 
-/// The cells that one passes, relative to how it stands: a tree whose leaves are operations.
+/// The cells that operations pass, relative to the robot's pose: a tree with operations as leaves.
 class Operations {
  public:
   explicit Operations(int depth);  ///< of 1 to kMaxDepth ticks
 
   static constexpr std::uint8_t kStay = 4;
   struct Node {
-    std::int16_t parent;  ///< the tick before; -1: where it stands
-    std::uint8_t move;    ///< quarters from its heading in which it drives, or kStay
+    std::int16_t parent;  ///< node of the tick before; -1 = the robot's cell
+    std::uint8_t move;    ///< direction of the drive in quarters from the heading, or kStay
     std::uint8_t tick;    ///< 0 for the first
-    std::int16_t leaf;    ///< which leaf, at the last tick; else -1
+    std::int16_t leaf;    ///< index of the leaf at the last tick; else -1
   };
   struct Leaf {
     std::int16_t node;
-    /// For each heading, relative to the first, with which it can end.
+    /// By final heading, relative to the first: whether the operation can end so.
     std::array<bool, kHeadings> ends{};
     std::array<Actions, kHeadings> actions{};
-    int late = 0;  ///< sum of the ticks in which it drives: less is earlier
+    int late = 0;  ///< sum of the ticks of drives: less is earlier
   };
 
   int depth() const { return depth_; }

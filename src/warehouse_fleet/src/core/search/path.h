@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The next ticks of one robot, where it stands: the cells that it is in at each tick.
+// The next ticks of one robot: its cell at each tick.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace fleet {
 
 struct Path {
-  std::array<Cell, kMaxHorizon + 1> cells{};  ///< [0] is where it stands now
+  std::array<Cell, kMaxHorizon + 1> cells{};  ///< [0] is its present cell
   Actions actions{};
   int cost = 0;
 };

@@ -16,13 +16,13 @@ void nearestFirst(const std::vector<Wish>& wishes, const MakingWay& way,
                   const std::vector<int>& distance, std::vector<int>& key) {
   std::vector<int> by_distance;
   for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {
-    const bool is_told = way.isTold(robot) || wishes[robot].is_urgent;
-    if (!is_told && !wishes[robot].yields) by_distance.push_back(robot);
+    const bool is_first = way.isDirected(robot) || wishes[robot].is_urgent;
+    if (!is_first && !wishes[robot].yields) by_distance.push_back(robot);
   }
   std::vector<int> by_key = by_distance;
   const auto sort = [&](std::vector<int>& robots, const std::vector<int>& value) {
-    std::sort(robots.begin(), robots.end(), [&](int one, int other) {
-      return std::tie(wishes[one].goal, value[one], one) <
+    std::sort(robots.begin(), robots.end(), [&](int robot, int other) {
+      return std::tie(wishes[robot].goal, value[robot], robot) <
              std::tie(wishes[other].goal, value[other], other);
     });
   };
@@ -52,7 +52,7 @@ std::vector<int> keys(const std::vector<Wish>& wishes, const std::vector<int>& w
     const int waited = kWaitingWorth * waiting[robot];
     const int stood = kStandingWorth * std::max(0, way.still(robot) - kStands);
     key[robot] = distance[robot] - (has_goal ? waited + stood : 0);
-    if (way.isTold(robot) || wish.is_urgent) key[robot] = kFirst;
+    if (way.isDirected(robot) || wish.is_urgent) key[robot] = kFirst;
   }
   nearestFirst(wishes, way, distance, key);
   return key;
@@ -66,8 +66,8 @@ void Priorities::assign(const std::vector<Wish>& wishes, const std::vector<int>&
   const int robots = static_cast<int>(key.size());
   order_.resize(robots);
   std::iota(order_.begin(), order_.end(), 0);
-  std::sort(order_.begin(), order_.end(), [&](int one, int other) {
-    return key[one] != key[other] ? key[one] < key[other] : one < other;
+  std::sort(order_.begin(), order_.end(), [&](int robot, int other) {
+    return key[robot] != key[other] ? key[robot] < key[other] : robot < other;
   });
   rank_.resize(robots);
   weight_.resize(robots);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The order in which robots choose their paths in a step, and how much each robot's cost counts.
+// The order in which robots choose their paths in a step, and the weight of each robot's cost.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,16 @@ namespace fleet {
 
 class Priorities {
  public:
-  /// Ranks the robots by what they have still to go, less what they have waited: `waiting` counts
-  /// each robot's ticks since it got its goal or reached it. Robots that were told to make way come
-  /// first.
+  /// Ranks the robots by distance to their goals less their wait: `waiting` counts each robot's
+  /// ticks since it got its goal or reached it. Robots that were directed to make way come first.
   void assign(const std::vector<Wish>& wishes, const std::vector<int>& waiting,
               const Candidates& candidates, const MakingWay& way);
 
-  /// Returns the robots, the first to choose first.
+  /// Returns the robots in the order in which they choose.
   const std::vector<int>& order() const { return order_; }
   /// Returns a robot's place in that order, from 0.
   int rank(int robot) const { return rank_[robot]; }
-  /// Returns by what a robot's cost is multiplied in that of all robots.
+  /// Returns the weight of a robot's cost in the cost of all robots.
   int weight(int robot) const { return weight_[robot]; }
 
  private:

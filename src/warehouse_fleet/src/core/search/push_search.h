@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Priority inheritance with backtracking: finds one robot a path for which others, one after the
-// other, are moved aside.
+// Priority inheritance with backtracking: finds a path of one robot and moves others aside for it,
+// one after the other.
 #pragma once
 
 #include <cstdint>
@@ -15,30 +15,30 @@ namespace fleet {
 
 class PushSearch {
  public:
-  /// What a search may do.
+  /// Limits of a search.
   struct Limits {
-    bool takes_all;  ///< or only what makes all paths together no dearer
-    int pushes;      ///< how many more robots may be moved aside
-    int rank;        ///< only robots of a lower rank; -1: any robot
+    bool takes_all;  ///< false: only paths that raise the cost of all paths by nothing
+    int pushes;      ///< count of robots that may still be moved aside
+    int rank;        ///< only robots of a lower rank are moved; -1 = any robot
   };
 
-  /// All references must outlive it. `revisits`: how often one robot may be moved aside for
-  /// another in a search.
+  /// Keeps all references, which must outlive the object. `revisits`: how often one robot may be
+  /// moved aside for another in a search.
   PushSearch(const std::vector<Wish>& wishes, const Priorities& priorities, Candidates& candidates,
              Reservations& reserved, int revisits);
 
-  /// Begins a step with so many robots.
+  /// Begins a step with a count of robots.
   void begin(int robots);
   /// Begins a pass, in which each robot is moved at most once.
   void beginPass() { ++pass_; }
-  /// Tells whether this pass has given a robot its path.
+  /// Returns whether a robot has its path in this pass.
   bool isSettled(int robot) const { return settled_[robot] == pass_; }
 
-  /// Tells that a robot has its path in this pass.
+  /// Notes that a robot has its path in this pass.
   void settle(int robot) { settled_[robot] = pass_; }
 
-  /// Finds a robot another path and returns true; returns false and leaves all paths as they were
-  /// if there is none.
+  /// Finds a robot another path and returns true; returns false, with all paths unchanged, without
+  /// such a path.
   bool replan(int robot, Limits limits);
 
  private:
@@ -54,7 +54,7 @@ class PushSearch {
   Candidates& candidates_;
   Reservations& reserved_;
   const int revisits_;
-  /// By robot: the search that came to it last, how often, and the pass that moved or is moving it.
+  /// By robot: the last search that reached it, how often, and the pass that moves it.
   std::vector<int> searched_, visits_, settled_;
   int pass_ = 0, search_ = 0;
 };

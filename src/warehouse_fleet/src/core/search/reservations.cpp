@@ -5,9 +5,9 @@ namespace fleet {
 namespace {
 
 /// Returns the answer of two that tells more: the other if one is none, several if they differ.
-int merged(int one, int other) {
-  if (one == Reservations::kNobody || one == other) return other;
-  return other == Reservations::kNobody ? one : Reservations::kSeveral;
+int merged(int robot, int other) {
+  if (robot == Reservations::kNobody || robot == other) return other;
+  return other == Reservations::kNobody ? robot : Reservations::kSeveral;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who is in which cell at which tick, and who would be in whose way.
+// The robot in each cell at each tick, and conflicts of a new path with those.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,19 @@ class Reservations {
   static constexpr int kNobody = -1;
   static constexpr int kSeveral = -2;
 
-  /// A new step: these robots stand there, none with a path.
+  /// Begins a step with robots that stand in these cells, without paths.
   void begin(const Fleet& fleet);
 
   void place(int robot, const Path& path);
   void remove(int robot);
-  /// Who is in `cell` at that tick, 0 for now.
+  /// Returns the robot in `cell` at a tick; tick 0 is the present.
   int who(Cell cell, int tick) const { return at(cell, tick); }
   const Path& path(int robot) const { return paths_[robot]; }
   bool has(int robot) const { return is_placed_[robot]; }
 
-  /// Where following is not allowed, only what is committed must keep to it: all else can wait.
-  /// Whom of those that have a path `robot`, which has none, would be in the way of on this one:
-  /// none, a robot's number, or several (or one that can't give way).
+  /// Returns the robots with which `robot`, which has no path, would conflict on this path: none, a
+  /// robot's number, or several (also for one that can't give way). Where following is not allowed,
+  /// only committed actions must respect it: all else can wait.
   int conflict(int robot, const Path& path) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths of many ticks, and which robot is in which cell at each tick. The paths never conflict, so
-// that they are a plan at any moment.
+// Paths of many ticks, and the robot in each cell at each tick. The paths never conflict, so they
+// are a plan at any moment.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace fleet {
 constexpr int kMostWindow = 31;  ///< ticks of a window
 
 struct WindowPath {
-  std::array<State, kMostWindow + 1> states;  ///< [0] is where it stands now
+  std::array<GridPose, kMostWindow + 1> states;  ///< [0] is the present one
   int cost = 0;
 };
 
@@ -26,16 +26,15 @@ class WindowPaths {
   static constexpr int kNobody = Reservations::kNobody;
   int ticks() const { return ticks_; }
 
-  /// Removes all paths; so many robots may have one.
+  /// Removes all paths, and sets the count of robots.
   void clear(int robots);
   void place(int robot, const WindowPath& path);
   void remove(int robot);
   const WindowPath& path(int robot) const { return paths_[robot]; }
-  /// Who is in a cell at a tick, 0 for now.
+  /// Returns the robot in a cell at a tick; tick 0 is the present.
   int who(Cell cell, int tick) const { return table_[cell * stride_ + tick]; }
 
-  /// Returns who keeps a robot without a path from being in `to` a tick after it was in `from`;
-  /// kNobody: no robot does.
+  /// Returns the robot that prevents a drive from `from` to `to` in one tick, or kNobody.
   int blocker(int robot, Cell from, Cell to, int tick) const;
 
  private:

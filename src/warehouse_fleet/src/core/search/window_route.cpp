@@ -16,7 +16,7 @@ WindowRoute::WindowRoute(const Floor& floor, const Candidates& candidates, const
       paths_(paths),
       side_(2 * paths.ticks() + 1),
       queues_(kMostDetour + 1),
-      seen_(static_cast<std::size_t>(side_) * side_ * (paths.ticks() + 1) * kHeadings * 2) {}
+      visited_by_(static_cast<std::size_t>(side_) * side_ * (paths.ticks() + 1) * kHeadings * 2) {}
 
 bool WindowRoute::find(int robot, const Wish& wish, int most, bool among_others, WindowPath& path) {
   robot_ = robot;
@@ -68,7 +68,7 @@ bool WindowRoute::mayEnter(const Node& from, Cell to) const {
          paths_.blocker(robot_, from.state.cell, to, from.tick) == WindowPaths::kNobody;
 }
 
-void WindowRoute::push(int parent, State state, bool has_arrived) {
+void WindowRoute::push(int parent, GridPose state, bool has_arrived) {
   Node node{state, parent, 0, 0, 0, has_arrived};
   if (!has_arrived) node.left = candidates_.distance(*wish_, state);
   if (parent >= 0) {
@@ -93,7 +93,7 @@ bool WindowRoute::isNew(const Node& node) {
   const int y = floor_.y(node.state.cell) - floor_.y(wish_->state.cell) + paths_.ticks();
   const int place = (y * side_ + x) * (paths_.ticks() + 1) + node.tick;
   const int index = (place * kHeadings + node.state.heading) * 2 + (node.has_arrived ? 1 : 0);
-  return std::exchange(seen_[index], search_) != search_;
+  return std::exchange(visited_by_[index], search_) != search_;
 }
 
 void WindowRoute::trace(int index, WindowPath& path) const {

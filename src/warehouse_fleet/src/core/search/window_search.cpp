@@ -52,7 +52,7 @@ bool WindowSearch::inherit() {
 bool WindowSearch::canDrive(const Wish& wish, const WindowPath& path) const {
   for (int tick = 0; tick < paths_.ticks(); ++tick) {
     const auto [cell, heading] = path.states[tick];
-    const State& to = path.states[tick + 1];
+    const GridPose& to = path.states[tick + 1];
     if (to.cell != cell && candidates_.next(wish, cell, heading) != to.cell) return false;
     if (to.heading != heading && !candidates_.mayTurn(wish, cell)) return false;
   }
@@ -83,7 +83,7 @@ void WindowSearch::write(Reservations& reserved, int horizon) const {
     const auto& states = paths_.path(robot).states;
     path.cells[0] = states[0].cell;
     for (int tick = 0; tick < horizon; ++tick) {
-      const State &from = states[tick], &to = states[tick + 1];
+      const GridPose &from = states[tick], &to = states[tick + 1];
       const int turn = (to.heading - from.heading) & 3;
       path.cells[tick + 1] = to.cell;
       path.actions[tick] = from.cell != to.cell ? Action::kForward
@@ -100,7 +100,7 @@ int WindowSearch::costOf(const Wish& wish, const WindowPath& path) const {
   bool has_arrived = wish.goal == kNowhere || wish.goal == path.states[0].cell;
   int cost = 0, left = has_arrived ? 0 : candidates_.distance(wish, path.states[0]);
   for (int tick = 0; tick < paths_.ticks(); ++tick) {
-    const State &from = path.states[tick], &to = path.states[tick + 1];
+    const GridPose &from = path.states[tick], &to = path.states[tick + 1];
     const int least = has_arrived ? static_cast<int>(!(from == to)) : kTickCost;
     has_arrived = has_arrived || to.cell == wish.goal;
     const int then = has_arrived ? 0 : candidates_.distance(wish, to);
@@ -157,7 +157,7 @@ void WindowSearch::improveEach() {
 
 /// A robot, those in the way of its best path, and some that are near.
 void WindowSearch::chooseGroup(int robot, std::mt19937_64& random) {
-  for (const int one : group_) is_chosen_[one] = 0;
+  for (const int robot : group_) is_chosen_[robot] = 0;
   group_.clear();
   add(robot);
   const int most = 2 + static_cast<int>(random() % (kMostGroup - 1));

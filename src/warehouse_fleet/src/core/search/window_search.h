@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// For few robots and much time: a large-neighbourhood search over windows of many ticks. Some
-// robots that are in each other's way lose their paths and get others, one after the other by A*
-// among the paths that stay; kept if all paths together cost no more (Jiang et al., Scaling
+// A large-neighbourhood search over windows of many ticks, for few robots and much time. Some
+// robots in each other's way lose their paths and get others, one after the other by A* among the
+// remaining paths. The result is kept if all paths together cost no more (Jiang et al., Scaling
 // Lifelong Multi-Agent Path Finding to More Realistic Settings, 2024, have windows of that kind).
 #pragma once
 
@@ -20,22 +20,22 @@ namespace fleet {
 
 class WindowSearch {
  public:
-  /// All references must outlive it. Windows have so many ticks.
+  /// Keeps all references, which must outlive the object. `ticks`: length of a window.
   WindowSearch(const Floor& floor, const Rules& rules, int ticks, const std::vector<Wish>& wishes,
                const Priorities& priorities, const Candidates& candidates);
 
-  /// Tells whether it can plan for these robots: none carries a load, is stopped or committed.
+  /// Returns whether it can plan for these robots: no robot is loaded, stopped or committed.
   bool canPlan() const;
-  /// Begins a step with what is left of the paths of the last; returns false, without any paths, if
-  /// a robot is not where its path has it, or the path can't be driven any more.
+  /// Begins a step with the rest of the last step's paths. Returns false, without any paths, if a
+  /// robot is elsewhere than planned, or a path can't be driven any more.
   bool inherit();
-  /// Begins a step with paths of so many ticks, at the end of which all stand.
+  /// Begins a step with the planner's paths, at the end of which all stand.
   void adopt(const Reservations& reserved, int horizon);
 
-  /// Looks for better paths, in attempts that `goes_on` allows.
+  /// Looks for better paths while `goes_on` returns true.
   void improve(const std::function<bool()>& goes_on, std::mt19937_64& random);
 
-  /// Replaces paths by the first `horizon` ticks of these.
+  /// Replaces paths by the first `horizon` ticks of the window's.
   void write(Reservations& reserved, int horizon) const;
 
  private:

@@ -89,9 +89,10 @@ TEST(Rotation, RollComesFirstThenPitchThenYaw) {
   for (int i = 0; i < 100; ++i) {
     const double roll = random.within(M_PI), pitch = random.within(M_PI_2),
                  yaw = random.within(M_PI);
-    const Quaternion one(roll, pitch, yaw);
-    expectSameTurn(one, Quaternion(0, 0, yaw) * Quaternion(0, pitch, 0) * Quaternion(roll, 0, 0));
-    expectNear(one.Euler(), {roll, pitch, yaw}, 1e-7);
+    const Quaternion rotation(roll, pitch, yaw);
+    expectSameTurn(rotation,
+                   Quaternion(0, 0, yaw) * Quaternion(0, pitch, 0) * Quaternion(roll, 0, 0));
+    expectNear(rotation.Euler(), {roll, pitch, yaw}, 1e-7);
   }
 }
 

@@ -188,8 +188,8 @@ TEST_F(UserPlugin, AWorldWithoutItsPluginIsAWarning) {
 
 /// Notes what it was given; refuses what it is told to.
 struct Noting : Plugin {
-  Noting(bool is_strict, std::map<std::string, std::string>* seen)
-      : is_strict_(is_strict), seen_(seen) {}
+  Noting(bool is_strict, std::map<std::string, std::string>* notes)
+      : is_strict_(is_strict), seen_(notes) {}
   void load(World&, const std::string& model, const Parameters& parameters) override {
     (*seen_)[model] = parameters.text("robotNamespace", "none");
     parameters.number("size", 1, 0, 9);
@@ -208,7 +208,7 @@ class PluginTable : public UserPlugin {
     plan.options.plugins = [this](const std::string& file, const SensorDescription* in) {
       sensor = in ? in->name : "";
       const bool known = file == "libstrict.so" || file == "liblenient.so";
-      return known ? std::make_shared<Noting>(file == "libstrict.so", &seen) : nullptr;
+      return known ? std::make_shared<Noting>(file == "libstrict.so", &notes) : nullptr;
     };
   }
   static std::string plugin(const std::string& file, const std::string& parameters = "") {
@@ -217,7 +217,7 @@ class PluginTable : public UserPlugin {
 
   Floorplan plan;
   std::string sensor;
-  std::map<std::string, std::string> seen;
+  std::map<std::string, std::string> notes;
 };
 
 TEST_F(PluginTable, TellsEachTheNamespaceOfItsModel) {
@@ -225,14 +225,14 @@ TEST_F(PluginTable, TellsEachTheNamespaceOfItsModel) {
   auto wall = instance(withElement(modelText("wall"), plugin("libstrict.so")), "wall1");
   wall.robot_namespace = "/mine";
   other.world.spawn(wall);
-  EXPECT_EQ(seen.at("wall1"), "/mine");
+  EXPECT_EQ(notes.at("wall1"), "/mine");
   wall = instance(withElement(modelText("wall"), plugin("libstrict.so",
                                                         "<robotNamespace>own"
                                                         "</robotNamespace>")),
                   "wall2", Pose(3, 0, 0, 0, 0, 0));
   wall.robot_namespace = "/mine";
   other.world.spawn(wall);
-  EXPECT_EQ(seen.at("wall2"), "own");
+  EXPECT_EQ(notes.at("wall2"), "own");
 }
 
 TEST_F(PluginTable, KivasTakeANamespaceTooThoughTheirPluginsHaveNoUseForIt) {
@@ -249,7 +249,7 @@ TEST_F(PluginTable, FindsThoseInSensors) {
           plugin("libstrict.so") + "</sensor></link></model></sdf>",
       "m", 0, 0);
   EXPECT_EQ(sensor, "eye");
-  EXPECT_EQ(seen.at("m"), "none");
+  EXPECT_EQ(notes.at("m"), "none");
 }
 
 TEST_F(PluginTable, WhatALenientOneThrowsIsAWarning) {
@@ -271,7 +271,7 @@ TEST_F(PluginTable, TellsOfAReset) {
   Warehouse other(plan);
   other.spawnText(withElement(modelText("wall"), plugin("libstrict.so")), "wall1", 0, 0);
   other.world.reset(false);
-  EXPECT_EQ(seen.count("reset"), 1u);
+  EXPECT_EQ(notes.count("reset"), 1u);
 }
 
 // --- when they are called

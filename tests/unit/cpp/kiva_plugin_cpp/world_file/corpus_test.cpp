@@ -79,11 +79,11 @@ const ModelDescription& model(const WorldDescription& world, const std::string& 
 class Corpus : public testing::TestWithParam<std::string> {};
 
 std::vector<std::string> names() {
-  std::vector<std::string> found;
+  std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(kCorpus)) {
-    if (entry.path().extension() == ".world") found.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".world") files.push_back(entry.path().stem().string());
   }
-  return found;
+  return files;
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Corpus, testing::ValuesIn(names()),
@@ -98,8 +98,8 @@ TEST_P(Corpus, LoadsRunsAndTellsWhatItLost) {
   EXPECT_EQ(models, expected.models);
   EXPECT_EQ(warnings.size(), expected.warnings.size());
   for (const std::string& part : expected.warnings) {
-    const auto told = [&](const std::string& warning) { return contains(warning, part); };
-    EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), told), 1) << part;
+    const auto matches = [&](const std::string& warning) { return contains(warning, part); };
+    EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), matches), 1) << part;
   }
   const std::regex address("/.*\\.(world|sdf):[0-9]+: .*");
   for (const std::string& warning : warnings)

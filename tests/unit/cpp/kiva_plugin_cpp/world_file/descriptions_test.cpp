@@ -222,15 +222,15 @@ std::string describedAsWorld(const fs::path& file) {
 }
 
 std::vector<fs::path> documents() {
-  std::vector<fs::path> found;
+  std::vector<fs::path> files;
   for (const std::string& folder : {kTests + "/worlds", std::string(WORLDS_DIR)}) {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string ending = entry.path().extension();
-      if (ending == ".sdf" || ending == ".world" || ending == ".urdf") found.push_back(entry);
+      if (ending == ".sdf" || ending == ".world" || ending == ".urdf") files.push_back(entry);
     }
   }
-  std::sort(found.begin(), found.end());
-  return found;
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 fs::path recordOf(const fs::path& document) {
@@ -249,10 +249,10 @@ bool areAlike(const std::string& a, const std::string& b) {
 }
 
 void expectAlike(const std::string& read, const std::string& recorded) {
-  std::istringstream one(read), other(recorded);
+  std::istringstream line(read), other(recorded);
   int line = 0;
   for (std::string a, b;;) {
-    const bool has_a = !!std::getline(one, a), has_b = !!std::getline(other, b);
+    const bool has_a = !!std::getline(line, a), has_b = !!std::getline(other, b);
     if (!has_a && !has_b) return;
     ++line;
     std::istringstream words_a(has_a ? a : ""), words_b(has_b ? b : "");

@@ -63,8 +63,8 @@ struct Hall {
   void expectWarnings(const Strings& parts) const {
     EXPECT_EQ(warnings.size(), parts.size()) << testing::PrintToString(warnings);
     for (const std::string& part : parts) {
-      const auto told = [&](const std::string& w) { return w.find(part) != std::string::npos; };
-      EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), told), 1) << part;
+      const auto matches = [&](const std::string& w) { return w.find(part) != std::string::npos; };
+      EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), matches), 1) << part;
     }
   }
 

@@ -344,9 +344,9 @@ TEST_F(ExecutionTest, TheOrderOfThePlanIsKept) {
 class Turning : public ExecutionTest, public testing::WithParamInterface<bool> {};
 
 TEST_P(Turning, SideBySideExcludeEachOtherIfOneIsLoaded) {
-  const int one = add(2, 2, 0);
+  const int blocker = add(2, 2, 0);
   add(2, 3, 0);
-  reports_[one].is_loaded = GetParam();
+  reports_[blocker].is_loaded = GetParam();
   observe();
   // Both turn, and leave away from each other.
   std::vector<Action> down{Action::kTurnNegative, Action::kForward},
@@ -358,7 +358,7 @@ TEST_P(Turning, SideBySideExcludeEachOtherIfOneIsLoaded) {
   std::set<int> sent;
   for (const Message& message : release()) sent.insert(message.robot);
   EXPECT_EQ(sent.size(), GetParam() ? 1 : 2);
-  EXPECT_TRUE(sent.count(one));
+  EXPECT_TRUE(sent.count(blocker));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Turning, testing::Bool());

@@ -41,12 +41,12 @@ struct Tables {
 
 /// Ticks of the way on which each action leads to where a table has it nearest; -1 if that ends
 /// elsewhere than at the goal.
-int follow(const Floor& floor, const DistanceTable& table, State at, Cell goal) {
+int follow(const Floor& floor, const DistanceTable& table, GridPose at, Cell goal) {
   for (int ticks = 0; ticks < 4 * floor.size(); ++ticks) {
     if (at.cell == goal) return ticks;
-    State best = at;
+    GridPose best = at;
     for (const int turn : {1, 3}) {
-      const State there{at.cell, turned(at.heading, turn)};
+      const GridPose there{at.cell, turned(at.heading, turn)};
       if (table.at(there.cell, there.heading) < table.at(best.cell, best.heading)) best = there;
     }
     const Cell ahead = floor.next(Deck::kAisles, at.cell, at.heading);
@@ -113,8 +113,8 @@ TEST_F(Regional, AreTheSameAfterAFile) {
   second.tables.load(file);
   EXPECT_EQ(first.tables.count(), second.tables.count());
   const Cell goal = stations_.back();
-  const DistanceTable &one = *first.to(goal), &other = *second.to(goal);
-  for (const Cell from : aisles_) EXPECT_EQ(one.at(from, 0), other.at(from, 0));
+  const DistanceTable &table = *first.to(goal), &other = *second.to(goal);
+  for (const Cell from : aisles_) EXPECT_EQ(table.at(from, 0), other.at(from, 0));
 }
 
 std::string whyRefused(const Floor& floor, std::istream& file) {
@@ -179,8 +179,8 @@ TEST(Lanes, HaveTablesOfAllCellsOnASmallerFloor) {
   const Floor floor(drawn(rows));
   Tables some(floor, floor.size() / 2), exact(floor, floor.size());
   const Cell goal = cellsOf(rows, '>')[1];
-  const DistanceTable &one = *some.to(goal), &other = *exact.to(goal);
-  for (const Cell from : cellsOf(rows, '.')) EXPECT_EQ(one.at(from, 0), other.at(from, 0));
+  const DistanceTable &table = *some.to(goal), &other = *exact.to(goal);
+  for (const Cell from : cellsOf(rows, '.')) EXPECT_EQ(table.at(from, 0), other.at(from, 0));
   // Cells on which a robot can't stand take no room.
   EXPECT_LT(some.tables.bytes(), 0.8 * exact.tables.bytes());
 }

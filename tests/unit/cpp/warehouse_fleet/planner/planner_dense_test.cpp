@@ -72,7 +72,7 @@ TEST(FullFloor, RobotsComeOutOfADeadEndBeforeAnotherGoesIn) {
     planner->plan(fleet, {0, 0}, plan);
     ASSERT_TRUE(validate(floor, fleet, plan, rules).empty());
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;
@@ -130,11 +130,13 @@ TEST(FullFloor, RobotsComeOutOfARoomBehindAPassageBeforeAnotherGoesIn) {
   for (; fleet.cell[robot] != inside && ticks < 200; ++ticks) {
     planner->plan(fleet, {0, 0}, plan);
     ASSERT_TRUE(validate(floor, fleet, plan, rules).empty());
-    for (int one = 0; one < fleet.size(); ++one) {
-      const State state = after(floor, {fleet.cell[one], fleet.heading[one]}, plan.at(one, 0));
-      fleet.cell[one] = state.cell;
-      fleet.heading[one] = state.heading;
-      if (state.cell == fleet.goal[one] && one != robot) fleet.goal[one] = state.cell == 0 ? 14 : 0;
+    for (int each = 0; each < fleet.size(); ++each) {
+      const GridPose state =
+          after(floor, {fleet.cell[each], fleet.heading[each]}, plan.at(each, 0));
+      fleet.cell[each] = state.cell;
+      fleet.heading[each] = state.heading;
+      if (state.cell == fleet.goal[each] && each != robot)
+        fleet.goal[each] = state.cell == 0 ? 14 : 0;
     }
   }
   EXPECT_LT(ticks, 200);

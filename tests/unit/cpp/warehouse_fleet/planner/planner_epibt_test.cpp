@@ -19,7 +19,7 @@ TEST(Epibt, TakesTheShortestWayAlone) {
   int ticks = 0;
   for (; fleet.cell[0] != fleet.goal[0] && ticks < 1000; ++ticks) {
     planner->plan(fleet, {}, plan);
-    const State state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
+    const GridPose state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
     fleet.cell[0] = state.cell;
     fleet.heading[0] = state.heading;
   }
@@ -109,8 +109,8 @@ int ticksTo(const Floor& floor, Fleet& fleet, int most) {
   for (; fleet.cell[0] != fleet.goal[0] && ticks < most; ++ticks) {
     planner->plan(fleet, {}, plan);
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const State state{fleet.cell[robot], fleet.heading[robot]};
-      const State next = after(floor, state, plan.at(robot, 0));
+      const GridPose state{fleet.cell[robot], fleet.heading[robot]};
+      const GridPose next = after(floor, state, plan.at(robot, 0));
       fleet.cell[robot] = next.cell;
       fleet.heading[robot] = next.heading;
     }
@@ -166,7 +166,7 @@ TEST(Epibt, TurnsNoLoadWhereThereIsNoRoom) {
     int ticks = 0;
     for (; fleet.cell[0] != goal && ticks < 100; ++ticks) {
       planner->plan(fleet, {}, plan);
-      const State state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
+      const GridPose state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
       fleet.cell[0] = state.cell;
       fleet.heading[0] = state.heading;
     }
@@ -206,7 +206,7 @@ TEST(Epibt, LetsInWhoWaitsBesideAStream) {
   for (; fleet.cell.back() == at(0, kMiddle) && ticks < 100; ++ticks) {
     planner->plan(fleet, {}, plan);
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;
@@ -236,7 +236,7 @@ TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
   for (; fleet.cell[0] != end && ticks < 100; ++ticks) {
     planner->plan(fleet, {}, plan);
     for (int robot = 0; robot < 2; ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;

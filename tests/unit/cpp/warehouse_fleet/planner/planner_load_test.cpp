@@ -32,7 +32,7 @@ TEST(LoadPlanner, RunsTheExample) {
     planner->plan(fleet, {}, plan);
     ASSERT_TRUE(validate(floor, fleet, plan, {}).empty());
     for (int robot = 0; robot < 2; ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;

@@ -24,7 +24,7 @@ struct Case {
     plan.actions.insert(plan.actions.end(), actions.begin(), actions.end());
   }
 
-  std::string found(const std::vector<std::string>& names = {}) const {
+  std::string violations(const std::vector<std::string>& names = {}) const {
     std::string text;
     for (const auto& violation : validate(floor, fleet, plan, rules)) {
       text += describe(violation, floor, names) + "\n";
@@ -39,14 +39,15 @@ TEST(Validator, SeesTwoInOneCell) {
   Case is;
   is.robot(0, 0, {F});
   is.robot(2, 2, {F});
-  EXPECT_EQ(is.found({"kiva3", "kiva7"}), "kiva3 and kiva7 would both be in (1, 0) (tick 0)\n");
+  EXPECT_EQ(is.violations({"kiva3", "kiva7"}),
+            "kiva3 and kiva7 would both be in (1, 0) (tick 0)\n");
 }
 
 TEST(Validator, SeesASwap) {
   Case is;
   is.robot(0, 0, {W, F});
   is.robot(1, 2, {W, F});
-  EXPECT_EQ(is.found(), "robot 0 and robot 1 would exchange their cells at (1, 0) (tick 1)\n");
+  EXPECT_EQ(is.violations(), "robot 0 and robot 1 would exchange their cells at (1, 0) (tick 1)\n");
 }
 
 TEST(Validator, SeesARingUnlessItIsAllowed) {
@@ -55,20 +56,20 @@ TEST(Validator, SeesARingUnlessItIsAllowed) {
   is.robot(1, 1, {F});
   is.robot(5, 2, {F});
   is.robot(4, 3, {F});
-  EXPECT_EQ(is.found(),
+  EXPECT_EQ(is.violations(),
             "robot 0, robot 1, robot 2 and robot 3 would move around in a ring at (1, 0) (tick "
             "0)\n");
   is.rules.rings = true;
-  EXPECT_EQ(is.found(), "");
+  EXPECT_EQ(is.violations(), "");
 }
 
 TEST(Validator, SeesFollowingWhereItIsForbidden) {
   Case is;
   is.robot(0, 0, {F});
   is.robot(1, 0, {F});
-  EXPECT_EQ(is.found(), "");
+  EXPECT_EQ(is.violations(), "");
   is.rules.following = false;
-  EXPECT_EQ(is.found(),
+  EXPECT_EQ(is.violations(),
             "robot 0 and robot 1: the first would enter (1, 0) while the other leaves it (tick "
             "0)\n");
 }
@@ -79,13 +80,13 @@ TEST(Validator, SeesWallsStoragePlacesAndClosedCells) {
   is.robot(5, 0, {F}, true);
   is.robot(9, 0, {F});
   is.fleet.closed = {10};
-  EXPECT_EQ(is.found(),
+  EXPECT_EQ(is.violations(),
             "robot 0 would drive out of (3, 0) where there is no way (tick 0)\n"
             "robot 1 would drive out of (1, 1) where there is no way (tick 0)\n"
             "robot 2 would drive out of (1, 2) where there is no way (tick 0)\n");
   is.fleet.home = {kNowhere, 6, kNowhere};
   is.fleet.closed = {};
-  EXPECT_EQ(is.found(), "robot 0 would drive out of (3, 0) where there is no way (tick 0)\n");
+  EXPECT_EQ(is.violations(), "robot 0 would drive out of (3, 0) where there is no way (tick 0)\n");
 }
 
 TEST(Validator, SeesLoadedRobotsTurnSideBySide) {
@@ -94,7 +95,7 @@ TEST(Validator, SeesLoadedRobotsTurnSideBySide) {
   is.robot(1, 0, {P}, true);
   is.robot(8, 0, {P}, true);
   is.robot(9, 0, {P}, false);
-  EXPECT_EQ(is.found(),
+  EXPECT_EQ(is.violations(),
             "robot 0 and robot 1 would turn side by side with their units at (0, 0) (tick 0)\n");
 }
 
@@ -105,7 +106,7 @@ TEST(Validator, SeesWhatWasPromisedOtherwise) {
   is.fleet.committed = {1, Fleet::kFree, Fleet::kFree, Fleet::kFree};
   is.fleet.committed_ticks = 2;
   is.fleet.stopped = {0, 1};
-  EXPECT_EQ(is.found(),
+  EXPECT_EQ(is.violations(),
             "robot 0 would not do at (0, 0) what it is committed to (tick 0)\n"
             "robot 1 is stopped at (0, 2) and would move (tick 0)\n");
 }
@@ -114,7 +115,7 @@ TEST(Validator, RefusesAPlanOfAnotherSize) {
   Case is;
   is.robot(0, 0, {F});
   is.plan.actions.push_back(W);
-  EXPECT_THROW(is.found(), FloorError);
+  EXPECT_THROW(is.violations(), FloorError);
 }
 
 }  // namespace

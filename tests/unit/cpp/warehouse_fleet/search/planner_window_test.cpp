@@ -84,7 +84,7 @@ TEST(Window, HasRobotsPassEachOtherInAPassage) {
     planner->plan(fleet, {0, 100}, plan);
     ASSERT_TRUE(validate(floor, fleet, plan, {}).empty());
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const State state =
+      const GridPose state =
           after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;

@@ -75,7 +75,7 @@ Footprint shifted(Footprint box, double dx, double dy) {
 /// Returns how far the reference of a robot that cruises goes at most in that time.
 double wayWithin(const FleetState& f, int i, double time) {
   const double most = f.top_speed[i] * time;
-  return std::clamp(f.goal[i] - f.reference[i], -most, most);
+  return std::clamp(f.reference_end[i] - f.reference[i], -most, most);
 }
 
 /// Returns whether a robot that cruises does it in place.
@@ -156,9 +156,9 @@ bool isClearFor(const Scene& world, int i, double time) {
 /// Returns the circle that holds all of them.
 Footprint holding(const std::vector<Footprint>& all) {
   Footprint circle = circleAt(all.front().x, all.front().y, 0);
-  for (const Footprint& one : all) {
-    const double away = std::hypot(one.x - circle.x, one.y - circle.y);
-    circle.hx = std::max(circle.hx, away + radiusOf(one));
+  for (const Footprint& footprint : all) {
+    const double away = std::hypot(footprint.x - circle.x, footprint.y - circle.y);
+    circle.hx = std::max(circle.hx, away + radiusOf(footprint));
   }
   return circle;
 }

@@ -25,7 +25,7 @@ bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
 
 /// Returns the highest speed of the reference from now to its goal.
 double peakSpeed(const FleetState& f, int i, const ReferenceMotion& per) {
-  const double way = std::abs(f.goal[i] - f.reference[i]), v = f.reference_speed[i];
+  const double way = std::abs(f.reference_end[i] - f.reference[i]), v = f.reference_speed[i];
   const double peak = std::sqrt(v * v / 2 + per.acceleration * way);
   return std::min(per.top_speed, std::max(std::abs(v), peak));
 }
@@ -50,7 +50,7 @@ inline double endOf(double acceleration, double deceleration, double speed, doub
 }
 
 bool hasEnded(const FleetState& f, int i, double dt) {
-  return std::abs(f.goal[i] - f.reference[i]) <=
+  return std::abs(f.reference_end[i] - f.reference[i]) <=
          endOf(f.acceleration[i], f.deceleration[i], f.reference_speed[i], dt);
 }
 
@@ -66,7 +66,7 @@ __attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, 
   const MotorLag lag = f.lag;
   double* __restrict command_speed = f.command_speed.data();
   const std::int64_t* __restrict mask = f.cruising.data();
-  const double* __restrict goal = f.goal.data();
+  const double* __restrict goal = f.reference_end.data();
   const double* __restrict top = f.top_speed.data();
   const double* __restrict acceleration = f.acceleration.data();
   const double* __restrict deceleration = f.deceleration.data();
@@ -261,7 +261,7 @@ void setMotion(RobotView& world, int i, const ReferenceMotion& per) {
 bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
-  const double way = std::abs(f.goal[i] - f.reference[i]);
+  const double way = std::abs(f.reference_end[i] - f.reference[i]);
   const double end =
       endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.clock.dt);
   if (r.drive.drive == Drive::kJointed || f.activated[i] ||
@@ -285,12 +285,13 @@ bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   return false;
 }
 
-void setGoal(RobotView& world, Obstacles& obstacles, int i, double goal) {
+void setReferenceEnd(RobotView& world, Obstacles& obstacles, int i, double goal) {
   FleetState& f = world.fleet;
   const double left = f.clear_until[i] - static_cast<double>(world.clock.total_steps) + 1;
-  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
-  const bool goes_farther = goal > f.goal[i];
-  f.goal[i] = goal;
+  const bool saw_the_end =
+      f.reference_end[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
+  const bool goes_farther = goal > f.reference_end[i];
+  f.reference_end[i] = goal;
   if (f.cruising[i] == 0) return;
   // Its way was found free up to the old goal only.
   if (goes_farther && isPatchy(world)) return moved(f, i);

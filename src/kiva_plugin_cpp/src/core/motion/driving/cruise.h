@@ -12,8 +12,8 @@
 
 namespace kiva {
 
-/// Where the reference of a segment goes: what a unit of it [m or rad] moves the chassis in world,
-/// and how fast it may go.
+/// The direction of a reference: motion of the chassis in world a unit of reference [m or rad], and
+/// the limits of its speed.
 struct ReferenceMotion {
   double x = 0, y = 0, yaw = 0;  ///< [m, m, rad] a unit.
   double top_speed = 0;          ///< [m/s or rad/s]
@@ -24,15 +24,15 @@ struct ReferenceMotion {
 /// of hundreds of metres leave up to 1e-9 m.
 inline bool isExact(double error) { return std::abs(error) < 1e-8; }
 
-/// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
-/// free. It does until something else moves it, see moved().
+/// Lets the robot cruise along its segment from this step on, if it can and its way is free. It
+/// cruises until something else moves it, see moved(). Returns whether it cruises.
 bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
 
-/// Sets where the robot's reference ends; its speed changes without a dip.
-void setGoal(RobotView& world, Obstacles& obstacles, int robot, double goal);
+/// Sets the end of the robot's reference; its speed changes without a dip.
+void setReferenceEnd(RobotView& world, Obstacles& obstacles, int robot, double goal);
 
-/// Moves all cruising robots by one step. Those whose reference ends, or that may meet others, stop
-/// cruising.
+/// Moves all cruising robots by one step. A robot stops cruising where its reference ends, or where
+/// it may meet others.
 void cruise(MotionView& world);
 
 }  // namespace kiva

@@ -15,9 +15,10 @@ constexpr double kGripReserve = 0.9;    // share of the grip that plans count on
 constexpr double kLeastPlanned = 0.05;  // [m/s²]: plans need some
 constexpr double kGripsAll = 1e16;      // Coulomb coefficient: the wheels' decides
 
-double plannedLimit(const Scene& world, int robot, double (*limit)(const Vehicle&), double wanted) {
+double plannedLimit(const Scene& world, int robot, double (*limit)(const Vehicle&),
+                    double nominal) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
-  const double held = std::min(wanted, limit(plannedVehicle(world, robot)));
+  const double held = std::min(nominal, limit(plannedVehicle(world, robot)));
   return std::min(held, loadLimit(world, robot));
 }
 
@@ -51,9 +52,9 @@ Vehicle plannedVehicle(const Scene& world, int robot) {
 }
 
 double plannedAcceleration(const Scene& world, int robot) {
-  const double wanted = world.fleet.robots[robot].drive.acceleration;
-  return std::min(plannedLimit(world, robot, drivingLimit, wanted),
-                  plannedLimit(world, robot, brakingLimit, wanted));
+  const double nominal = world.fleet.robots[robot].drive.acceleration;
+  return std::min(plannedLimit(world, robot, drivingLimit, nominal),
+                  plannedLimit(world, robot, brakingLimit, nominal));
 }
 
 double plannedBraking(const Scene& world, int robot) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is asked of either drive model: the floor it stands on, and what its robot can be asked for.
+// Limits by which robots of either drive model plan: accelerations, with their load and the floor.
 #pragma once
 
 #include "core/motion/wheels/vehicle.h"
@@ -8,21 +8,21 @@
 
 namespace kiva {
 
-/// From the robot's origin to the centre of mass of all that is it, along the world's axes [m].
+/// Returns the vector from the robot's origin to its centre of mass, along the world's axes [m].
 Vector3 centreFromOrigin(const Fleet& fleet, int robot);
 
-/// Returns a robot as it knows itself and its load, to plan by: on a floor that its wheels grip as
-/// its drive's parameters say, with a reserve to mend errors with.
+/// Returns the vehicle by which a robot plans: itself with its load, on a floor with the friction
+/// of its drive's parameters, less a reserve for corrections.
 Vehicle plannedVehicle(const Scene& world, int robot);
 
-/// Returns what a robot that knows its load asks of itself at most so that it does not tip [m/s²];
-/// +inf without a load, or where loads are ideal.
+/// Returns the largest acceleration at which a robot's load does not tip [m/s²]; +inf without a
+/// load, or where loads are ideal.
 double loadLimit(const Scene& world, int robot);
 
-/// Returns what speeding up and braking are planned with, as far as motors and wheels can with that
-/// load [m/s²]; 0 = at once.
+/// Returns the acceleration by which drives are planned, within the limits of motors and wheels
+/// under the load [m/s²]; 0 = at once.
 double plannedAcceleration(const Scene& world, int robot);
-/// Returns the deceleration for an obstacle's sake, at least as hard.
+/// Returns the deceleration before obstacles, at least as large [m/s²].
 double plannedBraking(const Scene& world, int robot);
 
 }  // namespace kiva

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Locates robots that are not told their poses: they are calibrated badly, roll, slip, read codes
-// on the floor or miss them, and are lost at last. Their estimates are in core/estimation.
+// Localisation of robots that don't know their true poses: errors of calibration, slip, codes on
+// the floor that are read or missed, and robots that get lost. Estimates are in core/estimation.
 #pragma once
 
 #include "core/state/views/task_view.h"
@@ -9,22 +9,22 @@
 
 namespace kiva {
 
-/// [m] before a code's middle at which its reading is done: as soon as it is in view.
+/// Distance before a code's middle at which it is read, as soon as it is in view [m].
 constexpr double kReadBefore = 0.04;
 
-/// Draws the calibration of a new robot's wheels, and tells it its pose.
+/// Draws the calibration of a new robot's wheels, and sets its estimate to its pose.
 void calibrate(RobotView& world, int robot);
-/// Tells a robot that was placed by hand its pose.
+/// Sets the estimate of a robot that was placed by hand to its pose.
 void relocate(RobotView& world, int robot);
 /// Updates the estimate after a step in which the robot did not cruise, by its wheels and by codes
 /// that come into view.
 void track(TaskView& world, int robot);
-/// Reads the floor. A code that is in view is read, or missed, once as it is passed; again if
-/// the robot `stands` on it.
+/// Reads codes in view. A code is read, or missed, once as it is passed, and again if the robot
+/// `stands` on it.
 void readCode(RobotView& world, int robot, bool stands);
 /// Draws the slip of its wheels on the next `length` [m].
 void drawSlip(RobotView& world, int robot, double length);
-/// Returns what the robot's odometry says now.
+/// Returns the robot's odometry.
 Odometry odometryOf(const Scene& world, int robot);
 /// Stops a robot that has gone too far without a code, and reports it as lost. Returns whether it
 /// is.

@@ -36,7 +36,7 @@ OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
 }
 
 /// Returns where along the segment the next code comes into view.
-double nextCode(const Settings& settings, double along) {
+double nextCode(const WorldSettings& settings, double along) {
   const double cell = settings.grid_spacing;
   return std::ceil((along + kReadBefore + kJustRead) / cell) * cell - kReadBefore;
 }
@@ -90,7 +90,7 @@ double roomAhead(const Scene& world, int i, double along) {
   const FleetState& f = world.fleet;
   const Localisation& l = f.localisation[i];
   const double to_code = nextCode(world.settings, along) - along;
-  const double to_goal = std::max(kTiny, f.goal[i] - along);
+  const double to_goal = std::max(kTiny, f.reference_end[i] - along);
   return std::min({to_code, to_goal, std::max(kTiny, l.lost_at - l.since_code)});
 }
 
@@ -99,7 +99,7 @@ void brakeFor(RobotView& world, int i) {
   FleetState& f = world.fleet;
   if (f.acceleration[i] == 0) return;
   const Profile command = f.command(i);
-  const double way = f.goal[i] - command.position, v = command.speed;
+  const double way = f.reference_end[i] - command.position, v = command.speed;
   const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.clock.dt, kTiny)) : 0;
   const double usual = f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
   if (needed > usual) {
@@ -144,7 +144,8 @@ void beginStretch(RobotView& world, int i, bool turns) {
     stretch.turns = true;
     f.reference[i] = l.pose.yaw;
     stretch.until = std::numeric_limits<double>::infinity();
-    drawSlip(world, i, std::max(0.1, std::abs(f.goal[i] - l.pose.yaw) * l.believed.separation / 2));
+    drawSlip(world, i,
+             std::max(0.1, std::abs(f.reference_end[i] - l.pose.yaw) * l.believed.separation / 2));
   } else {
     const OnLine at = onLine(l.pose, f.tasks[i].segments.front());
     f.reference[i] = at.along;
@@ -180,7 +181,7 @@ bool continueStretch(TaskView& world, int i) {
   brakeFor(world, i);
   stretch.under_way = true;
   setMotion(world.fleet, i);
-  return f.goal[i] > f.reference[i];
+  return f.reference_end[i] > f.reference[i];
 }
 
 }  // namespace kiva

@@ -73,9 +73,9 @@ struct Touch {
   int wheel;  // -1: of the chassis
 };
 
-class Step {
+class JointedStep {
  public:
-  Step(RobotView& world, int robot)
+  JointedStep(RobotView& world, int robot)
       : f_(world.fleet),
         robot_(robot),
         drive_(f_.robots[robot].drive),
@@ -311,7 +311,7 @@ class Step {
 
 }  // namespace
 
-void driveJointed(RobotView& world, int robot) { Step(world, robot).run(); }
+void driveJointed(RobotView& world, int robot) { JointedStep(world, robot).run(); }
 
 Vehicle jointedVehicle(const Scene& world, int robot, const Ground& ground) {
   const Robot& r = world.fleet.robots[robot];

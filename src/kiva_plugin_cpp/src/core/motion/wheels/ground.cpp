@@ -19,11 +19,11 @@ struct Cell {
   std::int64_t column, row;
 };
 
-Cell cellAt(const Settings& settings, double x, double y) {
+Cell cellAt(const WorldSettings& settings, double x, double y) {
   return {std::llround(x / settings.grid_spacing), std::llround(y / settings.grid_spacing)};
 }
 
-bool isSlippery(const Settings& settings, const Cell& cell) {
+bool isSlippery(const WorldSettings& settings, const Cell& cell) {
   RandomStream random(settings.options.seed, Matter::kFloor,
                       static_cast<std::uint64_t>(cell.column),
                       static_cast<std::uint64_t>(cell.row));
@@ -74,7 +74,7 @@ double leastFriction(const Scene& world, const FloorPatch& area) {
 /// Returns what a robot's wheels will have stood on when its reference has come to its goal.
 FloorPatch areaAhead(const FleetState& f, int robot) {
   const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
-  const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
+  const double way = drives ? f.reference_end[robot] - f.reference[robot] : 0;
   const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
   const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);
   const double reach = f.robots[robot].drive.wheel_separation / 2 + kOffLine;

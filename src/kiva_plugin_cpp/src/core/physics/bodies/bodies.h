@@ -16,7 +16,7 @@
 
 namespace kiva {
 
-/// Third user index of a body that was put somewhere, with a velocity, since the last step.
+/// Third user index of a body that was placed since the last step.
 constexpr int kPlaced = 1;
 
 /// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.

@@ -16,10 +16,9 @@ namespace kiva {
 /// Bullet's tree of the triangles of a mesh: all that stand in the world with that mesh share it.
 struct TriangleTree;
 
-/// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
-/// friction a body.
+/// One primitive of a body with its model and surface: Bullet itself knows one friction a body.
 struct BodyPart {
-  std::shared_ptr<const TriangleTree> triangles;  ///< Of a static mesh: what its shape looks up.
+  std::shared_ptr<const TriangleTree> triangles;  ///< The tree of a static mesh.
   std::unique_ptr<btCollisionShape> shape;
   int model = -1;
   double friction = 1;
@@ -36,8 +35,8 @@ struct BodyShape {
   void add(const Collision& collision, const btTransform& pose, int model);
 };
 
-/// Tells whether Bullet has no volume for a collision: an unbounded plane or, of a static model, a
-/// mesh. Each is a static body of its own.
+/// Returns whether a collision has no volume in Bullet: an unbounded plane, or a mesh of a static
+/// model. Each is a static body of its own.
 bool isSurface(const Collision& collision, bool is_static);
 
 /// Returns a collision as a part of a body of `model`. A mesh keeps its triangles in a static model

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between poses and vectors of descriptions and those of Bullet.
+// Conversions between poses and vectors of descriptions and those of Bullet.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -13,7 +13,7 @@ class SpatialInertia {
 
   void add(const Link& link, const Pose& link_in_frame);
   void addPoint(double mass, const Vector3& at);
-  /// A sum in another frame, which stands at `pose` in this one.
+  /// Adds a sum in another frame, which stands at `pose` in this one.
   void add(const SpatialInertia& other, const Pose& pose);
 
   double mass() const { return mass_; }  ///< [kg]

@@ -9,7 +9,7 @@
 
 namespace kiva {
 
-/// Returns the part of a body that a contact is with; null for a plane, which has but one.
+/// Returns the part of a body that a contact touches; null for a plane, which has but one.
 const BodyPart* touchedPart(const btCollisionObject* object, int part);
 /// Returns the model of that part.
 int modelOfPart(const btCollisionObject* object, int part);

@@ -18,7 +18,7 @@ struct TriangleTree {
   std::unique_ptr<btBvhTriangleMeshShape> makeShape() const;
 
  private:
-  std::shared_ptr<const Mesh> mesh_;  ///< For whose sake no other mesh has its address.
+  std::shared_ptr<const Mesh> mesh_;  ///< Kept, so that no other mesh gets its address.
   std::unique_ptr<btTriangleMesh> triangles_;
   std::unique_ptr<btBvhTriangleMeshShape> first_;  ///< Owns the tree.
 };

@@ -26,12 +26,12 @@ struct Closest : btDiscreteCollisionDetectorInterface::Result {
   void setShapeIdentifiersB(int, int) override {}
   void addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b,
                        btScalar apart) override {
-    found = true;
+    is_found = true;
     normal = normal_on_b;
     point = point_on_b;
     distance = apart;
   }
-  bool found = false;
+  bool is_found = false;
   btVector3 normal, point;
   btScalar distance = 0;
 };
@@ -123,7 +123,7 @@ void BoxBoxContacts::foresee(const btBoxShape* a, const btBoxShape* b, const Inp
   const btScalar foresight = manifold_->getContactBreakingThreshold();
   if (areFarther(foresight + kGjkExact, a, b, input)) return;
   const Closest apart = closest(a, b, input);
-  if (!apart.found) return;
+  if (!apart.is_found) return;
   result->addContactPoint(apart.normal, apart.point, apart.distance);
   btPolyhedralContactClipping::clipHullAgainstHull(
       apart.normal, polyhedronOf(a), polyhedronOf(b), input.m_transformA, input.m_transformB,

@@ -24,7 +24,7 @@ class BoxBoxContacts : public ContactAlgorithm {
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
-  /// What a dispatcher is told to use for two boxes.
+  /// Creates the algorithm for two boxes; registered with a dispatcher.
   struct Creator : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,

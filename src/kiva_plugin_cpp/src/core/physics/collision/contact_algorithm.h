@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// How contacts of two bodies are found, step by step: nothing here asks when they will touch.
+/// Base of algorithms that find contacts of two bodies step by step, without times of impact.
 class ContactAlgorithm : public btActivatingCollisionAlgorithm {
  public:
   using btActivatingCollisionAlgorithm::btActivatingCollisionAlgorithm;

@@ -21,9 +21,9 @@ class PlanarContacts : public ContactAlgorithm {
   /// Two parts that share heights, and where they touch.
   struct Pair {
     int a = 0, b = 0;                          ///< Children of the compounds.
-    double z_min = 0, z_max = 0;               ///< That they share, in world [m].
-    btPersistentManifold* manifold = nullptr;  ///< Once they have come near.
-    OutlineContacts contacts;                  ///< The last look's.
+    double z_min = 0, z_max = 0;               ///< Heights that they share, in world [m].
+    btPersistentManifold* manifold = nullptr;  ///< Null until they have come near.
+    OutlineContacts contacts;                  ///< Contacts of the last look.
   };
 
   PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
@@ -35,8 +35,8 @@ class PlanarContacts : public ContactAlgorithm {
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
-  /// What a dispatcher is told to use for two compounds: this, or Bullet's own where one of them
-  /// may tip, or has parts that are no upright boxes.
+  /// Creates the algorithm for two compounds: this, or Bullet's own where one of them may tip or
+  /// has parts other than upright boxes.
   struct Creator : btCompoundCompoundCollisionAlgorithm::CreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,

@@ -292,19 +292,20 @@ void RoundContacts::processCollision(const btCollisionObjectWrapper* a,
   const Round body(round);
   const Flat surface = edge_ ? faceOf(flat, body.centre) : planeOf(flat);
   const bool is_over = surface.isLevelWith(body.centre) && surface.above(body.centre) > 0;
-  const Candidates found = findCandidates(body, surface, manifold_->getContactBreakingThreshold());
-  if (edge_ && (!is_over || found.is_edge)) {
+  const Candidates candidates =
+      findCandidates(body, surface, manifold_->getContactBreakingThreshold());
+  if (edge_ && (!is_over || candidates.is_edge)) {
     result->setPersistentManifold(manifold_);
     edge_->processCollision(&round, &flat, info, result);
     return result->refreshContactPoints();
   }
   const Load load = loadOf(*manifold_);
   manifold_->clearManifold();
-  for (int i = 0; i < found.count; ++i) {
-    addContact(round, flat, surface, found.at[i], manifold_);
+  for (int i = 0; i < candidates.count; ++i) {
+    addContact(round, flat, surface, candidates.at[i], manifold_);
   }
   if (manifold_->getNumContacts() == 0) return;
-  if (found.is_line && manifold_->getNumContacts() == 3) {
+  if (candidates.is_line && manifold_->getNumContacts() == 3) {
     warmLine(load, manifold_);
   } else {
     warmPoints(load, manifold_);

@@ -27,7 +27,7 @@ class RoundContacts : public ContactAlgorithm {
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
-  /// What a dispatcher is told to use for such a pair, in that order or swapped.
+  /// Creates the algorithm for such a pair, in that order or swapped.
   struct Creator : btCollisionAlgorithmCreateFunc {
     Creator(bool is_swapped, btCollisionAlgorithmCreateFunc* edges) : at_edges(edges) {
       m_swapped = is_swapped;

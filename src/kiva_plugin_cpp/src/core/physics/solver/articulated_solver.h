@@ -30,11 +30,11 @@ class ArticulatedSolver {
   bool solve(const Island& island);
 
  private:
-  /// A row that may give way: of a contact, of friction, of a motor, of a limit.
+  /// A row that may give way: a contact, friction, a motor or a limit.
   struct Yielding {
     btSolverConstraint* row;
     double least, most;   ///< Bounds of its impulse, without friction's [N s, Nm s].
-    int normal = -1;      ///< Of the first row of friction: its contact's.
+    int normal = -1;      ///< Row of the contact, for the first row of its friction.
     double friction = 0;  ///< Its Coulomb coefficient.
   };
   enum class Hold : char { kFree, kAtLeast, kAtMost };
@@ -61,8 +61,8 @@ class ArticulatedSolver {
   Ldl joints_;
   SquareMatrix a_;             ///< What an impulse of a yielding row changes of another's velocity.
   std::vector<double> b_, x_;  ///< Velocity that is missing; impulses to add.
-  std::vector<double> missing_;               ///< Of holding rows, multiplied by L⁻¹.
-  std::vector<std::vector<double>> through_;  ///< Of each yielding row: L⁻¹ of its couplings.
+  std::vector<double> missing_;  ///< Missing velocities of holding rows, multiplied by L⁻¹.
+  std::vector<std::vector<double>> through_;  ///< L⁻¹ of the couplings of each yielding row.
   std::vector<Hold> hold_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rigid contacts of one mechanism with the ground: which impulses keep them from sinking in and,
-// as far as Coulomb's friction goes, from slipping?
+// Rigid contacts of one mechanism with the ground: the impulses that keep them from sinking in and,
+// within Coulomb's friction, from slipping.
 #pragma once
 
 #include <array>

@@ -3,8 +3,8 @@
 // Bullet with its memory of the past taken out. As it comes, the outcome of a step depends on how
 // the lists came to be that it goes through: the solver takes contacts in the order in which they
 // were found, and bodies form an island when their boxes, grown in advance, overlap. Here a step
-// follows from bodies, contacts and joints alone, so that a world put together from these goes on
-// as the one that they were read from, bit by bit.
+// follows from bodies, contacts and joints alone, so that a world rebuilt from these goes on as the
+// original, bit by bit.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

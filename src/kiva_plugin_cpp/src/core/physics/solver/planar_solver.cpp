@@ -183,8 +183,8 @@ class Solver {
 
   /// Returns the square of the speed that it changed.
   btScalar settle(Row& row) {
-    const btScalar wanted = row.impulse + (row.speed - speedAlong(row)) * row.mass;
-    const btScalar impulse = std::clamp(wanted, row.least, row.most);
+    const btScalar required = row.impulse + (row.speed - speedAlong(row)) * row.mass;
+    const btScalar impulse = std::clamp(required, row.least, row.most);
     const btScalar more = impulse - row.impulse;
     if (more == 0) return 0;
     row.impulse = impulse;

@@ -5,7 +5,8 @@
 
 namespace kiva {
 
-/// What Bullet hands its solver: bodies, contacts and joints that may act on each other.
+/// An island as Bullet hands it to its solver: bodies, contacts and joints that may act on each
+/// other.
 struct ContactIsland {
   btCollisionObject** bodies = nullptr;
   int body_count = 0;
@@ -18,9 +19,8 @@ struct ContactIsland {
 /// Returns whether its bodies slide on the floor, push each other sideways and do no more.
 bool isPlanar(const ContactIsland& island);
 
-/// What Bullet's solver does of such an island, by the same laws in the same order, in the three
-/// degrees of freedom that its bodies have: velocities after the step, and what contacts and feet
-/// did in it.
+/// Solves such an island by the laws of Bullet's solver, in the same order, in the three degrees of
+/// freedom that its bodies have. Sets velocities, and impulses of contacts and feet.
 void solvePlanar(const ContactIsland& island, const btContactSolverInfo& info);
 
 }  // namespace kiva

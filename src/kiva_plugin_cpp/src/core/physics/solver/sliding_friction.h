@@ -10,9 +10,9 @@
 
 namespace kiva {
 
-/// Where a body stands on the floor.
+/// A point at which a body stands on the floor.
 struct Foot {
-  btVector3 at;           ///< From the centre of mass, in the body's frame [m].
+  btVector3 at;           ///< Position from the centre of mass, in the body's frame [m].
   double grip_limit = 0;  ///< The most that friction holds there [N].
 };
 
@@ -21,14 +21,14 @@ class SlidingFriction : public btTypedConstraint {
   SlidingFriction(btRigidBody& body, std::vector<Foot> feet);
 
   void getInfo1(btConstraintInfo1* info) override;
-  /// Along the way that a foot goes, and across it: the impulses that end both, as far as it grips.
+  /// Impulses that end the motion of a foot along and across its way, within its grip.
   void getInfo2(btConstraintInfo2* info) override;
   void setParam(int, btScalar, int) override {}
   btScalar getParam(int, int) const override { return 0; }
 
   const std::vector<Foot>& feet() const { return feet_; }
-  /// Returns where a foot goes, as far as `arm` [m] from the centre of mass: a unit vector, in
-  /// world.
+  /// Returns the direction of motion of a foot at `arm` [m] from the centre of mass: a unit vector
+  /// in world.
   btVector3 wayOf(const btVector3& arm) const;
   /// Returns the impulse of the floor on the body in the last step of `dt` [s] in which it was
   /// awake, in world [Ns].

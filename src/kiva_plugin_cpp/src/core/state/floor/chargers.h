@@ -11,10 +11,10 @@ struct Charger {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
-/// The chargers of a world, as its floor markings show them.
+/// The chargers of a world, by its floor markings.
 struct Chargers {
   std::vector<Charger> areas;
-  std::uint64_t models_revision = ~0ull;  ///< The models' revision when they were found.
+  std::uint64_t models_revision = ~0ull;  ///< The models' revision of the last search.
 };
 
 }  // namespace kiva

@@ -11,20 +11,20 @@ namespace kiva {
 /// An item that slides off its storage unit, or lies on the floor since.
 struct OffShelf {
   int item = -1, unit = -1;  ///< Models' slots.
-  Vector3 velocity;   ///< With which it comes to the edge, as the unit moves then, in its frame.
-  bool lies = false;  ///< It is a body of its own.
-  std::uint64_t due = 0;  ///< The step at which it comes to the edge; of one that lies the step at
-                          ///< which it is picked up, 0 = never by itself.
+  Vector3 velocity;       ///< Velocity at the edge relative to the unit, in the unit's frame [m/s].
+  bool lies = false;      ///< It is a body of its own.
+  std::uint64_t due = 0;  ///< Step of arrival at the edge; for an item that lies, step at which it
+                          ///< is picked up, 0 = only by a client.
 };
 
 /// The items that have left their places.
 struct FallenItems {
-  std::vector<OffShelf> items;  ///< In the order in which they began to slide.
+  std::vector<OffShelf> items;  ///< Ordered by the begin of their slides.
 
-  /// Returns the entry of the item in that slot; null: it is on its unit, or never was.
+  /// Returns the entry of the item in that slot, or null if it did not leave its place.
   const OffShelf* find(int item) const {
-    for (const OffShelf& one : items) {
-      if (one.item == item) return &one;
+    for (const OffShelf& off : items) {
+      if (off.item == item) return &off;
     }
     return nullptr;
   }

@@ -10,7 +10,7 @@ namespace kiva {
 
 class FloorCover;
 
-/// A rectangle of the floor that grips otherwise than the rest, in world [m].
+/// A rectangle of the floor with a friction of its own, in world [m].
 struct FloorPatch {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
   double friction = 0;  ///< Coulomb coefficient of its surface.
@@ -25,11 +25,11 @@ struct FloorPatch {
 
 /// The floor that all static models make together.
 struct FloorState {
-  Floor extent;                             ///< Height and bounds.
+  FloorExtent extent;                       ///< Height and bounds.
   double friction = 1;                      ///< Coulomb coefficient of the largest surface.
   std::shared_ptr<const FloorCover> cover;  ///< Null where all surfaces grip alike.
-  bool cover_due = true;            ///< Floor or robots have changed since the cover was found.
-  std::vector<FloorPatch> patches;  ///< Where the friction is another one; later ones lie on top.
+  bool cover_due = true;                    ///< Floor or robots have changed since the last search.
+  std::vector<FloorPatch> patches;          ///< Areas of another friction; later ones lie on top.
 };
 
 }  // namespace kiva

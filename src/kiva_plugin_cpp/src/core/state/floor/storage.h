@@ -14,14 +14,14 @@ namespace kiva {
 struct Storage {
   std::vector<StorageUnit> units;
   std::vector<Item> items;
-  std::unordered_map<int, int> unit_of_id;  ///< Index of a unit by its number.
-  std::vector<std::vector<int>> items_on;   ///< By unit: indices of its items, ascending.
+  std::unordered_map<int, int> unit_of_id;  ///< Index of a unit by its id, the number in its name.
+  std::vector<std::vector<int>> items_on;   ///< Indices of the items of each unit, ascending.
   std::uint64_t revision = 0;
 
-  /// Notes that a unit, or an item that lies on none, moved or changed hands.
+  /// Notes that a unit, or an item that lies on no unit, moved or changed its carrier.
   void noteMove() { ++revision; }
 
-  /// Notes that an item lies on its unit from now on, or does no longer.
+  /// Adds an item to its unit, or removes it.
   void lay(int item) {
     if (items[item].unit < 0) return;
     std::vector<int>& on = items_on[items[item].unit];

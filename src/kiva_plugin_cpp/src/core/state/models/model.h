@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A model that stands in the world, and what its kind answers for.
+// A model that stands in the world, and the responsibilities of its kind.
 #pragma once
 
 #include <array>
@@ -27,22 +27,23 @@ struct CollisionGeometry {
   int link = 0;
   Pose pose_in_link;
   Shape shape;
-  int handle = -1;    ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
+  int handle =
+      -1;  ///< Index in Obstacles; -1 for robots and loads, whose footprints are a mover's.
   int triangle = -1;  ///< Index in the mesh of a static model, if this is one triangle of it.
   std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< That triangle's, in world.
 };
 
-/// What of a static model lies level at one height near the ground.
+/// The level faces of a static model at one height near the ground.
 struct LevelSurface {
-  double z = 0;                                                         ///< In world [m].
+  double z = 0;                                                         ///< Height in world [m].
   double area = 0;                                                      ///< [m2]
-  double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;  ///< In world [m].
+  double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;  ///< Bounds in world [m].
   double friction = 1;
   bool is_plane = false;
 };
 
-/// Adds, removes, places and resets the models of one kind, and tells where they are and how they
-/// touch others. One object a kind, in core/models; no other code asks for a model's kind.
+/// Adds, removes, places and resets the models of one kind, and knows their poses and how they
+/// touch others. There is one object a kind, in core/models; no other code asks for a model's kind.
 class ModelOwner {
  public:
   virtual ~ModelOwner() = default;
@@ -74,16 +75,16 @@ class ModelOwner {
   virtual ModelBodies build(const Scene& world, const Model& model) const = 0;
   /// Returns whether it is in Bullet only while something is near; else for as long as it stands.
   virtual bool isActivatedWhenNear() const { return false; }
-  /// Follow the model's entering and leaving Bullet; `model.bodies` are still there.
+  /// Follow the model's entry into Bullet and its leave, with `model.bodies` present.
   virtual void activated(RobotView& /*world*/, Model& /*model*/) const {}
   virtual void deactivated(RobotView& /*world*/, Model& /*model*/) const {}
-  /// Returns whether it can be there as a body that slides on its feet, as long as it does not tip.
+  /// Returns whether Bullet may have it as a body that slides on its feet, until it tips.
   virtual bool mayBeUpright(const Scene& /*world*/, const Model& /*model*/) const { return false; }
-  /// Returns whether it may leave Bullet, if `is_alone`: nothing was near it for a while.
+  /// Returns whether it may leave Bullet. `is_alone`: nothing was near it for a while.
   virtual bool mayLeaveBullet(const Scene& /*world*/, const Model& /*model*/, bool is_alone) const {
     return is_alone;
   }
-  /// Returns whether Bullet moves it: what its bodies do is what it does.
+  /// Returns whether Bullet moves it, so that it follows its bodies.
   virtual bool followsBodies(const Model& model) const;
 
   /// Returns whether only its plugins move its joints.
@@ -100,13 +101,13 @@ class ModelOwner {
   virtual bool stops(const Scene& /*world*/, const Model& /*model*/, int /*robot*/) const {
     return true;
   }
-  /// Returns what it makes of a cell where it stands: of Occupancy.
+  /// Returns the Occupancy of the cells where it stands.
   virtual std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const {
     return Occupancy::kFree;
   }
-  /// Returns whether what is put into it stays there and goes where it goes.
+  /// Returns whether items that are put into it are carried along.
   virtual bool holdsItems() const { return false; }
-  /// Returns whether World::unitsRevision tells that it moved.
+  /// Returns whether World::unitsRevision counts its moves.
   virtual bool isTracked() const { return false; }
   /// Returns the group of its footprints: rays of that group pass them; -1 = none.
   virtual int group(const Model& /*model*/) const { return -1; }
@@ -116,27 +117,27 @@ struct Model {
   std::string name;
   ModelKind kind = ModelKind::kOther;
   const ModelOwner* owner = nullptr;  ///< The owner of its kind.
-  int slot = -1;                      ///< Among the world's models.
+  int slot = -1;                      ///< Index among the world's models.
   std::shared_ptr<const ModelDescription> description;
   std::uint64_t serial = 0;  ///< Order of arrival.
-  Pose spawn_pose;           ///< In world.
-  Pose pose;                 ///< In world; of a model that has no body now.
-  int index = -1;            ///< In the fleet, the storage units or the items, by kind.
+  Pose spawn_pose;           ///< Pose in world of its spawn.
+  Pose pose;                 ///< Pose in world while it has no body.
+  int index = -1;            ///< Index in the fleet, the storage units or the items, by kind.
   ModelBodies bodies;
   bool in_physics = false;         ///< Its bodies are in Bullet now.
   std::uint64_t active_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;          ///< Touched since it was activated.
-  bool upright = false;            ///< It is there as a body that slides on its feet, no more.
-  Vector3 rocking;    ///< Momentum that its feet did not hold since, about its centre of mass,
+  bool upright = false;            ///< Its body slides on its feet, and can do no more.
+  Vector3 rocking;    ///< Angular momentum that its feet have not held, about its centre of mass,
                       ///< in world [Nms].
-  bool tips = false;  ///< That is too much, or something lies on it: it is a whole body.
+  bool tips = false;  ///< It is a whole body, since it rocks too much or bears a load.
   mutable std::shared_ptr<const JointedBody>
       jointed;  ///< A cache: a jointed robot's mechanism, made when it is asked for.
   std::vector<CollisionGeometry> geometries;
   std::vector<LevelSurface> level_surfaces;  ///< A static model's.
   std::vector<std::shared_ptr<Plugin>> plugins;
-  std::vector<JointState> joints;  ///< In the description's order; of a model with free bodies.
-  std::string robot_namespace;     ///< What its plugins were told.
+  std::vector<JointState> joints;  ///< The joints of free bodies, in the description's order.
+  std::string robot_namespace;     ///< The namespace that its plugins use.
 
   bool isStatic() const { return description->is_static; }
 };

@@ -19,7 +19,7 @@ struct ModelTable {
   std::uint64_t next_serial = 0;
   std::uint64_t revision = 0;     ///< Counts up whenever a model comes or goes.
   std::vector<int> bodies;        ///< Slots of models with bodies of their own that can move.
-  std::vector<int> with_plugins;  ///< Slots.
+  std::vector<int> with_plugins;  ///< Slots of models with plugins.
   std::vector<int> activated;     ///< Slots of robots and storage units that are in Bullet now.
 
   std::size_t size() const { return slots.size(); }

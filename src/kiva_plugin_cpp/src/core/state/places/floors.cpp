@@ -77,7 +77,7 @@ void widen(LevelSurface* surface, const Outline& outline) {
 
 /// `mesh` with its low triangles, or all the others; null if there are none.
 std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
-                                   const Floor& floor, bool low) {
+                                   const FloorExtent& floor, bool low) {
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
     const Triangle t = cornersOf(*mesh, static_cast<int>(i), pose);
@@ -94,14 +94,14 @@ std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, cons
 class Halves {
  public:
   std::shared_ptr<const Mesh> of(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
-                                 const Floor& floor, bool low) {
+                                 const FloorExtent& floor, bool low) {
     const Vector3 up = pose.Rot().RotateVectorReverse(Vector3::UnitZ);
     const Key key{mesh.get(), low, {up.X(), up.Y(), up.Z(), pose.Z() - floor.z}};
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = known_.find(key);
-    if (found != known_.end() && found->second.whole.lock() == mesh) {
-      const auto half = found->second.half.lock();
-      if (half || found->second.is_none) return half;
+    const auto entry = known_.find(key);
+    if (entry != known_.end() && entry->second.whole.lock() == mesh) {
+      const auto half = entry->second.half.lock();
+      if (half || entry->second.is_none) return half;
     }
     const auto half = halfOf(mesh, pose, floor, low);
     forget();
@@ -135,7 +135,7 @@ class Halves {
 };
 
 /// Returns the part of a collision that is low, or the other one; nothing if there is none.
-std::optional<Collision> partOf(const Collision& whole, const Pose& link, const Floor& floor,
+std::optional<Collision> partOf(const Collision& whole, const Pose& link, const FloorExtent& floor,
                                 bool low) {
   const Pose pose = link * whole.pose_in_link;
   const Bounds box = bounds(whole.shape, pose);
@@ -150,7 +150,7 @@ std::optional<Collision> partOf(const Collision& whole, const Pose& link, const 
   return part.shape.mesh ? std::optional(part) : std::nullopt;
 }
 
-ModelDescription partOf(const Model& model, const Floor& floor, bool low) {
+ModelDescription partOf(const Model& model, const FloorExtent& floor, bool low) {
   ModelDescription part = *model.description;
   for (Link& link : part.links) {
     std::vector<Collision> collisions;
@@ -166,7 +166,7 @@ ModelDescription partOf(const Model& model, const Floor& floor, bool low) {
 }  // namespace
 
 std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, const Pose& pose) {
-  std::map<std::tuple<bool, long long, double>, LevelSurface> found;
+  std::map<std::tuple<bool, long long, double>, LevelSurface> by_height;
   for (const Link& link : description.links) {
     for (const Collision& collision : link.collisions) {
       const Pose at = pose * link.pose_in_model * collision.pose_in_link;
@@ -175,7 +175,7 @@ std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, con
         const bool is_plane = collision.shape.kind == Shape::Kind::kPlane;
         if (!is_plane && std::abs(z) > kNearGround) return;
         auto [entry, is_new] =
-            found.try_emplace({is_plane, std::llround(z / kSameHeight), collision.friction});
+            by_height.try_emplace({is_plane, std::llround(z / kSameHeight), collision.friction});
         LevelSurface& surface = entry->second;
         surface.is_plane = is_plane;
         surface.friction = collision.friction;
@@ -186,7 +186,7 @@ std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, con
     }
   }
   std::vector<LevelSurface> surfaces;
-  for (const auto& [key, surface] : found) surfaces.push_back(surface);
+  for (const auto& [key, surface] : by_height) surfaces.push_back(surface);
   return surfaces;
 }
 
@@ -243,7 +243,7 @@ FloorCover::FloorCover(const Scene& world) {
   if (!pieces_.empty()) fillRows();
 }
 
-void FloorCover::add(const Collision& collision, const Pose& pose, const Floor& floor) {
+void FloorCover::add(const Collision& collision, const Pose& pose, const FloorExtent& floor) {
   const std::size_t first = pieces_.size();
   double area = 0;
   forLevelFaces(collision.shape, pose, [&](const Outline& face) {
@@ -273,9 +273,9 @@ int FloorCover::rowOf(double y) const {
   return static_cast<int>(std::floor(std::clamp(y, -kMostRows / 2, kMostRows / 2) + kMostRows / 2));
 }
 
-bool FloorCover::isAbove(const Piece& one, const Piece& other) {
-  if (std::abs(one.z - other.z) > kSameHeight) return one.z > other.z;
-  return one.area < other.area;
+bool FloorCover::isAbove(const Piece& piece, const Piece& other) {
+  if (std::abs(piece.z - other.z) > kSameHeight) return piece.z > other.z;
+  return piece.area < other.area;
 }
 
 double FloorCover::frictionAt(double x, double y, double otherwise) const {

@@ -11,7 +11,7 @@ namespace kiva {
 namespace {
 
 /// Adds the triangles of a building's mesh that stand in the way; those of its floor do not.
-void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
+void addTriangles(const FloorExtent& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
       model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models among the obstacles: what their collision shapes cover of the floor, and how that follows
-// where they are.
+// Models among the obstacles: the footprints of their collision shapes, which follow their poses.
 #pragma once
 
 #include "core/geometry/footprint.h"
@@ -9,22 +8,22 @@
 
 namespace kiva {
 
-/// Gives a model the geometry of its collision shapes, without footprints so far.
+/// Gives a model the geometry of its collision shapes, still without footprints.
 void addCollisionGeometry(const FloorState& floor, Model& model);
 /// Renews the geometry of a static model after it or the floor has moved.
 void refitGeometry(MotionView& world, Model& model);
-/// Updates the footprints of a model, or of a robot with its load, that was moved or reshaped, and
-/// counts up World::unitsRevision for units and items. Every move of a model calls this, and needs
-/// nothing else.
+/// Updates the footprints of a model, or of a robot with its load, after a move or a change of
+/// shape, and counts up World::unitsRevision for units and items. Every move of a model calls this,
+/// and needs nothing else.
 void moved(MotionView& world, Model& model);
 /// Updates the footprints of a robot that drove by itself in this step.
 void followRobot(MotionView& world, int robot);
-/// Raises the footprints of a robot's load, if it has one, by that much [m].
+/// Raises the footprints of a robot's load, if it has one [m].
 void raiseLoad(MotionView& world, int robot, double by);
 /// Takes the footprints away; the model keeps its geometry.
 void hideFootprints(Obstacles& obstacles, Model& model);
-/// Discards what robots know of how long their ways are free, since something came or was moved
-/// from outside: robots look around before they go on.
+/// Discards the clearances of all robots, since something came or was moved from outside: robots
+/// look around before they go on.
 void invalidateClearance(FleetState& fleet);
 
 /// Calls visit(footprint) for each of the model's footprints in world.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where things are, in world.
+// Poses and states of robots, units, items and models in world.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ EntityState modelState(const Scene& world, const Model& model);
 Pose linkPose(const Scene& world, const Model& model, int link);
 EntityState linkState(const Scene& world, const Model& model, int link);
 
-/// Returns what Bullet says of a link.
+/// Returns a link's state in Bullet.
 EntityState bodyState(const LinkBody& link);
 /// Returns the state of the model's frame, from that of its canonical link in Bullet.
 EntityState canonicalState(const Model& model);

@@ -36,14 +36,14 @@ bool standsUpright(const Scene& world, int unit) {
 }
 
 int unitAt(const Scene& world, const Vector3& point) {
-  int found = -1;
+  int unit_there = -1;
   const Footprint here = circleAt(point.X(), point.Y(), 0);
   world.obstacles.near(point.X(), point.Y(), 0.0, [&](const Footprint& f) {
     const Model& model = *world.models[f.model];
-    if (found >= 0 || !model.owner->holdsItems()) return;
-    if (gap(f, here) <= 0 && point.Z() <= f.z_max && point.Z() >= f.z_min) found = model.index;
+    if (unit_there >= 0 || !model.owner->holdsItems()) return;
+    if (gap(f, here) <= 0 && point.Z() <= f.z_max && point.Z() >= f.z_min) unit_there = model.index;
   });
-  return found;
+  return unit_there;
 }
 
 double towerGap(const Scene& world, int robot, int unit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a robot that is to lift a storage unit asks of it.
+// The geometry of storage units that matters to a robot beneath them.
 #pragma once
 
 #include "core/state/views/scene.h"

@@ -63,14 +63,14 @@ MotionSegment turnTo(double heading) {
 }
 
 /// Returns the run from its origin along a heading.
-MotionSegment driveAlong(const Settings& settings, const ReleasedPath& path, double heading) {
+MotionSegment driveAlong(const WorldSettings& settings, const ReleasedPath& path, double heading) {
   const PathPoint &from = path[path.origin], &to = path[path.end];
   MotionSegment run;
   run.kind = MotionSegment::Kind::kDrive;
   run.x = from.x;
   run.y = from.y;
   run.yaw = heading;
-  run.goal = std::abs(to.x - from.x) + std::abs(to.y - from.y);
+  run.length = std::abs(to.x - from.x) + std::abs(to.y - from.y);
   run.state =
       std::abs(to.x - from.x) > settings.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
   return run;

@@ -42,16 +42,17 @@ void setStatus(TaskView& world, int robot, Status status, State state) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   const int unit = f.unit[robot];
-  const int shelf = unit < 0 ? 0 : world.storage.units[unit].id;
-  if (f.status[robot] == status && f.state[robot] == state && task.reported_shelf == shelf) return;
+  const int unit_id = unit < 0 ? 0 : world.storage.units[unit].id;
+  if (f.status[robot] == status && f.state[robot] == state && task.reported_unit_id == unit_id)
+    return;
   f.status[robot] = status;
   f.state[robot] = state;
-  task.reported_shelf = shelf;
+  task.reported_unit_id = unit_id;
   if (f.failures[robot] & bitOf(Failure::kRadio)) return;
   const int id = f.robots[robot].id;
   if (world.settings.realism.radio.delaysReports()) return world.report_link.changed.push_back(id);
   world.log.status_changes.push_back(
-      {world.clock.time(), id, status, state, shelf, f.x[robot], f.y[robot], f.yaw[robot]});
+      {world.clock.time(), id, status, state, unit_id, f.x[robot], f.y[robot], f.yaw[robot]});
 }
 
 void reportCommand(const Scene& world, EventLog& log, Event::Kind kind, int robot,
@@ -128,7 +129,7 @@ void resumePath(TaskView& world, int robot) {
   task.blocked_by = task.blocked_reason = "";
   if (task.phase != Phase::kBraking) return startSegment(world, robot);
   const MotionSegment& run = task.segments.front();
-  f.goal[robot] = run.goal;
+  f.reference_end[robot] = run.length;
   f.deceleration[robot] = f.acceleration[robot];
   enterPhase(world, robot, Phase::kDriving, Status::kBusy, run.state);
 }
@@ -148,7 +149,7 @@ void finishSegment(TaskView& world, int robot) {
 
 void endDone(TaskView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
-  end(world, robot, Event::Kind::kDone, "", task.cancelled ? "cancelled" : "done: " + task.goal);
+  end(world, robot, Event::Kind::kDone, "", task.cancelled ? "cancelled" : "done: " + task.request);
 }
 
 void stopTask(TaskView& world, int robot, Phase phase, const std::string& by,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes the phases of robots: a command begins and goes through its segments, until it is done or
+// The phases of robots: a command begins and goes through its segments, until it is done or
 // blocked.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace kiva {
 
-/// Begins the segments of the command that the robot's task names. None: it is done already.
+/// Begins the segments of the command that the robot's task names; without segments it is done.
 void beginTask(TaskView& world, int robot, std::deque<MotionSegment> segments);
 /// Begins a path; `segments` bring the robot to its point 0.
 void beginPath(TaskView& world, int robot, std::uint32_t id, ReleasedPath path,
@@ -39,9 +39,9 @@ void endBlocked(TaskView& world, int robot, const std::string& by, const std::st
 /// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway, and a
 /// path on which it stands is over.
 void haltRobot(TaskView& world, int robot, const std::string& by, const std::string& reason);
-/// Sets what the robot reports, and records it if it is new.
+/// Sets the status that the robot reports, and records a change.
 void setStatus(TaskView& world, int robot, Status status, State state);
-/// Reports what became of a robot's command.
+/// Adds an event about a robot's command.
 void reportCommand(const Scene& world, EventLog& log, Event::Kind kind, int robot,
                    const std::string& other, const std::string& text);
 /// Puts the robot into that phase, and reports so.

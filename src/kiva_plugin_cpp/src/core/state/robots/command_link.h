@@ -16,8 +16,8 @@ struct CommandMessage {
 
 /// The radio by which commands reach the robots.
 struct CommandLink {
-  std::deque<CommandMessage> messages;  ///< In the order in which they arrive.
-  std::uint64_t sent = 0;               ///< Messages, ever.
+  std::deque<CommandMessage> messages;  ///< In order of arrival.
+  std::uint64_t sent = 0;               ///< Count of messages so far.
 };
 
 }  // namespace kiva

@@ -9,19 +9,19 @@
 
 namespace kiva {
 
-/// What is broken in a robot now.
+/// A failure of a robot that is not repaired yet.
 struct Defect {
   int kiva_id = 0;
   Failure failure = Failure::kMotor;
-  double left = 0;   ///< Until it is repaired [s]; +inf = until a client repairs it.
-  RobotReport last;  ///< Heard before the failure; of use while the radio is lost.
+  double left = 0;   ///< Time until its repair [s]; +inf = until a client repairs it.
+  RobotReport last;  ///< Last report before the failure, of use while the radio is lost.
 };
 
-/// The defects of a fleet, and when the next one is due.
+/// The defects of a fleet, and the time of the next one.
 struct FailureState {
-  std::vector<Defect> defects;  ///< In the order in which they came.
-  double exposure = 0;          ///< Until the next one by chance [robot seconds],
-  std::uint64_t count = 0;      ///< which has been drawn so often.
+  std::vector<Defect> defects;  ///< In order of occurrence.
+  double exposure = 0;          ///< Time until the next random defect [robot seconds].
+  std::uint64_t count = 0;      ///< Draws of that time so far.
 };
 
 }  // namespace kiva

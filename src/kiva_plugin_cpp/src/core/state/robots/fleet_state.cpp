@@ -17,9 +17,10 @@ void forEachArray(FleetState& f, Visit visit) {
     visit(f.wheel_target[wheel]);
     visit(f.per_wheel[wheel]);
   }
-  for (auto* array : {&f.reference, &f.reference_speed, &f.command_speed, &f.goal, &f.deceleration,
-                      &f.per_x, &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until,
-                      &f.attend_at, &f.count_at, &f.wedged_until}) {
+  for (auto* array :
+       {&f.reference, &f.reference_speed, &f.command_speed, &f.reference_end, &f.deceleration,
+        &f.per_x, &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until, &f.attend_at,
+        &f.count_at, &f.wedged_until}) {
     visit(*array);
   }
   visit(f.cruising);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fleet as the world itself sees it: beside what clients see, what each robot is at, the
-// reference that its drive follows, and until when its way is known to be free.
+// The fleet as the world itself sees it: beside what clients see, each robot's task, the reference
+// that its drive follows, and the time for which its way is free.
+//
+// `robot` is an index in the fleet, `kiva_id` the number in a robot's name. `unit` is an index
+// among the storage units, `unit_id` the number in a unit's name, which messages call `shelf_id`.
 #pragma once
 
 #include <deque>
@@ -16,66 +19,66 @@
 
 namespace kiva {
 
-/// One thing a robot does at a time; a command is a row of them.
+/// One action of a robot; a command is a sequence of them.
 struct MotionSegment {
   enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
   Kind kind = Kind::kTurn;
-  double x = 0;                    ///< Drive: a point of its line, in world [m],
-  double y = 0;                    ///< from which the reference is measured.
-  double goal = 0;                 ///< Drive: where on the line it ends, seen from there [m].
+  double x = 0;                    ///< Drive: point of its line at which the reference is 0,
+  double y = 0;                    ///< in world [m].
+  double length = 0;               ///< Drive: distance of its end from that point [m].
   double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
   bool reverse = false;            ///< Drive: backwards, against the heading.
   bool on_grid = true;             ///< Drive: along a grid line.
   int unit = -1;                   ///< Raise, lower: index of the storage unit.
-  State state = State::kRotating;  ///< What the robot reports meanwhile.
+  State state = State::kRotating;  ///< The state that the robot reports meanwhile.
 };
 
-/// What a robot is at, and what ends it.
+/// The phase of a robot's task, and the event that ends it.
 enum class Phase : std::uint8_t {
-  kIdle,       ///< Without a command. Ends with the next one.
+  kIdle,       ///< No command. Ends with the next one.
   kStarting,   ///< The next control step begins the first segment.
   kTurning,    ///< Ends at the segment's heading.
   kDriving,    ///< Ends at the segment's goal.
-  kLifting,    ///< The tower raises or lowers the unit. Ends when it has.
-  kWaiting,    ///< Stands on its path. Ends with a release, or, with a segment, when that is free.
+  kLifting,    ///< The tower raises or lowers the unit. Ends at its height.
+  kWaiting,    ///< Stands on its path. Ends with a release, or with a free way if it has a segment.
   kBraking,    ///< Drives on to a stop before an obstacle. Ends standing: BLOCKED.
-  kHalting,    ///< With locked wheels. Ends standing: BLOCKED.
+  kHalting,    ///< Brakes with locked wheels. Ends standing: BLOCKED.
   kAbandoning  ///< Gives up a lift: the tower comes down. Ends with it down: BLOCKED.
 };
 
-/// What a robot's laser saw ahead at one scan on a drive.
+/// The nearest thing ahead in one scan of a robot on a drive.
 struct Sighting {
-  bool taken = false;   ///< False: nothing has been looked for on this segment yet.
-  double distance = 0;  ///< From the robot's centre along its heading [m]; +inf = free.
-  int model = -1;       ///< What it is: index in the world's models.
-  bool faces = false;   ///< A face across the way: it can be measured again.
-  double along = 0;     ///< Where on the segment the robot was [m].
+  bool taken = false;   ///< False before the first scan on the segment.
+  double distance = 0;  ///< Distance from the robot's centre along its heading [m]; +inf = free.
+  int model = -1;       ///< Index in the world's models.
+  bool faces = false;   ///< It is a face across the way, which can be measured again.
+  double along = 0;     ///< The robot's distance along the segment [m].
 };
 
-/// What one robot is asked for, and what has become of it.
+/// The command of a robot and its progress.
 struct Task {
   Phase phase = Phase::kIdle;
-  std::uint32_t command = 0;           ///< The number of the last command; 0 = none yet.
-  std::string goal;                    ///< What it asked for, for a person.
-  std::deque<MotionSegment> segments;  ///< The command's, the first under way.
-  ReleasedPath path;                   ///< What its segments are made of, one by one, if it is one.
+  std::uint32_t command = 0;           ///< Number of the last command; 0 = none yet.
+  std::string request;                 ///< The command in words.
+  std::deque<MotionSegment> segments;  ///< Segments left, the first under way.
+  ReleasedPath path;                   ///< The path that the segments are taken from, if any.
   bool cancelled = false;              ///< It ends with the present segments.
-  double overdue = 0;                  ///< Since its reference ended without it being there [s].
-  double stop_at = Profile::kNowhere;  ///< Held: where its reference comes to rest.
-  Sighting sighting, last_sighting;    ///< The newest, and the one before.
+  double overdue = 0;                  ///< Time since the reference ended short of its end [s].
+  double stop_at = Profile::kNowhere;  ///< Held: end of the reference.
+  Sighting sighting, last_sighting;    ///< The newest one, and the one before.
   std::string blocked_by;              ///< A model's name, or empty.
-  std::string blocked_reason;          ///< Why, for a person.
-  int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
+  std::string blocked_reason;          ///< The reason in words.
+  int reported_unit_id = -1;           ///< Id of the unit in the last status; -1 = no status yet.
 
   bool drives() const { return phase == Phase::kDriving || phase == Phase::kBraking; }
-  /// Stands on its path before something that is in the way.
+  /// Returns whether it stands on its path before an obstacle.
   bool isHeldUp() const { return phase == Phase::kWaiting && !segments.empty(); }
   bool follows() const { return path.isUnderWay(); }
-  /// Its segment is a run of its path.
+  /// Returns whether its segment is a run of its path.
   bool isOnRun() const {
     return follows() && isAt(MotionSegment::Kind::kDrive) && segments.front().on_grid;
   }
-  /// Its command is to end in BLOCKED.
+  /// Returns whether its command will end in BLOCKED.
   bool isStopping() const { return phase >= Phase::kBraking; }
   const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
   bool isAt(MotionSegment::Kind kind) const {
@@ -89,7 +92,7 @@ struct Task {
   }
 };
 
-/// A battery, and what its robot was like when its energy was reckoned last.
+/// A battery, and its robot's state when its energy was computed last.
 struct Battery {
   double energy = -1;              ///< [J]; -1 = not known yet.
   double wheel_angle[2] = {0, 0};  ///< [rad]
@@ -97,8 +100,8 @@ struct Battery {
   double tower = 0;                ///< [m]
 };
 
-/// How motors follow the speeds that they are commanded: v' = v + share · (command - v) a step, a
-/// first-order lag. Their way then stays behind the command's by `behind` · v.
+/// The first-order lag of motors behind their commands: v' = v + share · (command - v) a step.
+/// Their position then stays behind the command's by `behind` · v.
 struct MotorLag {
   double share = 1;   ///< 1 = at once.
   double behind = 0;  ///< [s]
@@ -106,15 +109,15 @@ struct MotorLag {
   bool isNone() const { return share == 1; }
 };
 
-/// How a robot's load leans over the edge of what it stands on.
+/// The tilt of a robot's load over an edge of its support.
 struct Sway {
   double tilt = 0, rate = 0;  ///< [rad, rad/s]
-  double to_x = 0, to_y = 0;  ///< Where to: a unit vector in world.
-  double vx = 0, vy = 0;      ///< The robot's velocity [m/s] after step number
+  double to_x = 0, to_y = 0;  ///< Direction of the tilt: a unit vector in world.
+  double vx = 0, vy = 0;      ///< The robot's velocity [m/s] after step number `step`.
   std::uint64_t step = 0;
 };
 
-/// The newest of what a robot has reported that came through.
+/// The newest report of a robot that arrived.
 struct Heard {
   std::uint64_t number = 0;  ///< The report's number, from 1; 0 = none yet.
   RobotReport report;
@@ -122,49 +125,49 @@ struct Heard {
 
 struct FleetState : Fleet {
   std::vector<Task> tasks;
-  Column<double> wheel_target[2];  ///< Left, right: what the motors are asked for [rad/s].
-  Column<std::uint8_t> awake;      ///< 0 = at rest without a command: costs nothing.
+  Column<double> wheel_target[2];  ///< Commands of the left and right motor [rad/s].
+  Column<std::uint8_t> awake;      ///< 0 = at rest without a command, so that it costs nothing.
   Column<Battery> battery;
-  Column<Sway> sway;               ///< Where loads may tip.
-  Column<Heard> heard;             ///< Where reports go by radio.
+  Column<Sway> sway;               ///< Empty unless loads may tip.
+  Column<Heard> heard;             ///< Empty unless reports go by radio.
   Column<std::uint8_t> activated;  ///< 1 = stepped by Bullet, since something is near.
 
   // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;
-  Column<double> command_speed;  ///< Where wheels lag: the command that the reference follows.
+  Column<double>
+      command_speed;  ///< Speed of the command that the reference follows, if wheels lag.
   MotorLag lag;
-  Column<double> goal;          ///< Where it is to end.
-  Column<double> deceleration;  ///< With which it is to end.
+  Column<double> reference_end;  ///< Position at which the reference ends.
+  Column<double> deceleration;   ///< Deceleration at the end of the reference.
 
-  /// Step up to which nothing can come near the robot, as long as it moves as it does. As a number
-  /// that is compared with others several at a time.
+  /// Step up to which nothing can come near the robot, as long as its motion stays. A double, so
+  /// that several are compared at a time.
   Column<double> clear_until;
-  /// Step at which a robot that cruises needs a look again: that one, or when it may have come to
-  /// or left the next point of a path.
+  /// Step at which a robot that cruises needs attention: `clear_until`, or the earliest step at
+  /// which it may have reached or left the next point of a path.
   Column<double> attend_at;
-  /// Step up to which a robot that found no way back to the grid looks for none again.
+  /// Step before which a robot that found no way back to the grid does not search again.
   Column<double> wedged_until;
-  /// Where its reference comes to that next point, or leaves it [m]; infinity: nowhere. Kept while
-  /// it cruises.
+  /// Reference at which a robot that cruises reaches or leaves the next point [m]; +inf = no point.
   Column<double> count_at;
 
   // Robots that follow their references exactly, see core/motion/driving/cruise.h.
-  Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
-  Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis,
-  Column<double> per_wheel[2];             ///< and its wheels.
-  Column<double> top_speed, acceleration;  ///< The reference's.
+  Column<std::int64_t> cruising;           ///< -1 = cruises, 0 = does not: a mask.
+  Column<double> per_x, per_y, per_yaw;    ///< Motion of the chassis a unit of reference.
+  Column<double> per_wheel[2];             ///< Rotation of the wheels a unit of reference.
+  Column<double> top_speed, acceleration;  ///< Limits of the reference.
 
-  /// Whether robots drive by where they believe to be; if not, they know, and the next is empty.
+  /// Whether robots drive by estimated poses; otherwise `localisation` is empty.
   bool localises = false;
   std::vector<Localisation> localisation;
 
-  /// The top speed of the fastest robot that the fleet ever had [m/s].
+  /// Top speed of the fastest robot that the fleet has had [m/s].
   double fastest = 0;
 
-  /// Takes in what of realism robots drive by, at that step size [s].
+  /// Takes in the parts of realism that change driving, at that step size [s].
   void applyRealism(const Realism& realism, double dt);
 
-  /// Returns where robot `i` believes to be.
+  /// Returns the pose that robot `i` believes to have.
   PlanarPose believed(int i) const {
     if (!localises) return {x[i], y[i], yaw[i]};
     return localisation[i].at(reference[i]);
@@ -175,12 +178,12 @@ struct FleetState : Fleet {
     reference[i] = profile.position;
     reference_speed[i] = command_speed[i] = profile.speed;
   }
-  /// Returns what the wheel motors are commanded, which the reference follows.
+  /// Returns the profile that the wheel motors are commanded and the reference follows.
   Profile command(int i) const {
     if (lag.isNone()) return profile(i);
     return {reference[i] + lag.behind * reference_speed[i], command_speed[i]};
   }
-  /// The reference is one step later what motors make of that command.
+  /// Advances the reference by one step, as motors follow that command.
   void follow(int i, const Profile& command);
 
   /// Appends a robot at rest and returns its index.
@@ -189,7 +192,7 @@ struct FleetState : Fleet {
   void remove(int i);
 };
 
-/// Returns whether wheels, or the tower if that is what it moves, are to stand: it is stopped, or
+/// Returns whether the robot holds its wheels, or its tower while that moves: it is stopped or
 /// broken.
 bool isHeld(const FleetState& fleet, int i);
 

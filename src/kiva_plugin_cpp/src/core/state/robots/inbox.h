@@ -11,7 +11,7 @@ namespace kiva {
 /// Commands that have arrived and are answered at the next step.
 struct Inbox {
   std::deque<PendingCommand> pending;
-  std::uint32_t last_number = 0;  ///< The number of the last answered command.
+  std::uint32_t last_command = 0;  ///< Number of the last answered command.
 };
 
 }  // namespace kiva

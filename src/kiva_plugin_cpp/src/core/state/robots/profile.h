@@ -9,17 +9,17 @@ namespace kiva {
 
 /// A reference that goes to a target with limited speed and acceleration and stands there.
 ///
-/// The target and the deceleration may change at any step, so that a robot can be told to stop
-/// earlier than planned. Positions and speeds are of one axis, in [m, m/s] or [rad, rad/s].
+/// The target and the deceleration may change at any step, so that a robot can stop earlier than
+/// planned. Positions and speeds are of one axis, in [m, m/s] or [rad, rad/s].
 struct Profile {
   double position = 0;
   double speed = 0;
 
-  /// What is left of a way when rounding errors are all that is left of it.
+  /// Largest distance from the target that counts as rounding.
   static constexpr double kThere = 1e-12;
 
-  /// One step of `dt` towards `target`. `acceleration` 0: at full speed at once, and at rest at
-  /// once. `deceleration` is what the end of the run is planned with.
+  /// Advances by a step of `dt` towards `target`. `acceleration` 0: full speed at once, and rest at
+  /// once. `deceleration` is that of the run's end.
   void advance(double target, double top_speed, double acceleration, double deceleration,
                double dt) {
     const double distance = std::abs(target - position);
@@ -28,16 +28,16 @@ struct Profile {
     const double braked =
         larger(stoppingSpeed(distance, deceleration, dt), forward - deceleration * dt);
     const double ramped = smaller(smaller(top_speed, forward + acceleration * dt), braked);
-    const double wanted = larger(acceleration > 0.0 ? ramped : top_speed, 0.0);
-    const double next = smaller(wanted, distance * (1 / dt));
+    const double target_speed = larger(acceleration > 0.0 ? ramped : top_speed, 0.0);
+    const double next = smaller(target_speed, distance * (1 / dt));
     const double moved = position + sign * next * dt;
     speed = sign * next;
     position = distance - next * dt <= kThere ? target : moved;
   }
 
-  /// One step of `dt` towards a stop after v²/(2 deceleration), however long steps are;
-  /// deceleration 0: at rest at once. `stop_at` is where that is: the first step sets it, where it
-  /// is kNowhere.
+  /// Advances by a step of `dt` towards a stop after v²/(2 deceleration), however long steps are;
+  /// deceleration 0: rest at once. `stop_at` is the position of the stop, which the first step sets
+  /// if it is kNowhere.
   void brake(double deceleration, double dt, double* stop_at) {
     if (deceleration == 0) {
       speed = 0;
@@ -68,7 +68,7 @@ struct Profile {
   }
 
  private:
-  // By value, unlike std::min: a compiler can do several at a time.
+  // Parameters by value, unlike those of std::min: a compiler can vectorise it.
   static double smaller(double a, double b) { return a < b ? a : b; }
   static double larger(double a, double b) { return a > b ? a : b; }
 };

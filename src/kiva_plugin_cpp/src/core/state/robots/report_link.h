@@ -11,7 +11,7 @@ namespace kiva {
 /// A report of a robot, on its way to the clients.
 struct ReportMessage {
   std::uint64_t due = 0;     ///< The total step at which it arrives.
-  std::uint64_t number = 0;  ///< In the order in which they were sent.
+  std::uint64_t number = 0;  ///< Order of sending.
   int kiva_id = 0;
   RobotReport report;
 };
@@ -19,7 +19,7 @@ struct ReportMessage {
 /// The radio by which robots report.
 struct ReportLink {
   std::vector<ReportMessage> messages;  ///< A heap, the next to arrive first.
-  std::uint64_t sent = 0;               ///< Reports, ever.
+  std::uint64_t sent = 0;               ///< Count of reports so far.
   std::vector<int> changed;  ///< Ids of robots whose status has changed since the last step.
 };
 

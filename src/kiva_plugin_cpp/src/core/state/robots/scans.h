@@ -14,11 +14,11 @@ struct ScanRound {
   std::vector<std::vector<int>> robots_at;
 };
 
-/// The lasers of a fleet: their rays, when they scan, and which robots looked ahead.
+/// The lasers of a fleet: rays, schedule of scans, and robots that looked ahead.
 struct Scans {
   std::vector<RayFan> fans;
   std::vector<ScanRound> rounds;
-  std::uint64_t rounds_revision = ~0ull;  ///< The models' revision when the rounds were made.
+  std::uint64_t rounds_revision = ~0ull;  ///< The models' revision at which the rounds were made.
   std::vector<int> due;                   ///< Robots whose scan is due at this step.
   std::vector<int> sighted;               ///< Robots whose lasers looked ahead in the last step.
 };

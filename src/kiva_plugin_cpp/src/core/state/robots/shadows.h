@@ -6,8 +6,8 @@
 
 namespace kiva {
 
-/// The robots that are shadows of robots elsewhere. No part of a checkpoint: the next report makes
-/// a robot a shadow again.
+/// The robots that are shadows of robots elsewhere. They are no part of a checkpoint: the next
+/// report makes a robot a shadow again.
 struct Shadows {
   std::unordered_set<std::int32_t> kiva_ids;
 

@@ -6,8 +6,7 @@
 
 namespace kiva {
 
-/// What contact between models changes: which of them Bullet steps, and what is known of their
-/// collisions.
+/// Writes contact: beside motion, the bodies that Bullet steps and the log of collisions.
 struct ContactView : MotionView {
   Physics& physics;
   ContactLog& contact_log;

@@ -20,10 +20,10 @@ class FleetPlugin {
   virtual const char* filename() const = 0;
   /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
-  /// Decides upon what was seen in the last step, before robots take new commands. `sighted`: the
-  /// robots whose lasers looked ahead in it.
+  /// Reacts to the scans of the last step, before robots take new commands. `sighted`: the robots
+  /// whose lasers looked ahead in it.
   virtual void react(TaskView& /*world*/, const std::vector<int>& /*sighted*/) const {}
-  /// Says what motors and towers are to do in this step.
+  /// Commands motors and towers for this step.
   virtual void control(ContactView& /*world*/) const {}
 };
 

@@ -7,10 +7,10 @@
 
 namespace kiva {
 
-/// What changes as models come, go and are moved: the floor that static models make, and what is
-/// known about a model elsewhere.
+/// Writes everything that changes as models come, go and are moved: beside contact, the floor that
+/// static models make, and the entries about a model elsewhere.
 struct ModelView : ContactView {
-  Settings& settings;  ///< The first robot may bring the world's realism.
+  WorldSettings& settings;  ///< The first robot may bring the world's realism.
   FloorState& floor;
   FallenItems& fallen;
   People& people;

@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// Writes what robots know, plan and do: rooms that change nothing else of the world.
+/// Writes the fleet: the motion, knowledge and plans of robots.
 struct RobotView : Scene {
   FleetState& fleet;
 };

@@ -22,7 +22,7 @@ namespace kiva {
 /// member of the same name: RobotView, TaskView, MotionView, ContactView, ModelView, from the
 /// narrowest to the widest. A function takes the narrowest that it needs.
 struct Scene {
-  const Settings& settings;
+  const WorldSettings& settings;
   const Clock& clock;
   const FleetState& fleet;
   const Obstacles& obstacles;

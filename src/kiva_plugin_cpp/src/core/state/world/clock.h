@@ -9,10 +9,10 @@ namespace kiva {
 /// The time of a world, counted in steps.
 struct Clock {
   double dt = 0.001;              ///< Step size [s].
-  double dt_since_time = 0;       ///< When the present step size began [s],
-  std::uint64_t dt_since = 0;     ///< and after how many steps.
-  std::uint64_t steps = 0;        ///< Since the last reset of time.
-  std::uint64_t total_steps = 0;  ///< Ever; schedules count by these.
+  double dt_since_time = 0;       ///< Time at which the present step size began [s].
+  std::uint64_t dt_since = 0;     ///< Steps before that.
+  std::uint64_t steps = 0;        ///< Steps since the last reset of time.
+  std::uint64_t total_steps = 0;  ///< All steps; schedules count by these.
 
   /// Returns the simulated time since the last reset [s].
   double time() const { return dt_since_time + static_cast<double>(steps - dt_since) * dt; }

@@ -14,12 +14,12 @@ namespace kiva {
 struct TouchingPair {
   int model_a = -1, model_b = -1;
   std::uint64_t last_step = 0;
-  Impact impact;                  ///< So far, its normal from b to a.
-  std::uint64_t tell_at = 0;      ///< The step at which it is told, if it is over; 0 = it has been.
-  std::uint64_t tell_latest = 0;  ///< The step at which it is told, over or not.
+  Impact impact;                    ///< The impact so far, its normal from b to a.
+  std::uint64_t report_at = 0;      ///< Step of the report, if it is over; 0 = reported.
+  std::uint64_t report_latest = 0;  ///< Step of the report, over or not.
 };
 
-/// A collision that was seen, and stops that robot.
+/// A collision that stops a robot.
 struct Crash {
   int kiva_id = 0;
   std::string with;  ///< A model's name.
@@ -28,15 +28,15 @@ struct Crash {
 /// A sudden change of a storage unit's velocity.
 struct Jolt {
   int unit = -1;   ///< A model's slot.
-  Vector3 change;  ///< In world [m/s].
+  Vector3 change;  ///< Change of velocity in world [m/s].
 };
 
-/// Which models touch, and what that did to them.
+/// Models that touch, and the effects of their impacts.
 struct ContactLog {
   std::vector<TouchingPair> touching;
   std::vector<Contact> contacts;  ///< Scratch.
-  std::vector<Crash> crashes;     ///< Seen in the last step.
-  std::vector<Jolt> jolts;        ///< Seen in this step; scratch.
+  std::vector<Crash> crashes;     ///< Crashes of the last step.
+  std::vector<Jolt> jolts;        ///< Jolts of this step; scratch.
 };
 
 }  // namespace kiva

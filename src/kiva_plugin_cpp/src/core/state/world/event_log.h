@@ -10,7 +10,7 @@
 
 namespace kiva {
 
-/// What clients are told of what happened, until they take it.
+/// Events, warnings and changes of status that clients have not taken yet.
 struct EventLog {
   explicit EventLog(const Clock& clock) : clock(clock) {}
 
@@ -20,8 +20,7 @@ struct EventLog {
   std::set<std::string> warned;  ///< Subjects of all warnings, taken or not.
   const Clock& clock;
 
-  /// Adds an event of this moment; `command` is the number of the command that it is about, 0 =
-  /// none.
+  /// Adds an event of this moment; `command` is the number of its command, 0 = none.
   void report(Event::Kind kind, const std::string& model, const std::string& other,
               const std::string& text, const Impact& impact = {}, std::uint32_t command = 0) {
     events.push_back({clock.time(), kind, model, other, text, command, impact});

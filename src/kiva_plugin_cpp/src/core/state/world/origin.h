@@ -5,10 +5,10 @@
 
 namespace kiva {
 
-/// The checkpoint that a world was restored from. No part of a checkpoint.
-struct Origin {
-  std::uint64_t hash = 0;      ///< Of its bytes; 0 = there is none to which a way back is short.
-  std::uint64_t fixtures = 0;  ///< Physics::fixtureChanges() then.
+/// The checkpoint that a world was restored from; itself no part of a checkpoint.
+struct CheckpointOrigin {
+  std::uint64_t hash = 0;      ///< Hash of its bytes; 0 = no checkpoint to which a return is quick.
+  std::uint64_t fixtures = 0;  ///< Physics::fixtureChanges() at that time.
 };
 
 }  // namespace kiva

@@ -13,10 +13,11 @@ class World;
 
 /// The plugins of a world that belong to no model.
 struct Plugins {
-  World* owner = nullptr;                                 ///< What all plugins are loaded into.
+  World* owner = nullptr;  ///< The world that all plugins are loaded into.
   std::vector<std::shared_ptr<const FleetPlugin>> fleet;  ///< Those that come with the world.
   std::vector<std::shared_ptr<Plugin>> world;
-  std::vector<PluginDescription> world_descriptions;  ///< Descriptions of those, in the same order.
+  std::vector<PluginDescription>
+      world_descriptions;  ///< Descriptions of `world`, in the same order.
 };
 
 }  // namespace kiva

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random numbers that belong to a matter, such as one robot's scan at one step, and not to who
-// asked before: the same however many threads there are, and with nothing to keep in a checkpoint.
+// Random numbers by subject, such as one robot's scan at one step. They do not depend on earlier
+// draws, so they are the same for any number of threads, and a checkpoint has no state of them.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace kiva {
 
-/// What numbers are drawn for: each its own stream. Append only, so that runs stay what they were.
+/// The purposes of draws, each with a stream of its own. Append only, so that runs stay the same.
 enum class Matter : std::uint64_t {
   kCalibration = 1,
   kSlip = 2,
@@ -25,7 +25,7 @@ enum class Matter : std::uint64_t {
   kItem = 12
 };
 
-/// SplitMix64 (Steele, Lea, Flood 2014), begun from a hash of what it is for.
+/// SplitMix64 (Steele, Lea, Flood 2014), seeded by a hash of its subject.
 class RandomStream {
  public:
   /// `who`: the subject, such as a robot's id; `when`: a step or a counter.
@@ -44,7 +44,7 @@ class RandomStream {
     return z ^ (z >> 31);
   }
 
-  /// In [0, 1).
+  /// Returns a number in [0, 1).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   bool chance(double probability) { return uniform() < probability; }
   /// Returns a number of the standard normal distribution (Box and Muller 1958).

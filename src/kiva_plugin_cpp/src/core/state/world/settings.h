@@ -7,13 +7,13 @@
 
 namespace kiva {
 
-/// What a world was made with, and what clients set for all of it.
-struct Settings {
+/// The settings of a world, from its description, its options and its clients.
+struct WorldSettings {
   std::string name;
-  Vector3 gravity;  ///< In world [m/s²].
+  Vector3 gravity;  ///< Gravity in world [m/s²].
   WorldOptions options;
-  Realism realism;                 ///< Given by the options, or by the first robot that has one;
-  bool realism_of_models = false;  ///< true: by that robot.
+  Realism realism;                 ///< From the options, or else from the first robot that has it.
+  bool realism_of_models = false;  ///< `realism` is from that robot.
   double grid_spacing = 1;         ///< Edge of a cell [m].
 
   double gravityDown() const { return -gravity.Z(); }

@@ -8,10 +8,10 @@ namespace kiva {
 
 class Workers;
 
-/// How a step's work on the robots is shared out.
+/// The distribution of a step's work on the robots.
 struct StepSchedule {
   std::vector<int> stepped_singly;   ///< Robots that are awake and do not cruise.
-  std::vector<char> cruised;         ///< Scratch: what is to be done for each block of robots.
+  std::vector<char> cruised;         ///< Scratch: the work left for each block of robots.
   std::shared_ptr<Workers> workers;  ///< The threads.
 };
 

@@ -47,8 +47,8 @@ double slower(double a, double b) {
 }
 
 double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index) {
-  const std::uint64_t one = mix(mix(mix(seed) ^ step) ^ index);
-  return std::sqrt(-2 * std::log(uniform(one))) * std::cos(2 * M_PI * uniform(mix(one)));
+  const std::uint64_t mixed = mix(mix(mix(seed) ^ step) ^ index);
+  return std::sqrt(-2 * std::log(uniform(mixed))) * std::cos(2 * M_PI * uniform(mix(mixed)));
 }
 
 void GazeboPlugin::enter(const kiva::World& world, const std::string& model,

@@ -10,9 +10,9 @@ namespace kiva_ros {
 
 /// Stands in for libgazebo_ros_diff_drive.so: drives two wheels by cmd_vel, publishes odometry and
 /// its transforms.
-class DiffDrive : public Drive {
+class DiffDrive : public DrivePlugin {
  public:
-  using Drive::Drive;
+  using DrivePlugin::DrivePlugin;
   void load(kiva::World& world, const std::string& model,
             const kiva::Parameters& parameters) override;
   void beforeStep(kiva::World& world, double dt) override;
@@ -35,9 +35,9 @@ class DiffDrive : public Drive {
 
   std::array<Wheel, 2> wheels_;
   double separation_ = 0.34, radius_ = 0.075;  ///< [m]
-  double acceleration_ = 0;                    ///< Of a wheel's rim [m/s²], 0 = at once.
-  double torque_ = 5;                          ///< [Nm]
-  double turn_sign_ = 1;                       ///< -1: the wheel called left is on the right.
+  double acceleration_ = 0;  ///< Acceleration of a wheel's rim [m/s²], 0 = at once.
+  double torque_ = 5;        ///< [Nm]
+  double turn_sign_ = 1;     ///< -1: the wheel called left is on the right.
   bool by_encoder_ = false;
   bool publish_odometry_ = true, publish_odometry_tf_ = true;
   bool publish_wheel_tf_ = false, publish_wheel_joints_ = false;

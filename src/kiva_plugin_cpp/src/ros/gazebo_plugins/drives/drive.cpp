@@ -11,7 +11,7 @@
 
 namespace kiva_ros {
 
-void Drive::openTopics(const kiva::Parameters& p) {
+void DrivePlugin::openTopics(const kiva::Parameters& p) {
   odometry_frame_ = frame(p.text("odometryFrame", "odom"));
   base_frame_ = frame(p.text("robotBaseFrame", "base_footprint"));
   odometry_ = advertise<nav_msgs::Odometry>(p.text("odometryTopic", "odom"));
@@ -19,7 +19,7 @@ void Drive::openTopics(const kiva::Parameters& p) {
   commands_ = subscribe<geometry_msgs::Twist>(p.text("commandTopic", "cmd_vel"));
 }
 
-bool Drive::takeCommand() {
+bool DrivePlugin::takeCommand() {
   const geometry_msgs::Twist* message = commands_.take();
   if (!message) return false;
   const double x = message->linear.x, y = message->linear.y, turn = message->angular.z;
@@ -28,7 +28,7 @@ bool Drive::takeCommand() {
   return true;
 }
 
-kiva::EntityState Drive::trueOdometry(const kiva::World& world) const {
+kiva::EntityState DrivePlugin::trueOdometry(const kiva::World& world) const {
   kiva::EntityState out = *world.state(model());
   const kiva::Quaternion heading(0, 0, out.pose.Rot().Yaw());
   const kiva::Vector3 seen = heading.RotateVectorReverse(out.twist.linear);
@@ -36,7 +36,7 @@ kiva::EntityState Drive::trueOdometry(const kiva::World& world) const {
   return out;
 }
 
-void Drive::publishOdometry(const kiva::World& world, const kiva::EntityState& state) {
+void DrivePlugin::publishOdometry(const kiva::World& world, const kiva::EntityState& state) {
   constexpr double kUnknown =
       1e12;  // covariance that Gazebo's plugins give for unmeasured quantities
   nav_msgs::Odometry out;
@@ -50,7 +50,8 @@ void Drive::publishOdometry(const kiva::World& world, const kiva::EntityState& s
   publish(odometry_, out);
 }
 
-void Drive::publishOdometryTransform(const kiva::World& world, const kiva::EntityState& state) {
+void DrivePlugin::publishOdometryTransform(const kiva::World& world,
+                                           const kiva::EntityState& state) {
   tf2_msgs::TFMessage tf;
   tf.transforms.push_back(transform(world.time(), odometry_frame_, base_frame_, state.pose));
   publish(transforms_, tf);

@@ -10,16 +10,16 @@
 namespace kiva_ros {
 
 /// Base of the plugins that drive a model by cmd_vel and publish its odometry.
-class Drive : public GazeboPlugin {
+class DrivePlugin : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
 
  protected:
-  static constexpr double kMost = 1e6;  ///< Of speeds and lengths, in SI units.
+  static constexpr double kMost = 1e6;  ///< Largest speed and length, in SI units.
 
   struct Command {
     double speed = 0;  ///< Ahead [m/s].
-    double aside = 0;  ///< To the left [m/s].
+    double aside = 0;  ///< Speed to the left [m/s].
     double turn = 0;   ///< [rad/s]
   };
   struct Covariance {

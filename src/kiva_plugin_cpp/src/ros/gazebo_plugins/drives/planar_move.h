@@ -7,9 +7,9 @@ namespace kiva_ros {
 
 /// Stands in for libgazebo_ros_planar_move.so: moves a model over the floor by cmd_vel, whatever
 /// its wheels do.
-class PlanarMove : public Drive {
+class PlanarMove : public DrivePlugin {
  public:
-  using Drive::Drive;
+  using DrivePlugin::DrivePlugin;
   void load(kiva::World& world, const std::string& model,
             const kiva::Parameters& parameters) override;
   void beforeStep(kiva::World& world, double dt) override;
@@ -19,7 +19,7 @@ class PlanarMove : public Drive {
   void restore(kiva::World& world, const std::string& state) override;
 
  private:
-  double timeout_ = -1;   ///< After which a command ends [s]; negative = never.
+  double timeout_ = -1;   ///< Time after which a command ends [s]; negative = never.
   double commanded_ = 0;  ///< When the last command came [s].
   Schedule schedule_;
 };

@@ -10,9 +10,9 @@ namespace kiva_ros {
 
 /// Stands in for libgazebo_ros_skid_steer_drive.so: drives two wheels a side, which slide sideways
 /// in turns.
-class SkidSteer : public Drive {
+class SkidSteer : public DrivePlugin {
  public:
-  using Drive::Drive;
+  using DrivePlugin::DrivePlugin;
   void load(kiva::World& world, const std::string& model,
             const kiva::Parameters& parameters) override;
   void beforeStep(kiva::World& world, double dt) override;

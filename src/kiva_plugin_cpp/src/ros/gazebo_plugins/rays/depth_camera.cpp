@@ -110,20 +110,20 @@ void DepthCamera::openTopics(const kiva::Parameters& p) {
 
 void DepthCamera::afterStep(const kiva::World& world, double) {
   if (!schedule_.isDue(world.time())) return;
-  const auto wanted = [](const ros::Publisher& p) { return p.getNumSubscribers() > 0; };
-  const bool is_looked_at = wanted(cloud_) || wanted(image_);
-  if (!is_looked_at && !wanted(image_info_) && !wanted(colour_info_)) return;
+  const auto hasSubscribers = [](const ros::Publisher& p) { return p.getNumSubscribers() > 0; };
+  const bool is_looked_at = hasSubscribers(cloud_) || hasSubscribers(image_);
+  if (!is_looked_at && !hasSubscribers(image_info_) && !hasSubscribers(colour_info_)) return;
   const auto link = world.state(model(), link_);
   if (!link) return;
   const std_msgs::Header stamp = header(world.time(), frame_);
   info_.header = stamp;
   for (const ros::Publisher& info : {image_info_, colour_info_}) {
-    if (wanted(info)) publish(info, info_);
+    if (hasSubscribers(info)) publish(info, info_);
   }
   if (!is_looked_at) return;
-  const std::vector<float> seen = depths(world, link->pose * pose_in_link_);
-  if (wanted(image_)) publishImage(stamp, seen);
-  if (wanted(cloud_)) publishCloud(stamp, seen);
+  const std::vector<float> pixels = depths(world, link->pose * pose_in_link_);
+  if (hasSubscribers(image_)) publishImage(stamp, pixels);
+  if (hasSubscribers(cloud_)) publishCloud(stamp, pixels);
 }
 
 /// Returns depths along the optical axis [m]; NaN where none is between the nearest and the

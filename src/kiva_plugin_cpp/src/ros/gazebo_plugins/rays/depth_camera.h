@@ -34,10 +34,11 @@ class DepthCamera : public GazeboPlugin {
 
   std::string link_, frame_;
   kiva::Pose pose_in_link_;
-  int width_ = 0, height_ = 0;             ///< Of the images that are published.
-  double focal_length_ = 0;                ///< [pixels]
-  double nearest_ = 0, farthest_ = 0;      ///< Depths between which pixels have a value [m].
-  std::vector<kiva::Vector3> directions_;  ///< Of all pixels, row by row, in the sensor's frame.
+  int width_ = 0, height_ = 0;         ///< Size of the published images.
+  double focal_length_ = 0;            ///< [pixels]
+  double nearest_ = 0, farthest_ = 0;  ///< Depths between which pixels have a value [m].
+  std::vector<kiva::Vector3>
+      directions_;  ///< Directions of pixels, row by row, in the sensor's frame.
   sensor_msgs::CameraInfo info_;
   Schedule schedule_;
   ros::Publisher cloud_, image_, image_info_, colour_info_;

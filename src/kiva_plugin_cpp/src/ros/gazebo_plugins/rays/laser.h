@@ -27,7 +27,7 @@ class Laser : public GazeboPlugin {
   kiva::Pose pose_in_link_;
   sensor_msgs::LaserScan scan_;  ///< All but the ranges and the time.
   RayGrid grid_;
-  std::vector<kiva::Vector3> directions_;  ///< In the sensor's frame.
+  std::vector<kiva::Vector3> directions_;  ///< Directions of rays in the sensor's frame.
   Schedule schedule_;
   ros::Publisher publisher_;
 };

@@ -20,7 +20,7 @@ struct RayGrid {
     double gap() const { return samples > 1 ? (most - least) / (samples - 1) : 0; }
     double angle(int sample) const { return least + gap() * sample; }
   };
-  Axis across;                          ///< About the sensor's z.
+  Axis across;                          ///< Angles about the sensor's z.
   Axis up;                              ///< Above its xy plane.
   double min_range = 0, max_range = 0;  ///< [m]
   double noise = 0;                     ///< Standard deviation [m].

@@ -13,7 +13,7 @@ namespace kiva_ros {
 
 /// The reading of an ideal IMU; rates and accelerations are in its own frame.
 struct InertialReading {
-  kiva::Quaternion rotation;  ///< In world.
+  kiva::Quaternion rotation;  ///< Rotation in world.
   kiva::Vector3 turn;         ///< [rad/s]
   kiva::Vector3 motion;       ///< Acceleration of motion alone [m/s²].
   kiva::Vector3 gravity;      ///< Specific force of support: upwards at rest [m/s²].
@@ -33,7 +33,7 @@ class InertialFrame {
  private:
   std::string link_;
   kiva::Pose pose_in_link_;
-  kiva::Vector3 velocity_;  ///< At the last measurement, in world [m/s].
+  kiva::Vector3 velocity_;  ///< Velocity at the last measurement, in world [m/s].
   double measured_ = -1;    ///< When that was [s], negative = never.
 };
 

@@ -11,7 +11,7 @@
 namespace kiva_ros {
 
 /// Refuses a request; the text is the status message that Gazebo's clients know.
-struct Refusal : std::runtime_error {
+struct ServiceRefusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -22,7 +22,7 @@ bool answer(const std::string& service, Response& response, Body body) {
   try {
     response.status_message = body();
     response.success = true;
-  } catch (const Refusal& refusal) {
+  } catch (const ServiceRefusal& refusal) {
     response.success = false;
     response.status_message = refusal.what();
   } catch (const std::exception& error) {

@@ -22,9 +22,9 @@ using Properties = gazebo_msgs::GetJointProperties::Response;
 
 std::pair<std::string, std::string> jointNamed(const kiva::World& world, const std::string& name,
                                                const std::string& label) {
-  const auto found = findJoint(world, name);
-  if (!found) throw Refusal(label + ": joint not found");
-  return *found;
+  const auto joint = findJoint(world, name);
+  if (!joint) throw ServiceRefusal(label + ": joint not found");
+  return *joint;
 }
 
 std::uint8_t typeOf(kiva::Joint::Kind kind) {
@@ -84,10 +84,11 @@ std::string configure(kiva::World& world, const gazebo_msgs::SetJointProperties:
 
 void pose(kiva::World& world, const gazebo_msgs::SetModelConfiguration::Request& request) {
   if (!world.has(request.model_name)) {
-    throw Refusal("SetModelConfiguration: model does not exist");
+    throw ServiceRefusal("SetModelConfiguration: model does not exist");
   }
   if (request.joint_names.size() != request.joint_positions.size()) {
-    throw Refusal("SetModelConfiguration: joint name and position list have different lengths");
+    throw ServiceRefusal(
+        "SetModelConfiguration: joint name and position list have different lengths");
   }
   std::map<std::string, double> positions;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
@@ -100,12 +101,13 @@ void pose(kiva::World& world, const gazebo_msgs::SetModelConfiguration::Request&
 
 void push(kiva::World& world, const gazebo_msgs::ApplyJointEffort::Request& request) {
   const auto [model, joint] = jointNamed(world, request.joint_name, "ApplyJointEffort");
-  if (!std::isfinite(request.effort)) throw Refusal("ApplyJointEffort: effort is not finite");
+  if (!std::isfinite(request.effort))
+    throw ServiceRefusal("ApplyJointEffort: effort is not finite");
   checkSize(std::abs(request.effort), "effort");
   const kiva::Period period = periodOf(world, request.start_time, request.duration);
   if (!world.apply(kiva::Effort{model, joint, request.effort, period})) {
-    throw Refusal("ApplyJointEffort: joint '" + joint + "' of '" + model +
-                  "' can't be pushed: its model is static, or its plugins drive it");
+    throw ServiceRefusal("ApplyJointEffort: joint '" + joint + "' of '" + model +
+                         "' can't be pushed: its model is static, or its plugins drive it");
   }
 }
 
@@ -139,8 +141,8 @@ JointServices::JointServices(ros::NodeHandle& node, SimulationThread& simulation
       [&simulation](JointRequest::Request& request, JointRequest::Response&) {
         simulation.post([&simulation, name = request.joint_name](kiva::World& world) {
           simulation.noteChange();
-          if (const auto found = findJoint(world, name)) {
-            world.clearEfforts(found->first, found->second);
+          if (const auto joint = findJoint(world, name)) {
+            world.clearEfforts(joint->first, joint->second);
           }
         });
         return true;

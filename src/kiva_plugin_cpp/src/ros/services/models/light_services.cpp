@@ -16,11 +16,11 @@ namespace {
 kiva::Light lightNamed(const kiva::World& world, const std::string& name,
                        const std::string& label) {
   const auto& lights = world.externalInputs().lights;
-  const auto found = lights.find(name);
-  if (found == lights.end()) {
-    throw Refusal(label + ": Requested light " + name + " not found!");
+  const auto light = lights.find(name);
+  if (light == lights.end()) {
+    throw ServiceRefusal(label + ": Requested light " + name + " not found!");
   }
-  return found->second;
+  return light->second;
 }
 
 void copy(const std_msgs::ColorRGBA& from, const char* what, double* to) {
@@ -80,7 +80,8 @@ LightServices::LightServices(ros::NodeHandle& node, SimulationThread& simulation
       serve<DeleteLight>(node, "delete_light", "DeleteLight", [&simulation](auto& request, auto&) {
         simulation.change([&](kiva::World& world) {
           if (!world.removeLight(request.light_name)) {
-            throw Refusal("DeleteLight: Requested light " + request.light_name + " not found!");
+            throw ServiceRefusal("DeleteLight: Requested light " + request.light_name +
+                                 " not found!");
           }
         });
         return "DeleteLight: " + request.light_name + " successfully deleted";

@@ -23,19 +23,19 @@ using kiva::Matrix3;
 
 constexpr int kSetLinkQueue = 10;
 
-/// Returns the model and the link that a name means. Throws Refusal with that text if there is no
-/// such link.
+/// Returns the model and the link that a name means. Throws ServiceRefusal with that text if there
+/// is no such link.
 ScopedName linkNamed(const kiva::World& world, const std::string& name,
                      const std::string& no_link) {
   const auto entity = findEntity(world, name);
-  if (!entity || entity->second.empty()) throw Refusal(no_link);
+  if (!entity || entity->second.empty()) throw ServiceRefusal(no_link);
   return *entity;
 }
 
 kiva::EntityState frameNamed(const kiva::World& world, const std::string& name,
                              const std::string& no_frame) {
   const auto frame = frameState(world, name);
-  if (!frame) throw Refusal(no_frame);
+  if (!frame) throw ServiceRefusal(no_frame);
   return *frame;
 }
 
@@ -49,12 +49,12 @@ gazebo_msgs::LinkState getState(const kiva::World& world,
   const auto [model, link] = linkNamed(world, request.link_name, notFound(label, "link"));
   const auto frame =
       frameNamed(world, request.reference_frame, notFound(label, "reference reference_frame"));
-  const kiva::EntityState seen = relativeTo(frame, *world.state(model, link));
+  const kiva::EntityState relative = relativeTo(frame, *world.state(model, link));
   gazebo_msgs::LinkState out;
   out.link_name = request.link_name;
   out.reference_frame = request.reference_frame;
-  out.pose = toMessage(seen.pose);
-  out.twist = toMessage(seen.twist);
+  out.pose = toMessage(relative.pose);
+  out.twist = toMessage(relative.twist);
   return out;
 }
 
@@ -84,11 +84,11 @@ void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* 
   out->izz = tensor(2, 2);
 }
 
-/// Throws Refusal unless a value is finite and within what physics can compute with.
+/// Throws ServiceRefusal unless a value is finite and within what physics can compute with.
 void checkNumber(double value, double most, const char* what) {
   if (std::abs(value) <= most) return;
-  throw Refusal("SetLinkProperties: " + std::string(what) + " must be finite and at most " +
-                std::to_string(static_cast<long long>(most)));
+  throw ServiceRefusal("SetLinkProperties: " + std::string(what) + " must be finite and at most " +
+                       std::to_string(static_cast<long long>(most)));
 }
 
 kiva::Link likeRequest(const std::string& name,
@@ -119,7 +119,7 @@ kiva::Wrench wrenchOf(const kiva::World& world,
   const auto [model, link] =
       linkNamed(world, request.body_name, "ApplyBodyWrench: body does not exist");
   if (world.description(model)->is_static) {
-    throw Refusal("ApplyBodyWrench: body is static and does not move");
+    throw ServiceRefusal("ApplyBodyWrench: body is static and does not move");
   }
   const auto frame =
       frameNamed(world, request.reference_frame, "ApplyBodyWrench: reference_frame not found");

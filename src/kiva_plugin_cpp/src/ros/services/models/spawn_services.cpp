@@ -11,12 +11,12 @@
 namespace kiva_ros {
 namespace {
 
-/// Throws Refusal for a document that is too large; parsed, it takes many times its size.
+/// Throws ServiceRefusal for a document that is too large; parsed, it takes many times its size.
 void checkBytes(const std::string& xml) {
   constexpr std::size_t kMost = 10'000'000;
   if (xml.size() <= kMost) return;
-  throw Refusal("SpawnModel: Failure - model_xml has " + std::to_string(xml.size()) +
-                " bytes; at most " + std::to_string(kMost) + " are read");
+  throw ServiceRefusal("SpawnModel: Failure - model_xml has " + std::to_string(xml.size()) +
+                       " bytes; at most " + std::to_string(kMost) + " are read");
 }
 
 /// Places a document's models and lights in world: its poses are relative to `initial_pose`, and
@@ -25,7 +25,7 @@ void place(const kiva::World& world, const std::string& frame_name, const kiva::
            SpawnServices::Document* document) {
   const auto frame = frameState(world, frame_name);
   if (!frame) {
-    throw Refusal(
+    throw ServiceRefusal(
         "SpawnModel: reference reference_frame not found, did you forget to scope the link by "
         "model name?");
   }
@@ -43,7 +43,7 @@ void checkNames(const kiva::World& world, const SpawnServices::Document& documen
     if (!is_taken) return;
     const bool several = document.models.size() + document.lights.size() > 1;
     const std::string which = several ? " (" + name + ")" : "";
-    throw Refusal("SpawnModel: Failure - entity already exists." + which);
+    throw ServiceRefusal("SpawnModel: Failure - entity already exists." + which);
   };
   for (const kiva::ModelInstance& model : document.models) check(model.name, world.has(model.name));
   if (!document.models.empty()) return;  // beside models, an existing light stays unchanged
@@ -65,7 +65,7 @@ SpawnServices::SpawnServices(ros::NodeHandle& node, SimulationThread& simulation
       serve<SpawnModel>(node, "spawn_urdf_model", "SpawnModel", [this](auto& request, auto&) {
         checkBytes(request.model_xml);
         if (!kiva::isUrdf(request.model_xml)) {
-          throw Refusal("SpawnModel: Failure - model format is not URDF.");
+          throw ServiceRefusal("SpawnModel: Failure - model format is not URDF.");
         }
         return spawn(request, resolvePackageUris(request.model_xml));
       }));
@@ -114,7 +114,7 @@ bool SpawnServices::remove(gazebo_msgs::DeleteModel::Request& request,
                            gazebo_msgs::DeleteModel::Response& response) {
   return answer("DeleteModel", response, [&] {
     const auto remove = [&](kiva::World& world) { return world.remove(request.model_name); };
-    if (!simulation_.run(remove)) throw Refusal("DeleteModel: model does not exist");
+    if (!simulation_.run(remove)) throw ServiceRefusal("DeleteModel: model does not exist");
     return "DeleteModel: successfully deleted model";
   });
 }

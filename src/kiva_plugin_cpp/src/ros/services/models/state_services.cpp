@@ -29,11 +29,11 @@ void describe(const kiva::ModelDescription& model,
   }
 }
 
-/// Returns a state in world relative to `frame`. Throws Refusal if there is no such frame.
+/// Returns a state in world relative to `frame`. Throws ServiceRefusal if there is no such frame.
 kiva::EntityState seenFrom(const kiva::World& world, const std::string& frame_name,
                            const kiva::EntityState& state, const std::string& no_frame) {
   const auto frame = frameState(world, frame_name);
-  if (!frame) throw Refusal(no_frame);
+  if (!frame) throw ServiceRefusal(no_frame);
   return relativeTo(*frame, state);
 }
 
@@ -55,15 +55,15 @@ bool StateServices::getModel(gazebo_msgs::GetModelState::Request& request,
   return answer("GetModelState", response, [&] {
     simulation_.run([&](kiva::World& world) {
       const auto state = world.state(request.model_name);
-      if (!state) throw Refusal("GetModelState: model does not exist");
-      const kiva::EntityState seen =
+      if (!state) throw ServiceRefusal("GetModelState: model does not exist");
+      const kiva::EntityState relative =
           seenFrom(world, request.relative_entity_name, *state,
                    "GetModelState: reference relative_entity_name not found, did you forget to "
                    "scope the body by model name?");
       response.header = header(world.time(), request.relative_entity_name);
       response.header.seq = ++asked_[request.model_name];
-      response.pose = toMessage(seen.pose);
-      response.twist = toMessage(seen.twist);
+      response.pose = toMessage(relative.pose);
+      response.twist = toMessage(relative.twist);
     });
     return "GetModelState: got properties";
   });
@@ -74,7 +74,7 @@ bool StateServices::getProperties(gazebo_msgs::GetModelProperties::Request& requ
   return answer("GetModelProperties", response, [&] {
     const auto model =
         simulation_.run([&](kiva::World& world) { return world.description(request.model_name); });
-    if (!model) throw Refusal("GetModelProperties: model does not exist");
+    if (!model) throw ServiceRefusal("GetModelProperties: model does not exist");
     describe(*model, &response);
     return "GetModelProperties: got properties";
   });
@@ -86,10 +86,10 @@ bool StateServices::setModel(gazebo_msgs::SetModelState::Request& request,
     const gazebo_msgs::ModelState& asked = request.model_state;
     const kiva::EntityState in_frame = fromMessage(asked);
     simulation_.move([&](kiva::World& world) {
-      if (!world.has(asked.model_name)) throw Refusal("SetModelState: model does not exist");
+      if (!world.has(asked.model_name)) throw ServiceRefusal("SetModelState: model does not exist");
       const auto frame = frameState(world, asked.reference_frame);
       if (!frame) {
-        throw Refusal("SetModelState: specified reference frame entity does not exist");
+        throw ServiceRefusal("SetModelState: specified reference frame entity does not exist");
       }
       world.setState(asked.model_name, inWorld(*frame, in_frame));
     });

@@ -58,16 +58,16 @@ bool CheckpointServices::undo(warehouse_msgs::Undo::Request& request,
 
 double CheckpointServices::undoHere(kiva::World& world, double seconds_back) {
   if (!(std::isfinite(seconds_back) && seconds_back >= 0)) {
-    throw Refusal("a finite number of seconds, 0 or more, was expected");
+    throw ServiceRefusal("a finite number of seconds, 0 or more, was expected");
   }
   const auto is_old_enough = [&](const Saved& saved) {
     return age_ - saved.age >= seconds_back - kRounding;
   };
   const auto at = std::find_if(ring_.rbegin(), ring_.rend(), is_old_enough);
   if (at == ring_.rend()) {
-    if (ring_.empty()) throw Refusal("nothing was saved yet: start with autosave:=60, say");
-    throw Refusal("the oldest of " + std::to_string(ring_.size()) + " checkpoints is " +
-                  seconds(age_ - ring_.front().age) + " old");
+    if (ring_.empty()) throw ServiceRefusal("nothing was saved yet: start with autosave:=60, say");
+    throw ServiceRefusal("the oldest of " + std::to_string(ring_.size()) + " checkpoints is " +
+                         seconds(age_ - ring_.front().age) + " old");
   }
   const Saved& saved = *at;
   simulation_.restoreHere(world, saved.bytes);

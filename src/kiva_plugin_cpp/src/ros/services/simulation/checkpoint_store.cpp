@@ -25,23 +25,23 @@ bool isFile(const std::string& name) {
 
 bool isFit(unsigned char c) { return c >= 0x80 || (std::isprint(c) && c != '/' && c != '\\'); }
 
-/// Throws Refusal unless a name is a plain file name, which can't lead out of the folder.
+/// Throws ServiceRefusal unless a name is a plain file name, which can't lead out of the folder.
 void checkName(const std::string& name) {
   const bool fits = !name.empty() && name.size() <= kLongestName && name[0] != '.' &&
                     std::all_of(name.begin(), name.end(), isFit);
   if (fits) return;
-  throw Refusal("'" + name.substr(0, kLongestName) + "' is not a name: up to " +
-                std::to_string(kLongestName) +
-                " characters without '/' were expected, that do not begin with '.'; with " +
-                kSuffix + " at its end it is a file");
+  throw ServiceRefusal("'" + name.substr(0, kLongestName) + "' is not a name: up to " +
+                       std::to_string(kLongestName) +
+                       " characters without '/' were expected, that do not begin with '.'; with " +
+                       kSuffix + " at its end it is a file");
 }
 
 void checkRoom(std::uintmax_t used, std::uintmax_t more, std::uintmax_t most,
                const std::string& where) {
   if (more <= most && used <= most - more) return;
-  throw Refusal("there is no room for " + std::to_string(more) + " bytes: the checkpoints " +
-                where + " have " + std::to_string(used) + " of " + std::to_string(most) +
-                " already");
+  throw ServiceRefusal("there is no room for " + std::to_string(more) + " bytes: the checkpoints " +
+                       where + " have " + std::to_string(used) + " of " + std::to_string(most) +
+                       " already");
 }
 
 std::uintmax_t sizeOf(const fs::path& file) {
@@ -63,7 +63,7 @@ void CheckpointStore::save(const std::string& name, std::string bytes) {
   const std::uintmax_t freed = known == by_name_.end() ? 0 : known->second.size();
   checkRoom(inMemory() - freed, bytes.size(), most_bytes_, "in memory");
   if (by_name_.size() >= kMostNames && known == by_name_.end()) {
-    throw Refusal("there are " + std::to_string(kMostNames) + " checkpoints already");
+    throw ServiceRefusal("there are " + std::to_string(kMostNames) + " checkpoints already");
   }
   by_name_[name] = std::move(bytes);
 }
@@ -75,8 +75,8 @@ std::string CheckpointStore::load(const std::string& name) const {
   if (at != by_name_.end()) return at->second;
   std::string known;
   for (const auto& [other, bytes] : by_name_) known += (known.empty() ? "" : ", ") + other;
-  throw Refusal("there is no checkpoint '" + name + "'; there " +
-                (known.empty() ? "is none" : "are " + known));
+  throw ServiceRefusal("there is no checkpoint '" + name + "'; there " +
+                       (known.empty() ? "is none" : "are " + known));
 }
 
 /// Writes a file under a temporary name and renames it, so that readers never meet half a file.
@@ -95,21 +95,21 @@ void CheckpointStore::saveFile(const std::string& name, const std::string& bytes
     if (!error) return;
   }
   fs::remove(partial, error);
-  throw Refusal("can't write " + path.string());
+  throw ServiceRefusal("can't write " + path.string());
 }
 
 std::string CheckpointStore::loadFile(const std::string& name) const {
   const fs::path path = fs::path(folder_) / name;
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) {
-    throw Refusal("there is no checkpoint " + path.string());
+    throw ServiceRefusal("there is no checkpoint " + path.string());
   }
   const std::uintmax_t size = sizeOf(path);
   checkRoom(0, size, most_bytes_, path.string());
   std::string bytes(size, '\0');
   std::ifstream file(path, std::ios::binary);
   if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw Refusal("can't read " + path.string());
+    throw ServiceRefusal("can't read " + path.string());
   }
   return bytes;
 }

@@ -14,9 +14,9 @@ class CheckpointStore {
   /// `most_bytes`: limits the checkpoints in memory, and those in the folder.
   CheckpointStore(std::string folder, std::uintmax_t most_bytes);
 
-  /// Saves a checkpoint whole or throws Refusal with the cause.
+  /// Saves a checkpoint whole or throws ServiceRefusal with the cause.
   void save(const std::string& name, std::string bytes);
-  /// Returns a checkpoint. Throws Refusal with the cause if there is none.
+  /// Returns a checkpoint. Throws ServiceRefusal with the cause if there is none.
   std::string load(const std::string& name) const;
 
  private:

@@ -19,7 +19,7 @@ bool ModeService::keep(Request& request, Response& response) {
   return reply(response, [&] {
     simulation_.run([&](kiva::World& world) {
       if (request.timeline != simulation_.timeline()) {
-        throw Refusal("the world was reset or restored meanwhile");
+        throw ServiceRefusal("the world was reset or restored meanwhile");
       }
       world.keepMode(request.kiva_id, request.mode);
     });

@@ -51,7 +51,7 @@ ShadowTopic::ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs)
     : input_(inputs.subscribe<warehouse_msgs::FleetState>(root, "warehouse/shadows")) {}
 
 bool ShadowTopic::beforeStep(kiva::World& world) {
-  if (const warehouse_msgs::FleetState* told = input_.take()) moveAll(world, *told);
+  if (const warehouse_msgs::FleetState* message = input_.take()) moveAll(world, *message);
   return true;
 }
 

@@ -425,11 +425,11 @@ TEST(CheckpointOfAHugeWarehouse, IsSmallAndQuick) {
   Warehouse w(plan);
   const auto place = [](int i) { return Pose(i % 100 - 50, i / 100 - 50, 0, 0, 0, 0); };
   const auto spawnAll = [&](const std::string& kind, int count, int first, double z) {
-    const ModelInstance one = instance(modelText(kind), kind + "1");
+    const ModelInstance single = instance(modelText(kind), kind + "1");
     for (int i = 0; i < count; ++i) {
       Pose pose = place(first + i % 4000);
       pose.Pos().Z() = z;
-      w.world.spawn({kind + std::to_string(i + 1), pose, one.description});
+      w.world.spawn({kind + std::to_string(i + 1), pose, single.description});
     }
   };
   spawnAll("storage_unit", 4000, 0, 0);

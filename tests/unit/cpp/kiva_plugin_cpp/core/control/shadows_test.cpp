@@ -38,15 +38,15 @@ TEST_F(Shadows, StandsWhereItIsTold) {
 }
 
 TEST_F(Shadows, TellsWhatItIsTold) {
-  ShadowReport told = at(0, 5);
-  told.report.status = Status::kBusy;
-  told.report.state = State::kWaiting;
-  told.report.path_id = 7;
-  told.report.reached = 3;
-  told.report.left = 2;
-  told.failures = bitOf(Failure::kMotor);
-  told.charge = 0.5;
-  w.world.shadow(2, told);
+  ShadowReport report = at(0, 5);
+  report.report.status = Status::kBusy;
+  report.report.state = State::kWaiting;
+  report.report.path_id = 7;
+  report.report.reached = 3;
+  report.report.left = 2;
+  report.failures = bitOf(Failure::kMotor);
+  report.charge = 0.5;
+  w.world.shadow(2, report);
   w.run(1);
   const Fleet& f = w.world.fleet();
   const int i = f.find(2);
@@ -63,14 +63,14 @@ TEST_F(Shadows, RefusesWhatNoRobotCanReport) {
   const double nan = std::nan("");
   EXPECT_THROW(w.world.shadow(2, at(nan, 5)), std::invalid_argument);
   EXPECT_THROW(w.world.shadow(2, at(1e300, 5)), std::runtime_error);
-  ShadowReport told = at(0, 5);
+  ShadowReport report = at(0, 5);
   for (const float charge : {-0.1f, 1.1f, static_cast<float>(nan)}) {
-    told.charge = charge;
-    EXPECT_THROW(w.world.shadow(2, told), std::invalid_argument);
+    report.charge = charge;
+    EXPECT_THROW(w.world.shadow(2, report), std::invalid_argument);
   }
-  told = at(0, 5);
-  told.report.last_end = 255;
-  EXPECT_THROW(w.world.shadow(2, told), std::invalid_argument);
+  report = at(0, 5);
+  report.report.last_end = 255;
+  EXPECT_THROW(w.world.shadow(2, report), std::invalid_argument);
   w.run(1);
   EXPECT_EQ(w.y(2), 5);
   EXPECT_FALSE(w.world.isShadow(2));

@@ -123,17 +123,17 @@ TEST(Items, StayIfLoadsAreIdeal) {
 TEST(Items, AreDrawnByTheSeed) {
   // Of those within friction 0.2 to 0.6, a speed of 0.4's limit sets half of the first row free.
   Floorplan plan = planWith(0.2, 0.6);
-  std::set<std::set<std::string>> seen;
+  std::set<std::set<std::string>> outcomes;
   double all = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     plan.options.seed = seed;
     const std::set<std::string> names = whoFalls(kLimit, plan);
     EXPECT_TRUE(std::includes(kFirstRow.begin(), kFirstRow.end(), names.begin(), names.end()));
-    seen.insert(names);
+    outcomes.insert(names);
     all += static_cast<double>(names.size());
   }
   EXPECT_NEAR(all, 24, 10);  // three standard deviations
-  EXPECT_GT(seen.size(), 3u);
+  EXPECT_GT(outcomes.size(), 3u);
   EXPECT_EQ(whoFalls(kLimit, plan), whoFalls(kLimit, plan));
 }
 

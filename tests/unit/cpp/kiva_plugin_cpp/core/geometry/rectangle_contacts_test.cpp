@@ -81,7 +81,7 @@ class RectangleContacts : public ::testing::Test {
 };
 
 TEST_F(RectangleContacts, AreFoundWhereverOutlinesAreNear) {
-  int found = 0;
+  int count = 0;
   for (int i = 0; i < kPairs; ++i) {
     const Rectangle a = any(), b = any();
     const double apart = distance(a, b);
@@ -89,10 +89,10 @@ TEST_F(RectangleContacts, AreFoundWhereverOutlinesAreNear) {
     const OutlineContacts contacts = findContacts(a, b, kReach);
     ASSERT_EQ(contacts.count > 0, apart < kReach) << i << ": " << apart;
     ASSERT_FALSE(apart < kReach && areFarther(kReach, a, b)) << i;
-    found += contacts.count > 0;
+    count += contacts.count > 0;
   }
-  EXPECT_GT(found, kPairs / 10);
-  EXPECT_LT(found, kPairs * 9 / 10);
+  EXPECT_GT(count, kPairs / 10);
+  EXPECT_LT(count, kPairs * 9 / 10);
 }
 
 TEST_F(RectangleContacts, LieOnBothOutlinesWhileTheseAreApart) {

@@ -168,7 +168,7 @@ TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
   }
   std::mt19937 random(5);
   const auto cells = [&] { return std::uniform_int_distribution<int>(-3, 3)(random); };
-  std::map<double, int> found;
+  std::map<double, int> by_period;
   for (int round = 0; round < 300; ++round) {
     const int id = round % kCrowd + 1;
     round % 2 ? w.movx(id, cells()) : w.movy(id, cells());
@@ -176,13 +176,13 @@ TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
     const WorldState& world = insideOf(w.world);
     for (int i = 0; i < kCrowd; ++i) {
       const double time = clearTime(world.view, i, false);
-      ++found[time];
+      ++by_period[time];
       ASSERT_EQ(clearTime(world.view, i, true), time)
           << "kiva" << i + 1 << " at " << w.world.time();
     }
   }
-  EXPECT_GE(found.size(), 4u);  // no time, little, more and much
-  for (const auto& [time, times] : found) EXPECT_GT(times, 5) << time;
+  EXPECT_GE(by_period.size(), 4u);  // no time, little, more and much
+  for (const auto& [time, times] : by_period) EXPECT_GT(times, 5) << time;
 }
 
 TEST(Arrays, LetGoOfARobotBeforeABoxHitsIt) {

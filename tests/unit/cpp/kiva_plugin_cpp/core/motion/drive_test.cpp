@@ -283,7 +283,7 @@ TEST(Jointed, BrakesForAnObstacleNoHarderThanItsLoadAllows) {
   w.runUntilIdle(1);
   EXPECT_EQ(w.count(Event::Kind::kCollision), 0);
   EXPECT_EQ(w.count(Event::Kind::kBlocked), 1);
-  EXPECT_NEAR(w.x(1), insideOf(w.world).fleet.goal[0] + 20, kMillimetre);
+  EXPECT_NEAR(w.x(1), insideOf(w.world).fleet.reference_end[0] + 20, kMillimetre);
 }
 
 }  // namespace

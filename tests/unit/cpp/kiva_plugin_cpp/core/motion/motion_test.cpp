@@ -61,9 +61,9 @@ TEST_P(MoveOfAnyLength, StopsOnItsGridPointAfterTheTrapezoidsTime) {
         const double end = way > 0 ? way : 0;
         w_.expectAt(1, axis == 0 ? end : 0, axis == 1 ? end : 0);
         w_.expectOnGrid(1);
-        const double wanted = trapezoidTime(cells, 1.5, GetParam().acceleration);
-        EXPECT_NEAR(took, wanted, kSlack) << way << " m along "
-                                          << "xy"[axis];
+        const double expected = trapezoidTime(cells, 1.5, GetParam().acceleration);
+        EXPECT_NEAR(took, expected, kSlack) << way << " m along "
+                                            << "xy"[axis];
       }
     }
   }
@@ -188,10 +188,10 @@ Peaks peaks(double speed, double acceleration) {
 TEST(Motion, HoldsItsSpeedAndItsAcceleration) {
   for (double speed : {0.5, 1.5, 3.0}) {
     for (double acceleration : {0.5, 1.0, 2.0}) {
-      const Peaks found = peaks(speed, acceleration);
-      EXPECT_LE(found.speed, speed * 1.001);
-      EXPECT_GE(found.speed, speed * 0.999);  // 20 m are enough to get there
-      EXPECT_LE(found.acceleration, acceleration * 1.02);
+      const Peaks measured = peaks(speed, acceleration);
+      EXPECT_LE(measured.speed, speed * 1.001);
+      EXPECT_GE(measured.speed, speed * 0.999);  // 20 m are enough to get there
+      EXPECT_LE(measured.acceleration, acceleration * 1.02);
     }
   }
 }

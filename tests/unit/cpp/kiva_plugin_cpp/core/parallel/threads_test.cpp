@@ -43,18 +43,18 @@ class Crowd {
 
   /// The state, and what was seen, after the whole run.
   std::uint64_t run() {
-    std::uint64_t seen = 0;
+    std::uint64_t hash = 0;
     std::vector<std::vector<float>> ranges;
     for (int command = 0; command < kTime * 10; ++command) {
       post();
       w.run(0.1, [&] {
         w.world.scan(w.world.scansDue(), &ranges);
         for (const auto& scan : ranges) {
-          for (float range : scan) seen = 31 * seen + std::hash<float>()(range);
+          for (float range : scan) hash = 31 * hash + std::hash<float>()(range);
         }
       });
     }
-    return seen ^ w.world.stateHash();
+    return hash ^ w.world.stateHash();
   }
 
   Warehouse w;
@@ -88,11 +88,11 @@ class Crowd {
 };
 
 TEST(Threads, ChangeNothingInACrowd) {
-  Crowd one(1);
-  const std::uint64_t expected = one.run();
-  EXPECT_GT(one.w.count(Event::Kind::kCollision), 10);
-  EXPECT_GT(one.w.count(Event::Kind::kDone), 50);
-  EXPECT_GT(one.w.count(Event::Kind::kBlocked), 10);
+  Crowd single(1);
+  const std::uint64_t expected = single.run();
+  EXPECT_GT(single.w.count(Event::Kind::kCollision), 10);
+  EXPECT_GT(single.w.count(Event::Kind::kDone), 50);
+  EXPECT_GT(single.w.count(Event::Kind::kBlocked), 10);
   for (const int threads : {2, 3, 8}) EXPECT_EQ(Crowd(threads).run(), expected) << threads;
 }
 

@@ -176,13 +176,13 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
           {scene.uniform(-13, 13), scene.uniform(-13, 13), scene.uniform(kLowest, kHighest)},
           scene.uniform(-M_PI, M_PI)};
       if (isInside(insideOf(world).view, ray.from)) continue;
-      const double seen = ray.cast(world), truth = ray.cast(triangles);
+      const double range = ray.cast(world), truth = ray.cast(triangles);
       ++rays;
       hits += std::isfinite(truth);
-      if (seen == truth || std::abs(seen - truth) < 1e-4) continue;  // ==: both see nothing
+      if (range == truth || std::abs(range - truth) < 1e-4) continue;  // ==: both see nothing
       ++edges;
       ASSERT_TRUE(isAtEdge(world, ray, truth))
-          << "scene " << seed << ", from " << ray.from << " at " << ray.yaw << ": " << seen
+          << "scene " << seed << ", from " << ray.from << " at " << ray.yaw << ": " << range
           << ", not " << truth;
     }
   }
@@ -298,21 +298,21 @@ TEST_P(SolidUnderLaser, IsSeenWhereItIsFromOutsideAndInside) {
         }
         crossed = far;
       }
-      const double seen = w.world.rayCast(from, yaw, kRange);
+      const double range = w.world.rayCast(from, yaw, kRange);
       ++rays;
       hits += std::isfinite(crossed);
       inner += starts_in;
-      if (std::isinf(crossed) && std::isfinite(seen)) {  // shorter than a step
+      if (std::isinf(crossed) && std::isfinite(range)) {  // shorter than a step
         ++grazing;
-        EXPECT_TRUE(in(seen + 1e-9) || in(seen + 1e-6));
+        EXPECT_TRUE(in(range + 1e-9) || in(range + 1e-6));
       } else if (std::isfinite(crossed)) {
-        if (crossed > seen + kStep) {
+        if (crossed > range + kStep) {
           ++grazing;
           continue;
         }
-        EXPECT_NEAR(seen, crossed, 1e-8);
+        EXPECT_NEAR(range, crossed, 1e-8);
       } else {
-        EXPECT_TRUE(std::isinf(seen));
+        EXPECT_TRUE(std::isinf(range));
       }
     }
   }
@@ -420,9 +420,9 @@ TEST(RayCast, PassesTheModelThatItIsToldToPass) {
   w.spawn("wall", "near", 0, 0);
   w.spawn("wall", "far", 3, 0);
   EXPECT_LT(w.world.rayCast({-1, 0, 0.2}, 0, 10), 2);
-  const double seen = w.world.rayCast({0, 0, 0.2}, 0, 10, "near");
-  EXPECT_GT(seen, 1);
-  EXPECT_LT(seen, 3);
+  const double range = w.world.rayCast({0, 0, 0.2}, 0, 10, "near");
+  EXPECT_GT(range, 1);
+  EXPECT_LT(range, 3);
 }
 
 }  // namespace
