@@ -249,10 +249,10 @@ bool areAlike(const std::string& a, const std::string& b) {
 }
 
 void expectAlike(const std::string& read, const std::string& recorded) {
-  std::istringstream line(read), other(recorded);
+  std::istringstream now(read), other(recorded);
   int line = 0;
   for (std::string a, b;;) {
-    const bool has_a = !!std::getline(line, a), has_b = !!std::getline(other, b);
+    const bool has_a = !!std::getline(now, a), has_b = !!std::getline(other, b);
     if (!has_a && !has_b) return;
     ++line;
     std::istringstream words_a(has_a ? a : ""), words_b(has_b ? b : "");
