@@ -22,19 +22,21 @@ from warehouse_layout.floor.floor_plan import ALL_EXITS, FloorError, FloorPlan
 from warehouse_layout.floor.masks import shifted
 from warehouse_layout.floor.stations import PICK, REPLENISH, STEPS, Station, lane_mask
 from warehouse_layout.generate import hall, rooms, sites
+from warehouse_layout.generate.blocks import places_for
 from warehouse_layout.generate.cells import Cells
 from warehouse_layout.generate.sites import Ground, Site
-from warehouse_layout.place.blocks import places_for
-from warehouse_layout.place.layout import BELT, DROP, SEED, Layout, chance
+from warehouse_layout.place.layout import SEED, Layout, chance
 
 WIDE = 3000  # free cells, on which a few shifts of the pattern are as good as all
+# From a drop point to the centre of a belt of 1.8 m that begins 0.1 m beyond its cell [m].
+TO_BELT = 1.5
 ENOUGH = 0.5  # share of the storage units that would fit without lanes: enough with lanes
 
 Finder = Callable[[Ground, int], Iterator[Site]]
 
 
 def fit(request: Request, cells: Cells, seed: int = SEED, at: rooms.Point | None = None) -> Layout:
-    """Returns the Layout of a resolved Request on free Cells, as layout.plan() does.
+    """Returns the Layout of a resolved Request on free Cells, as generated.plan() does.
 
     The warehouse goes into the largest room, or to the point `at`, (x, y) in `world` [m]. Where
     there is no room even for bays, the belts are at the ends of streets, and the Layout has no
@@ -149,7 +151,7 @@ def _laid_out(ground: Ground, site: Site, request: Request, seed: int) -> Layout
         places=ground.world(places),
         item_unit=item_unit,
         item_place=item_place,
-        belts=np.column_stack([before + (BELT - DROP) * towards, yaws]),
+        belts=np.column_stack([before + TO_BELT * towards, yaws]),
         drops=before,
         plan=plan,
         has_own_floor=False,

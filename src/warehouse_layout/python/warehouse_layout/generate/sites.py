@@ -15,10 +15,10 @@ import numpy as np
 from warehouse_layout.floor.masks import beside_of, largest_part
 from warehouse_layout.floor.street_graph import without_dead_ends
 from warehouse_layout.generate import hall
+from warehouse_layout.generate.blocks import BLOCK_DEPTH, BLOCK_LENGTH, QUEUE
 from warehouse_layout.generate.cells import Cells
+from warehouse_layout.generate.one_way import PICKS_TO_REPLENISH
 from warehouse_layout.generate.rooms import Region
-from warehouse_layout.place.blocks import BLOCK_DEPTH, BLOCK_LENGTH, QUEUE
-from warehouse_layout.place.one_way import PICKS_TO_REPLENISH
 
 ROW, COLUMN = BLOCK_DEPTH + 1, BLOCK_LENGTH + 1  # from street to street
 SHIFTS = tuple(np.ndindex(COLUMN, ROW))

@@ -24,7 +24,17 @@ def place(file: LayoutFile, seed: int = SEED, robots: int | None = None) -> Layo
     """Returns the Layout of a file; `robots` replaces its number of robots.
 
     The seed decides which robot parks where, on which place each unit stands and which items it
-    holds, where the file gives counts. Raises LayoutFileError for a station without a lane, and
+    holds, where the file gives counts. Raises what place_by_chance() raises.
+    """
+    return place_by_chance(file, chance(seed), robots)
+
+
+def place_by_chance(
+    file: LayoutFile, rng: np.random.Generator | None, robots: int | None = None
+) -> Layout:
+    """Returns the Layout of a file, as place() does; `rng` None: the regular one.
+
+    Raises LayoutFileError for a station without a lane, and
     where more is asked than there is room for. Whether a fleet can work there is not checked.
     """
     drawn = drawn_floor.areas(file.floor)
@@ -32,7 +42,7 @@ def place(file: LayoutFile, seed: int = SEED, robots: int | None = None) -> Layo
     stations, faults = station_lanes.of_file(file, drawn)
     if faults:
         raise LayoutFileError(f"{file.path or file.title}: {faults[0].text}")
-    return _Placement(file, drawn, seed).layout(stations, file.robots if robots is None else robots)
+    return _Placement(file, drawn, rng).layout(stations, file.robots if robots is None else robots)
 
 
 def plan_of(file: LayoutFile, drawn: DrawnFloor, stations: Sequence[Station]) -> FloorPlan:
@@ -76,8 +86,10 @@ def _check_at(file: LayoutFile) -> None:
 
 
 class _Placement:
-    def __init__(self, file: LayoutFile, drawn: DrawnFloor, seed: int) -> None:
-        self._file, self._drawn, self._rng = file, drawn, chance(seed)
+    def __init__(
+        self, file: LayoutFile, drawn: DrawnFloor, rng: np.random.Generator | None
+    ) -> None:
+        self._file, self._drawn, self._rng = file, drawn, rng
 
     def layout(self, stations: Sequence[Station], robots: int | tuple[Cell, ...]) -> Layout:
         file, drawn = self._file, self._drawn

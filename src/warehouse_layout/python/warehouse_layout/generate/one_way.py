@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The one-way streets of a regular layout, and the lanes of its stations beside them."""
+"""The stations of a regular layout, with lanes that fit its one-way streets."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
-from warehouse_layout.floor.floor_plan import ALL_EXITS
-from warehouse_layout.floor.stations import PICK, REPLENISH, Station, neighbour
-from warehouse_layout.place.blocks import Shape
+from warehouse_layout.floor.stations import PICK, REPLENISH, Station
+from warehouse_layout.generate.blocks import Shape
 
 PICKS_TO_REPLENISH = 2  # stations of the one kind for each of the other
 
@@ -52,28 +51,3 @@ def _replenishments(shape: Shape) -> Iterator[Station]:
     for i, x in enumerate(2 + _spread(count, right - 1), start=1):
         lane = np.r_[y * width + x, y[-1] * width + x - 1, y[::-1] * width + x - 2]
         yield Station(f"replenish{i}", REPLENISH, lane.astype(np.int32), shape.queue)
-
-
-def exits(shape: Shape, streets: np.ndarray, stations: Sequence[Station]) -> np.ndarray:
-    """Returns the exits of a floor, (h, w) uint8, for `streets` (h, w) bool.
-
-    Streets may be left ahead, into places and lanes, and at a lane's exit across the street; other
-    cells in all headings.
-    """
-    leaves = [np.zeros_like(streets) for _ in range(4)]
-    right, top = shape.street_x[-1], shape.street_y[-1]
-    for k, y in enumerate(shape.street_y):
-        leaves[2 * (k % 2)][y, : right + 1] = True
-    for k, x in enumerate(shape.street_x[::-1]):
-        leaves[3 if x == 0 else 1 + 2 * (k % 2)][: top + 1, x] = True
-    # The street beside the lanes may be crossed: a robot that leaves a lane chooses between both.
-    for station in stations:
-        y, x = divmod(int(station.cells[-1]), streets.shape[1])
-        beside = (y, right) if station.kind == PICK else (top, x)
-        leaves[2 if station.kind == PICK else 3][beside] = True
-    out = np.full(streets.shape, ALL_EXITS, np.uint8)
-    for heading in range(4):
-        # Into cells that are no streets: places, and lanes where they may be entered.
-        leaves[heading] |= ~neighbour(streets, heading)
-        out[streets & ~leaves[heading]] &= ~np.uint8(1 << heading)
-    return out
