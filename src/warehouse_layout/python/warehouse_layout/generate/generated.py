@@ -42,6 +42,6 @@ def is_regular(request: Request) -> bool:
 
 
 def replenishing(request: Request) -> int:
-    """Returns how many stations for replenishing a compact floor has, unless they are told: enough
+    """Returns the default count of stations for replenishing on a compact floor: enough
     where all of them are at work, more where one may be far from a unit."""
     return -(-request.belts // (2 if is_regular(request) else 4))

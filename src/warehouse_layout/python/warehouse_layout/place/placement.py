@@ -141,13 +141,11 @@ class _Placement:
 
     def _units(self, places: np.ndarray) -> np.ndarray:
         """Returns cells (n, 2) for units: those named, or places evenly spread, or by chance."""
-        wanted = self._file.storage_units
-        if isinstance(wanted, tuple):
+        asked = self._file.storage_units
+        if isinstance(asked, tuple):
             storage = self._drawn.storage
-            return self._named(
-                wanted, storage, "a storage unit", "which is not a storage place 's'"
-            )
-        count = round(wanted * len(places)) if isinstance(wanted, float) else wanted
+            return self._named(asked, storage, "a storage unit", "which is not a storage place 's'")
+        count = round(asked * len(places)) if isinstance(asked, float) else asked
         if count > len(places):
             raise self._fail(
                 f"{count} storage units, but {len(places)} storage places 's' are drawn"
@@ -219,8 +217,8 @@ class _Placement:
 
     def _walls(self) -> np.ndarray:
         """Returns x y size_x size_y [m] of the boxes of walls, (n, 4)."""
-        found = walls.boxes(self._drawn.walls, self._file.spacing)
-        return found + np.pad(origin(self._file), (0, 2))
+        shapes = walls.boxes(self._drawn.walls, self._file.spacing)
+        return shapes + np.pad(origin(self._file), (0, 2))
 
 
 def _with_belts(
