@@ -22,7 +22,7 @@ ROBOT = {
 # Plugins of a world, by their element's parameters.
 WORLD = {
     "core/world.cpp": "Light curtain and grid of a world",
-    "core/motion/ground.cpp": "Floor of another friction",
+    "core/motion/wheels/ground.cpp": "Floor of another friction",
     "plugins/motion.cpp": "Motion, beside its numbers",
 }
 CALL = re.compile(
@@ -165,7 +165,7 @@ def plugins() -> str:
         parts.append(
             f"## {title}\n\n" + taken((ROOT / "src/kiva_plugin_cpp/src" / file).read_text())
         )
-    for file in sorted(GAZEBO.glob("*.cpp")):
+    for file in sorted(GAZEBO.rglob("*.cpp"), key=lambda file: file.stem):
         if told := taken(file.read_text()):
             names = ", ".join(code(name) for name in libraries().get(file.stem, []))
             note = f"In {names}.\n\n" if names else ""
