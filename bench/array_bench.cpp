@@ -86,7 +86,8 @@ class Grid {
     }
   }
 
-  /// The range to the first body but `self`, or to the walls; a walk from cell to cell (Amanatides, Woo 1987).
+  /// The range to the first body but `self`, or to the walls; a walk from cell to cell (Amanatides,
+  /// Woo 1987).
   double cast(const Fleet& fleet, int self, double x, double y, double dx, double dy) const {
     double best = std::min({bench::kRange, toWall(x, dx), toWall(y, dy)});
     int cx = column(x), cy = column(y);
