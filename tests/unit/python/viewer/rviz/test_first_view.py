@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from warehouse_layout.file.request import PRESETS, resolve
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 from warehouse_viewer.rviz import first_view
 from warehouse_viewer.shared_files import RVIZ_CONFIG
 
