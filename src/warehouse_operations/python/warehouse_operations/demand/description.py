@@ -38,13 +38,13 @@ class Orders:
         if not orders:
             raise DemandError(f"{path}: there is no order in it")
         table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
-        seen: set[tuple[str, str]] = set()
+        known: set[tuple[str, str]] = set()
         rows, repeated = 0, []
         for line, reference, sku in _rows(table):
             rows += 1
-            if (reference, sku) in seen:
+            if (reference, sku) in known:
                 repeated.append((line, reference, sku))
-            seen.add((reference, sku))
+            known.add((reference, sku))
         return cls(str(path), orders, rows, repeated)
 
     @property

@@ -54,7 +54,7 @@ def _at_once(orders: Orders) -> Iterator[str]:
 
 def _gaps(orders: Orders) -> Iterator[str]:
     for day in orders.days:
-        times = np.sort([one.at for one in orders.orders if one.at // DAY == day])
+        times = np.sort([order.at for order in orders.orders if order.at // DAY == day])
         waits = np.diff(times)
         if len(waits) and waits.max() > GAP and len(orders.days) < FEW_DAYS:
             begin = times[int(waits.argmax())]
@@ -70,7 +70,7 @@ def _large(orders: Orders) -> Iterator[str]:
         ("lines", [len(order.lines) for order in orders.orders]),
     ):
         middle = float(np.median(sizes))
-        large = [one for one, size in zip(orders.orders, sizes) if size > LARGE * middle]
+        large = [order for order, size in zip(orders.orders, sizes) if size > LARGE * middle]
         if large:
             yield (
                 f"{len(large)} orders have more than {LARGE:g} times the usual {middle:g} {what},"

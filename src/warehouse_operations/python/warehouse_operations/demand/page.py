@@ -36,7 +36,7 @@ def write(demand: Demand, odd: Sequence[str], path: Path) -> list[Path]:
     first = page.opening(f"What comes on a day of {demand.of}?", " ".join(sentences(demand)))
     oddities = page.sentences(odd) if odd else "<p>Nothing.</p>"
     first += page.section("What was odd in the file", oddities)
-    rest = "\n".join(page.section(one.title, one.html()) for one in drawn.values())
+    rest = "\n".join(page.section(chart.title, chart.html()) for chart in drawn.values())
     about = f"{page.today()}, version {version()}"
     path.write_text(page.document(f"Demand: {demand.of}", "Demand", about, first, rest), "utf-8")
     pictures = []
@@ -116,10 +116,10 @@ def _shares(title: str, noun: str, shares: Mapping[int, float], mean: float) -> 
 def _popularity(demand: Demand) -> Chart:
     lines = np.array(list(demand.skus.values()), float)
     reach = 100 * np.cumsum(lines) / lines.sum()
-    part = 100 * np.arange(1, len(lines) + 1) / len(lines)
+    place = 100 * np.arange(1, len(lines) + 1) / len(lines)
 
     def draw(drawn: Canvas) -> None:
-        drawn.axes.plot([0, *part], [0, *reach], lw=2, color=tokens.series(0))
+        drawn.axes.plot([0, *place], [0, *reach], lw=2, color=tokens.series(0))
         at = 0.0
         for name, share in demand.classes.items():
             at += 100 * share["skus"]
@@ -128,8 +128,8 @@ def _popularity(demand: Demand) -> Chart:
         drawn.scale(("SKUs, the most popular first [%]", 100), ("lines [%]", 104))
 
     rows = [
-        [name, f"{100 * one['skus']:.1f}", f"{100 * one['lines']:.1f}"]
-        for name, one in demand.classes.items()
+        [name, f"{100 * part['skus']:.1f}", f"{100 * part['lines']:.1f}"]
+        for name, part in demand.classes.items()
     ]
     a = demand.classes["A"]
     return _chart(
@@ -151,7 +151,7 @@ def _due(demand: Demand) -> Chart:
         most = 1.05 * float(max([*minutes, 1.0]))
         drawn.scale(("minutes", most), ("orders due within them [%]", 104))
 
-    rows = [[f"{n:,.1f}", f"{one:.0f}"] for n, one in zip(minutes, share)]
+    rows = [[f"{n:,.1f}", f"{percent:.0f}"] for n, percent in zip(minutes, share)]
     return _chart(
         "Time until orders are due",
         f"Share of the orders [%] over minutes; {100 * demand.due.none:.0f} % have no due time",

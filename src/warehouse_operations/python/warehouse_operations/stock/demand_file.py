@@ -170,7 +170,7 @@ class _Reader:
         if not isinstance(value, list) or not 0 < len(value) <= MOST_INTERVALS:
             raise self._file.fault(("orders",), "has to be a list, a number for each interval")
         numbers = enumerate(value)
-        orders = tuple(self._number(("orders", i), one, 0, MOST_ORDERS) for i, one in numbers)
+        orders = tuple(self._number(("orders", i), number, 0, MOST_ORDERS) for i, number in numbers)
         if not sum(orders):
             raise self._file.fault(("orders",), "are 0 all day; there is nothing to draw")
         return orders
@@ -195,7 +195,7 @@ class _Reader:
         if not isinstance(seconds, list):
             raise self._file.fault(("due", "seconds"), "has to be a list of quantiles")
         place: Place = ("due", "seconds")
-        quantiles = [self._number((*place, i), one, 0, 1e9) for i, one in enumerate(seconds)]
+        quantiles = [self._number((*place, i), number, 0, 1e9) for i, number in enumerate(seconds)]
         if quantiles != sorted(quantiles):
             raise self._file.fault(place, "has to ascend")
         none = self._number(("due", "none"), value.get("none", 0.0), 0, 1)
@@ -243,10 +243,10 @@ class DrawnDays:
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Any:
         """Yields the orders that come now."""
         while self._next <= now:
-            wanted = self.order(self._next, in_stock)
+            order = self.order(self._next, in_stock)
             self._wait()
-            if wanted:
-                yield wanted
+            if order:
+                yield order
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
         """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""

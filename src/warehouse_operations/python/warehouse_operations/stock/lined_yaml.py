@@ -29,7 +29,7 @@ class LinedYaml:
             (self._lines[place[:n]] for n in range(len(place), -1, -1) if place[:n] in self._lines),
             1,
         )
-        field = "".join(f"[{one}]" if isinstance(one, int) else f".{one}" for one in place)
+        field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
         field = field.removeprefix(".")
         return self._error(f"{self.path}:{line}: {f'{field} ' if field else ''}{text}")
 

@@ -65,30 +65,30 @@ def drawn_day(text, seed=1, seconds=4 * 3600.0):
 
 def test_a_description_has_what_the_file_has(day, described):
     orders, demand = read_csv(day), demand_file.read(described)
-    by_hour = Counter(int(one.at // 3600) for one in orders)
+    by_hour = Counter(int(order.at // 3600) for order in orders)
     assert demand.orders == tuple(by_hour[i] for i in range(4))
-    lines = [len(one.lines) for one in orders]
-    pieces = [n for one in orders for _, n in one.lines]
+    lines = [len(order.lines) for order in orders]
+    pieces = [n for order in orders for _, n in order.lines]
     assert demand.lines_an_order == pytest.approx(np.mean(lines), rel=1e-4)
     assert demand.pieces_a_line == pytest.approx(np.mean(pieces), rel=1e-4)
     assert demand.due.none == 0 and set(demand.due.seconds) == {1800.0}
     assert sum(demand.skus.values()) == sum(lines)
     assert demand.exponent == pytest.approx(ZIPF, abs=0.1)
-    assert sum(one["lines"] for one in demand.classes.values()) == pytest.approx(1, abs=1e-3)
+    assert sum(part["lines"] for part in demand.classes.values()) == pytest.approx(1, abs=1e-3)
     assert demand.peak_per_hour == max(by_hour.values())
 
 
 def test_days_that_are_drawn_are_like_the_file(day, described):
     orders, demand = read_csv(day), demand_file.read(described)
-    drawn = [one for seed in range(5) for one in drawn_day(f"demand:{described}", seed)]
+    drawn = [order for seed in range(5) for order in drawn_day(f"demand:{described}", seed)]
     assert len(drawn) / 5 == pytest.approx(len(orders), rel=0.08)
-    peak = Counter(int(one.at // 3600) for one in drawn)
+    peak = Counter(int(order.at // 3600) for order in drawn)
     assert peak[2] / len(drawn) == pytest.approx(demand.orders[2] / sum(demand.orders), abs=0.05)
-    assert np.mean([len(one.lines) for one in drawn]) == pytest.approx(
+    assert np.mean([len(order.lines) for order in drawn]) == pytest.approx(
         demand.lines_an_order, rel=0.05
     )
-    assert all(one.due == pytest.approx(one.at + 1800) for one in drawn)
-    asked = Counter(sku for one in drawn for sku, _ in one.lines)
+    assert all(order.due == pytest.approx(order.at + 1800) for order in drawn)
+    asked = Counter(sku for order in drawn for sku, _ in order.lines)
     assert {sku for sku, _ in asked.most_common(3)} <= set(list(demand.skus)[:8])
 
 
@@ -98,7 +98,7 @@ def test_the_same_seed_draws_the_same_day(described):
 
 
 def test_a_day_keeps_its_times(day):
-    orders = sorted(read_csv(day), key=lambda one: one.at)
+    orders = sorted(read_csv(day), key=lambda order: order.at)
     assert drawn_day(f"day:{day}") == orders
 
 
@@ -112,16 +112,16 @@ def test_so_much_more(day, described, factor):
 
 
 def test_copies_have_references_of_their_own(day):
-    references = Counter(one.reference for one in drawn_day(f"day:{day}*2"))
+    references = Counter(order.reference for order in drawn_day(f"day:{day}*2"))
     assert max(references.values()) == 1
 
 
 def test_a_run_in_comes_before_the_day(day, described):
-    orders = sorted(read_csv(day), key=lambda one: one.at)
+    orders = sorted(read_csv(day), key=lambda order: order.at)
     drawn = drawn_day(f"run-in:90:day:{day}", seconds=4 * 3600.0 + 5400)
-    later = [one for one in drawn if "before" not in one.reference]
-    assert [one.at for one in later] == pytest.approx([one.at + 5400 for one in orders])
-    first_hour = sum(one.at < 3600 for one in orders)
+    later = [order for order in drawn if "before" not in order.reference]
+    assert [order.at for order in later] == pytest.approx([order.at + 5400 for order in orders])
+    first_hour = sum(order.at < 3600 for order in orders)
     assert len(drawn) - len(later) == pytest.approx(1.5 * first_hour, rel=0.2)
     source = make_demand(f"run-in:90:demand:{described}", None, (1, 1), np.random.default_rng(1))
     demand = demand_file.read(described)
@@ -208,8 +208,8 @@ def test_a_sweep_finds_a_day_beside_it(day, described, tmp_path):
         "physics: false\nsize: small\n"
         "grid: {orders: ['day:day.csv*1.3', 'demand:day.demand.yaml']}\n"
     )
-    found = [job.orders for job, _ in sweep.read(file).jobs]
-    assert found == [f"day:{day}*1.3", f"demand:{described}"]
+    texts = [job.orders for job, _ in sweep.read(file).jobs]
+    assert texts == [f"day:{day}*1.3", f"demand:{described}"]
 
 
 def test_dates_are_times_of_the_day(tmp_path):
