@@ -8,7 +8,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import h11
-import websockets
+from websockets import connect  # type: ignore[attr-defined]
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from warehouse_viewer.json_text import JSONResponse
@@ -104,7 +104,7 @@ class Proxy:
         url = f"ws://{self._host}:{self._port}{self._path(scope)}"
         options: dict[str, Any] = {"max_size": MOST_MESSAGE, "compression": None}
         try:
-            async with websockets.connect(url, open_timeout=PATIENCE, **options) as server:
+            async with connect(url, open_timeout=PATIENCE, **options) as server:
                 await send({"type": "websocket.accept"})
                 await _join(server, receive, send)
         except (TimeoutError, OSError, InvalidHandshake):
