@@ -34,6 +34,7 @@ def routes(simulations: Simulations, assistant: Callable[[], Assistant]) -> list
         Route(SIMULATIONS, _answered(api.create), methods=["POST"]),
         Route("/api/v1/simulation-arguments", _answered(api.arguments), methods=["GET"]),
         Route(f"{SIMULATIONS}/{{name}}", _answered(api.get), methods=["GET"]),
+        Route(f"{SIMULATIONS}/{{name}}", _answered(api.join), methods=["PUT"]),
         Route(f"{SIMULATIONS}/{{name}}", _answered(api.delete), methods=["DELETE"]),
         Route(f"{SIMULATIONS}/{{name}}/start", _answered(api.start), methods=["POST"]),
         Route(f"{SIMULATIONS}/{{name}}/worlds", _answered(api.insert), methods=["POST"]),
@@ -79,6 +80,10 @@ class _Api:
 
     async def get(self, request: Request) -> Response:
         return JSONResponse(self._named(request).row())
+
+    async def join(self, request: Request) -> Response:
+        guest = await self._simulations.join(request.path_params["name"], await _body(request))
+        return JSONResponse(guest.row(), 201)
 
     async def delete(self, request: Request) -> Response:
         text = request.query_params.get("forget", "false")

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from warehouse_sim.hub import insertion, wish
+from warehouse_sim.hub.guest import Guest
 from warehouse_sim.hub.simulation import Simulation, State
 from warehouse_sim.hub.wish import NAME, Wish
 
@@ -102,8 +103,22 @@ class Simulations:
                 raise
         return simulation
 
+    async def join(self, name: str, body: Mapping[str, Any]) -> Simulation:
+        """Lists a warehouse that runs elsewhere on this machine, at the body's `address`.
+
+        Raises WishError, Conflict if the name is taken.
+        """
+        if not NAME.fullmatch(name):
+            raise wish.WishError("name", "small letters, digits and '-' were expected")
+        guest = Guest(name, body.get("address"))
+        known = self._all.get(name)
+        if known and not isinstance(known, Guest):
+            raise Conflict(f"there is a simulation '{name}' already")
+        self._all[name] = guest
+        return guest
+
     def _check_room(self) -> None:
-        living = [s.wish.name for s in self._all.values() if s.lives]
+        living = [s.wish.name for s in self._all.values() if s.lives and not isinstance(s, Guest)]
         if len(living) >= self._limits.most:
             names = ", ".join(sorted(living))
             raise Conflict(f"{len(living)} simulations run ({names}), and no more may; stop one")
@@ -121,10 +136,12 @@ class Simulations:
     async def stop(self, name: str, forget: bool = False) -> Simulation:
         """Ends a simulation; `forget`: and deletes its log, recordings and databases.
 
-        Raises Missing.
+        Raises Missing, Conflict for one that was started elsewhere.
         """
         async with self._lock(name):
             simulation = self[name]
+            if isinstance(simulation, Guest):
+                raise Conflict(f"'{name}' was started elsewhere; end it there, by Ctrl-C")
             if simulation.lives or simulation.process:
                 await self._in_thread(simulation.stop)
             if forget:
@@ -156,6 +173,10 @@ class Simulations:
             return
         async with self._lock(name):
             await self._in_thread(simulation.look, self._limits.memory)
+            if isinstance(simulation, Guest):
+                if simulation.is_gone:
+                    del self._all[name]
+                return
             idle = time.monotonic() - simulation.used
             if simulation.lives and idle > self._limits.idle:
                 hours = self._limits.idle / 3600
@@ -164,6 +185,6 @@ class Simulations:
 
     async def close(self) -> None:
         """Ends all simulations at once."""
-        living = [s.wish.name for s in self._all.values() if s.lives or s.process]
+        living = [s.wish.name for s in self._all.values() if s.process]
         await asyncio.gather(*map(self.stop, living))
         self._threads.shutdown()
