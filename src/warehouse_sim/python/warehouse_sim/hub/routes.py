@@ -40,7 +40,7 @@ def routes(simulations: Simulations, assistant: Callable[[], Assistant]) -> list
         Route(f"{SIMULATIONS}/{{name}}/worlds", _answered(api.insert), methods=["POST"]),
         Route(f"{SIMULATIONS}/{{name}}/log", _answered(api.log), methods=["GET"]),
         Mount(PREFIX, _Pages(simulations)),
-        Mount("/mcp", _Assistant(assistant)),
+        Route("/mcp", _Assistant(assistant)),
     ]
 
 

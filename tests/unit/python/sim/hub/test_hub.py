@@ -81,7 +81,7 @@ def test_a_warehouse_from_request_to_end(hub):
     status, row = hub.ask("POST", "/api/v1/simulations", {"name": "one", "size": "small"})
     assert (status, row["state"], row["url"]) == (202, "STARTING", "/s/one/")
     row = hub.wait_for("one", "RUNNING")
-    assert (row["state"], row["robots"]) == ("RUNNING", 6), row["reason"]
+    assert (row["state"], row["robots"]) == ("RUNNING", 4), row["reason"]
 
     # Everything of its HTTP API lies beneath its name.
     assert hub.ask("GET", "/s/one/api/v1/robots")[1]["robots"]
@@ -93,12 +93,12 @@ def test_a_warehouse_from_request_to_end(hub):
 
     # A world is inserted whole where there is room, or not at all.
     path = "/api/v1/simulations/one/worlds"
-    status, answer = hub.ask("POST", path, {"world": "obstacles", "x": 200, "y": 0})
+    status, answer = hub.ask("POST", path, {"world": "paper", "x": 200, "y": 0})
     assert status == 201, answer
-    assert "kiva1 as kiva7" in answer["message"]
+    assert "kiva1 as kiva5" in answer["message"]
     status, answer = hub.ask("POST", path, {"world": "paper", "x": 200, "y": 0})
     assert status == 409 and "would stand in" in answer["detail"], answer
-    assert len(hub.ask("GET", "/s/one/api/v1/robots")[1]["robots"]) == 10
+    assert len(hub.ask("GET", "/s/one/api/v1/robots")[1]["robots"]) == 6
     status, answer = hub.ask("POST", path, {"world": "mars"})
     assert (status, answer["field"]) == (422, "world")
 
