@@ -11,6 +11,7 @@ print(ops.kpis()["item_score"])
 Rooms, from the lowest; a module imports from its own room and from lower ones:
 
     stock     SKUs, bins, orders, stations, where units stand
+    document  pages: style, sheets, charts on a canvas
     policies  decisions: which order, unit, bin, place, robot
     shift     a shift at work: picking, replenishing, visits, manual stations
     store     the database: written, read back, searched, checked

@@ -48,7 +48,7 @@ def test_late_orders_are_found(tmp_path):
             ops.shift.submit([("sku-1", 1)], due, reference=reference)
         ops.run(minutes=20)
         ops.shift.submit([("sku-2", 1)], ops.shift.now - 1, reference="waits")
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         ops.shift.journal.flush()
 
         def late(now):

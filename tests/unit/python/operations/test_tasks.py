@@ -7,7 +7,8 @@ import pytest
 from operations_site import site
 
 from warehouse_operations import Operations
-from warehouse_operations.shift.tasks import UNDO_WITHIN, Report
+from warehouse_operations.shift.task_reports import Report
+from warehouse_operations.shift.tasks import UNDO_WITHIN
 from warehouse_operations.stock.message_enums import Mode, OrderState, Outcome
 from warehouse_operations.stock.orders import Bundle, Order
 from warehouse_operations.stock.totes import Totes
@@ -310,7 +311,7 @@ def test_a_bundle_that_was_put_in_comes_out_again(tmp_path):
     text = f"pieces of {bundle.sku} in {bundle.bin.item} are promised to orders by now"
     assert tasks.undo(REPLENISH, again.sequence) == (False, text)
     ops.shift.inventory.reserve(bundle.bin, -bundle.bin.reserved)
-    ops.shift.journal.commit(ops.shift)
+    ops.shift.commit()
     ops.close()
     assert check.faults(open_engine(tmp_path / "run.db")) == []
 

@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 
 from warehouse_operations.runs.run_files import Run
-from warehouse_operations.shift.kpis import INTERVAL
+from warehouse_operations.shift.tally import INTERVAL
 
 WINDOW = 600.0  # [s]
 HOUR = 3600.0  # [s]

@@ -11,7 +11,7 @@ from warehouse_msgs import srv
 from warehouse_operations.ros.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import order_table
 from warehouse_operations.shift.shift import Shift
-from warehouse_operations.shift.tasks import Report
+from warehouse_operations.shift.task_reports import Report
 from warehouse_operations.stock.message_enums import Outcome
 from warehouse_operations.store import queries
 
@@ -64,7 +64,7 @@ class ShiftServices:
 
     def _submit_table(self, request: Any) -> Any:
         fields = request.table, request.check_only
-        answer = self._host.carry_out(lambda shift: order_table.submit(shift, *fields))
+        answer = self._host.carry_out(lambda shift: order_table.submit(shift.order_book, *fields))
         line, column, text = zip(*answer.faults) if answer.faults else ((), (), ())
         return srv.SubmitOrdersResponse(
             accepted=not answer.faults,

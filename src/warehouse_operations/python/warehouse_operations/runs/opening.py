@@ -16,6 +16,7 @@ from warehouse_operations.stock.order_file import DemandError, lines_by_sku
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.stock.travel import Travel
 from warehouse_operations.stock.whereabouts import Whereabouts
 from warehouse_operations.store.returning import changes, layout_of
@@ -23,7 +24,6 @@ from warehouse_operations.store.returning import changes, layout_of
 if TYPE_CHECKING:
     from warehouse_operations.store.database import Database
     from warehouse_operations.store.database_journal import DatabaseJournal
-    from warehouse_operations.store.stored import Stored
 
 
 def open_shift(
@@ -102,10 +102,10 @@ def open_shift(
         journal.gone(changed.gone)
     else:
         if journal:
-            journal.begin(shift)
+            journal.begin(assortment, shift.inventory.bins.values())
         shift.begin(stock)
     if journal:  # what the shift begins with is kept before it does
-        journal.commit(shift)
+        shift.commit()
         journal.flush()
     return shift
 

@@ -3,7 +3,7 @@
 
 import contextlib
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from kiva_plugin_cpp import World
 
 MOST_SEED = 2**63 - 1
+WriteReport = Callable[[Path, Sequence[runs.Run]], object]  # writes the report about runs
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
@@ -216,15 +217,20 @@ def simulate(
     database: str | Path | None = None,
     progress: ProgressBar | None = None,
     observe: Callable[[Operations], None] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[runs.Run, list[str]]:
     """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
     database: None: a new one in the folder. observe: called at the begin and after each cycle.
+    write_report: as reports.report.write; None: there is no report.
     """
     folder = Path(folder)
     with _locked(folder):
         kept = database or _new_database(folder)
-        return _simulate(description, folder, kept, progress, observe)
+        run, faults = _simulate(description, folder, kept, progress, observe)
+        if write_report:
+            write_report(folder / runs.REPORT, [run])
+        return run, faults
 
 
 @contextlib.contextmanager
@@ -258,15 +264,12 @@ def _simulate(
         if progress:
             progress.end(ops)
         kept: Any = ops.database
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         kept.flush()
         with kept.reading():
             faults = check.faults(kept.engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
-    from warehouse_operations.reports import report
-
-    report.write(folder / runs.REPORT, [run])
     if run.kpis["collisions"]:
         faults.append(f"{run.kpis['collisions']} collisions")
     if stuck:

@@ -35,6 +35,7 @@ from warehouse_operations.runs.simulation import (
     ERRORS,
     MOST_SEED,
     Description,
+    WriteReport,
     simulate,
     with_settings,
 )
@@ -111,14 +112,16 @@ def run_all(
     processes: int | None = None,
     executor: Executor | None = None,
     on_done: Callable[[int, int], object] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[list[runs.Run], list[str]]:
     """Runs what is left; returns all Runs and sentences about those that failed.
 
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
-    called after each.
+    called after each. write_report: a function of a module, see simulate.
     """
     with _alone(sweep.folder):
-        return _run_all(sweep, executor or ProcessPoolExecutor(processes), on_done)
+        pool = executor or ProcessPoolExecutor(processes)
+        return _run_all(sweep, pool, on_done, write_report)
 
 
 @contextlib.contextmanager
@@ -132,12 +135,15 @@ def _alone(folder: Path) -> Iterator[None]:
 
 
 def _run_all(
-    sweep: Sweep, executor: Executor, on_done: Callable[[int, int], object] | None
+    sweep: Sweep,
+    executor: Executor,
+    on_done: Callable[[int, int], object] | None,
+    write_report: WriteReport | None,
 ) -> tuple[list[runs.Run], list[str]]:
     complete, left = sweep.done()
     failures = []
     with executor as pool:
-        pending = {pool.submit(_one, *job): job for job in left}
+        pending = {pool.submit(_one, *job, write_report): job for job in left}
         while pending:
             finished, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in finished:
@@ -154,8 +160,8 @@ def _run_all(
     return sorted(complete, key=lambda run: order[run.folder]), failures
 
 
-def _one(description: Description, folder: Path) -> list[str]:
-    _, faults = simulate(description, folder)
+def _one(description: Description, folder: Path, write_report: WriteReport | None) -> list[str]:
+    _, faults = simulate(description, folder, write_report=write_report)
     return faults
 
 

@@ -167,6 +167,11 @@ class Inventory:
         self.changed.add(one)
         self._on_move(one, quantity, reason, context)
 
+    def take_changed(self) -> set[Bin]:
+        """Returns the bins whose figures have changed since the last call."""
+        changed, self.changed = self.changed, set()
+        return changed
+
     def reserve(self, one: Bin, quantity: int) -> None:
         """Promises pieces of a bin; a negative number takes the promise back."""
         if not 0 <= one.reserved + quantity <= one.quantity:

@@ -4,38 +4,20 @@
 import json
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from sqlalchemy import Table, and_, func, or_, select
 from sqlalchemy.engine import Connection, Engine
 
-from warehouse_operations.shift.kpis import INTERVAL
-from warehouse_operations.shift.tasks import Answer, Report
+from warehouse_operations.shift.tally import INTERVAL
+from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
 from warehouse_operations.stock.message_enums import OrderState, Outcome
 from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.store import schema
-
-
-@dataclass(frozen=True)
-class Stored:
-    """A warehouse at rest: nothing is promised or under way, units stand, orders wait."""
-
-    assortment: Assortment
-    bins: list[Bin]
-    former: dict[str, int]  # ids of bins that are gone, by item
-    last_bin: int  # the highest id there was
-    orders: list[
-        Order
-    ]  # those that are not over; their times are those of a run that begins at `now`
-    last_order: int  # the highest id there was
-    blocked: set[int]  # units out of service
-    layout: (
-        list[Any] | None
-    )  # what returning.layout_of gave the last run; None: of an older version
 
 
 def read(engine: Engine, now: float = 0.0) -> Stored | None:
@@ -84,7 +66,7 @@ def throughput(
 ) -> tuple[float, dict[int, int], dict[int, int], dict[int, int]]:
     """Returns (begin, picked, stored, completed) of the runs before one that begins at `now`.
 
-    begin: their first moment. The counts are those of kpis.Tally in each kpis.INTERVAL from `since`
+    begin: their first moment. The counts are those of tally.Tally in each INTERVAL from `since`
     on, by its number. Times are those of the run that begins [s]."""
     move, order, begin = schema.move.c, schema.orders.c, now
     picked: dict[int, int] = defaultdict(int)
