@@ -49,10 +49,7 @@ def test_where_one_is_wrong_none_is_accepted(table, line, column, text):
 
 def test_so_many_orders_as_would_stop_the_shift_are_refused(monkeypatch):
     monkeypatch.setattr(order_table, "MOST_ORDERS", 1)
-    assert (
-        order_table.submit(book(), TWO).faults[0].text
-        == "2 orders; 1 or fewer were expected"
-    )
+    assert order_table.submit(book(), TWO).faults[0].text == "2 orders; 1 or fewer were expected"
     monkeypatch.setattr(order_table, "MOST_ORDERS", 2)
     monkeypatch.setattr(order_table.acceptance, "MOST_WAITING", 2)
     assert "wait already" in order_table.submit(book(), TWO).faults[0].text
