@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The ceiling: the fleet's workload without any engine, in arrays. A planar integrator with two
-// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or be told anything. With
+// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or take commands. With
 // --default the lasers have a default robot's rays: 121 over 120°.
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ class Scene {
  public:
   explicit Scene(double size) : floor_({0, 0, 1}, 0), wall_({0.1, size / 2, 0.5}) {
     world_.setGravity({0, 0, -9.81});
-    // Only what moved: else the broadphase is told of everything at each step.
+    // Only what moved: else each step updates everything in the broadphase.
     world_.setForceUpdateAllAabbs(false);
     add(0, &floor_, btTransform::getIdentity())->setFriction(1);
     for (int i = 0; i < 4; ++i) {

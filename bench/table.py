@@ -14,9 +14,9 @@ README = ("what", "figure", "by the wall clock", "ratio to the arrays", "limit",
 def of_run(figures, history):
     """`figures`: {part: [Figure, ...]} of a run whose line the history doesn't have yet."""
     rows = []
-    for part, found in figures.items():
+    for part, values in figures.items():
         before = history.newest(part)
-        rows += [_row(f) | _compared(f, *before.get(f.name, (None, None))) for f in found]
+        rows += [_row(f) | _compared(f, *before.get(f.name, (None, None))) for f in values]
     return _text(RUN, rows)
 
 

@@ -66,16 +66,16 @@ class PathFollower:
 
     @property
     def moves(self) -> bool:
-        """Whether it is told to drive or turn."""
+        """Whether its command is to drive or turn."""
         return bool(self._speed or self._rate)
 
     def command(self, pose: Pose, dt: float, stopped: bool = False) -> tuple[float, float]:
         """Returns the speeds ahead [m/s] and counterclockwise [rad/s] for the next `dt` [s]."""
         stands = stopped or self.reached >= self._released
-        wanted = (0.0, 0.0) if stands else self._go(pose)
+        speeds = (0.0, 0.0) if stands else self._go(pose)
         limits = self.limits
-        self._speed = _approach(self._speed, wanted[0], 2 * limits.acceleration * dt)
-        self._rate = _approach(self._rate, wanted[1], 2 * limits.turn_acceleration * dt)
+        self._speed = _approach(self._speed, speeds[0], 2 * limits.acceleration * dt)
+        self._rate = _approach(self._rate, speeds[1], 2 * limits.turn_acceleration * dt)
         return self._speed, self._rate
 
     def _go(self, pose: Pose) -> tuple[float, float]:

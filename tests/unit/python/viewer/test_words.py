@@ -17,7 +17,7 @@ from warehouse_viewer.api.schemas.pydantic_versions import names_of
 from warehouse_viewer.message_enums import EventKind, State, Status
 from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
 
-WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
+WEB = ROOT / "src/warehouse_viewer/web/js/base/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
 
 

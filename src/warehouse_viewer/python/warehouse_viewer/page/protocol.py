@@ -18,7 +18,7 @@
     u32 n              rows of WAY below
     f32 x, y [m]       of the points of all in a row: released ones, planned ones, robot after robot
 
-web/js/protocol.js reads it.
+web/js/base/protocol.js reads it.
 """
 
 import struct

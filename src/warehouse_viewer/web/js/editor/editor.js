@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layout editor: one drawing, one tool, one brush; what changes is told to listeners.
 
-import { $ } from '../dom.js';
+import { $ } from '../base/dom.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';
 import { FLOOR, isLetter, NEXT_STATION } from './characters.js';
 import { Drawing } from './drawing.js';
