@@ -104,7 +104,7 @@ class Kinematic {
 
   void drive(long step) {
     for (int i = 0; i < static_cast<int>(chassis_.size()); ++i) {
-      const bench::Wanted w = bench::wanted(i, step);
+      const bench::Twist w = bench::command(i, step);
       yaw_[i] += w.yaw_rate * bench::kStep;
       const double way = w.speed * bench::kStep;
       btTransform pose(btQuaternion({0, 0, 1}, yaw_[i]),
@@ -139,7 +139,7 @@ class Hinged {
 
   void drive(long step) {
     for (std::size_t i = 0; i < chassis_.size(); ++i) {
-      const bench::Wanted w = bench::wanted(static_cast<int>(i), step);
+      const bench::Twist w = bench::command(static_cast<int>(i), step);
       for (int side = 0; side < 2; ++side) {
         const double turn = (side ? 1 : -1) * w.yaw_rate * bench::kTrack / 2;
         const double wheel_speed = (w.speed + turn) / bench::kWheelRadius;

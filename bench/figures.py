@@ -65,7 +65,7 @@ SECONDS = {"s": 1, "ms": 1e-3, "us": 1e-6, "CPU s": 1, "CPU us": 1e-6, "cores": 
 
 
 def name(figure):
-    """Of an in-process figure, such as "default, N = 1,000, no scan read"."""
+    """Returns the name of an in-process figure, such as "default, N = 1,000, no scan read"."""
     read = "" if figure.get("read", True) else ", no scan read"
     lasers = read if figure["lasers"] else ", no lasers"
     return f"{figure['engine']}, N = {figure['robots']:,}{lasers}"
@@ -86,7 +86,7 @@ def _fleet(measured, _):
 
 
 def _scaling(measured):
-    """Of one robot's step: how much more it costs in a larger fleet."""
+    """Returns how much more a robot's step costs in a larger fleet."""
     out = []
     for engine, few, limit in (("default", 1000, "<= 1.3"), ("at_once", 100, "<= 1.5")):
         ours = [f for f in measured if f["engine"] == engine and f["lasers"]]
@@ -99,7 +99,7 @@ def _scaling(measured):
 
 
 def _threads(measured, _):
-    """By the wall clock, since CPU time is the calling thread's alone."""
+    """Returns figures by the wall clock, since CPU time is that of the calling thread alone."""
     speed = {n: median(f["rtf"] for f in measured if f["threads"] == n) for n in (1, 2)}
     what = "default, N = 10,000: "
     return [
@@ -155,7 +155,7 @@ def _plans(measured, scale):
 
 
 def _rware(measured, _):
-    """By CPU, over the package in turns: a machine's speed changes nothing of it."""
+    """Returns ratios of CPU time to the package, measured in turns: no machine's speed counts."""
     limits = {"alone": ">= 30", "64 on one thread": ">= 150", "64 on all": ">= 150"}
     return [
         Figure(

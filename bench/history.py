@@ -63,7 +63,7 @@ def _lines(path):
 
 
 def _members(figure):
-    """Without what is empty, and no more digits than mean something."""
+    """Returns the fields that are not empty, with the digits that are significant."""
     default = Figure("", 0)
     out = {}
     for field in dataclasses.fields(figure):

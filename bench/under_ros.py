@@ -161,11 +161,11 @@ class Session:
         return out
 
     def memory(self):
-        """Of all nodes together [MB]; what they share is counted once."""
+        """Returns the memory of all nodes [MB]; shared pages count once."""
         return sum(_memory(pid) for pid in self.nodes()) / 1e3
 
     def node_memory(self):
-        """Of the world's node alone [MB]."""
+        """Returns the memory of the world's node [MB]."""
         return sum(_memory(p) for p, name in self.nodes().items() if name == NODE) / 1e3
 
     def cpu(self):

@@ -43,8 +43,6 @@ def test_the_page_has_the_words_of_the_api():
     assert len(told["STATE"]) == len(message_names.STATE)
     assert told["FAILURE"] == list(message_names.FAILURES.values())
     assert told["WORK"] == list(message_names.WORK)
-    assert list(told["MODE"]) == list(message_names.MODE.values())
-    assert [named(mode) for mode in told["MODE"].values()] == list(told["MODE"])
     assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
     assert tuple(told["ORDER_STATES"]) == STATES
 

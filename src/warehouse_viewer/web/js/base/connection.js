@@ -6,7 +6,7 @@ import { on } from './dom.js';
 import { decode } from './protocol.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
-export const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
+const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
 const NOTABLE = 0.2; // change of a gap, as a part of it
 
 export class Connection {

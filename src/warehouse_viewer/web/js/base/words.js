@@ -2,7 +2,7 @@
 // The words for the constants of messages: the same on every page, and those of the API and of the
 // events (message_names.py); a test compares them.
 
-import { EventKind, FailureKind, OrderState, RobotMode, State } from './message_enums.js';
+import { EventKind, FailureKind, OrderState, State } from './message_enums.js';
 
 /** An array of the texts of {number: text}. */
 const byNumber = (texts) => Object.assign([], texts);
@@ -47,12 +47,6 @@ const WORK_TEXTS = { waiting: 'at a station', ready: 'ready beneath a unit', idl
 export function countedWork(work) {
   return counted(Object.fromEntries(WORK.map((name) => [WORK_TEXTS[name] ?? name, work[name]])));
 }
-/** Which side commands a robot. */
-export const MODE = {
-  [RobotMode.AUTOMATIC]: 'automatic',
-  [RobotMode.MANUAL]: 'manual',
-  [RobotMode.OUT_OF_SERVICE]: 'out of service',
-};
 /** Kinds of events that a person may have to look after. */
 export const TROUBLE = [EventKind.REFUSED, EventKind.BLOCKED, EventKind.COLLISION, EventKind.FAILED,
   EventKind.LOST, EventKind.TIPPED, EventKind.FELL];

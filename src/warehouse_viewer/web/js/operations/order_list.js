@@ -178,7 +178,7 @@ export class OrderList {
 }
 
 /** Whether an order is one of those that a filter of the server's query and a text ask for. */
-export function belongs(order, filter, text, now) {
+function belongs(order, filter, text, now) {
   const wanted = new URLSearchParams(filter), state = wanted.get('state');
   if (state && order.state !== state) return false;
   if (wanted.has('late') && (!order.due || isOver(order) || order.due > now)) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The states of robots and stations over the last hour, as the server tells them (span_log.py).
 
-export const GONE = 7; // nothing is known
+const GONE = 7; // nothing is known
 const STATES = 5; // that a row can be in
 
 /** The {head, times, counts, changes} of an answer. */

@@ -49,7 +49,7 @@ export function behind(steps) {
 }
 
 /** Two triangles for each rectangle x, y, width, depth of a row of numbers. */
-export function quads(rows) {
+function quads(rows) {
   const points = [];
   for (let at = 0; at < rows.length; at += 4) {
     const [x, y, width, depth] = rows.slice(at, at + 4);
