@@ -9,13 +9,13 @@ import rospy
 from std_msgs.msg import Header
 
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import OrderEventKind, StationMode
 from warehouse_msgs import msg
 from warehouse_operations.fleets.floor_heat import FloorHeat
 from warehouse_operations.ros.fleet_log import FleetLog
 from warehouse_operations.shift.order_book import OrderBook
 from warehouse_operations.shift.tally import INTERVAL, Tally
 from warehouse_operations.stock.inventory import Bin
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.stations import Visit, WorkStation
 
@@ -101,8 +101,15 @@ def _station_state(station: WorkStation, now: float) -> msg.StationState:
         pieces=station.pieces,
         busy_fraction=station.busy_fraction(now),
         waiting=station.waiting(now),
-        totes=[_tote(order) for order in station.totes] if station.mode == Mode.MANUAL else [],
+        totes=_totes(station),
     )
+
+
+def _totes(station: WorkStation) -> list[msg.Tote]:
+    """Returns the totes that a person sees, none at a station that works by itself."""
+    if station.mode != StationMode.MANUAL:
+        return []
+    return [_tote(order) for order in station.totes]
 
 
 def _tote(order: Order) -> msg.Tote:

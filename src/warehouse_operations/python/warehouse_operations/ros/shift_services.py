@@ -7,12 +7,12 @@ from typing import Any, Protocol
 import rospy
 from sqlalchemy.engine import Engine
 
+from warehouse_layout.message_enums import PickOutcome
 from warehouse_msgs import srv
 from warehouse_operations.ros.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import order_table
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.shift.task_reports import Report
-from warehouse_operations.stock.message_enums import Outcome
 from warehouse_operations.store import queries
 
 LONGEST_ID = 80  # of a report
@@ -105,14 +105,14 @@ class ShiftServices:
         )
 
     def _report_pick(self, request: Any) -> Any:
-        if request.outcome not in Outcome.__members__.values():
+        if request.outcome not in PickOutcome.__members__.values():
             text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
             return srv.ReportPickResponse(False, text, 0)
         if len(request.id) > LONGEST_ID:
             text = f"the id has {len(request.id)} characters; {LONGEST_ID} at most were expected"
             return srv.ReportPickResponse(False, text, 0)
         fields = request.station, request.order_id, request.item, request.sequence
-        report = Report(*fields, request.quantity, Outcome(request.outcome), request.id)
+        report = Report(*fields, request.quantity, PickOutcome(request.outcome), request.id)
         answer = self._host.carry_out(lambda shift: shift.tasks.report(report))
         self._host.publish_stations()
         return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)

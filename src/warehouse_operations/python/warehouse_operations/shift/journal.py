@@ -4,9 +4,9 @@
 from collections.abc import Collection
 from typing import Any
 
+from warehouse_layout.message_enums import OrderEventKind
 from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderEventKind
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Visit
 

@@ -5,6 +5,7 @@ from collections import deque
 from collections.abc import Mapping
 from typing import cast
 
+from warehouse_layout.message_enums import OrderEventKind, PickOutcome, StationMode
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.order_book import OrderBook
 from warehouse_operations.shift.picking import Picking
@@ -13,7 +14,6 @@ from warehouse_operations.shift.taking_back import TakingBack
 from warehouse_operations.shift.task_reports import Answer, Report, TaskNumbers
 from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind, Outcome
 from warehouse_operations.stock.orders import Bundle, Line
 from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
@@ -94,7 +94,7 @@ class ManualPicking:
         """Carries out a Report of a Pick."""
         # The pick is of the unit at the station: task() found it there.
         visit, one, sku = cast(Visit, station.here), pick.bin, pick.line.sku
-        if report.outcome == Outcome.DONE:
+        if report.outcome == PickOutcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
             taken = visit, pick, report.quantity
@@ -103,11 +103,11 @@ class ManualPicking:
             self._picking.leave_if_done(station)
             when = self._clock.now
             return Answer(True, "", report.quantity, lambda: self._taking_back.pick(*taken, when))
-        is_empty = report.outcome == Outcome.SHORT and not report.quantity
+        is_empty = report.outcome == PickOutcome.SHORT and not report.quantity
         lacking = one.quantity if is_empty else report.quantity
         if not 0 < lacking <= one.quantity:
             return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
-        reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
+        reason = Reason.SHORT if report.outcome == PickOutcome.SHORT else Reason.DAMAGED
         lines = self._write_off(visit, one, lacking, reason)
         undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
         return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
@@ -215,7 +215,7 @@ class ManualReplenishing:
         """Carries out a Report of a Bundle."""
         # The bundle is for the unit at the station: task() found it there.
         visit, there = cast(Visit, station.here), bundle.quantity
-        if report.outcome == Outcome.DONE:
+        if report.outcome == PickOutcome.DONE:
             if report.quantity != there:
                 return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
             self._replenishing.put(visit, bundle)
@@ -271,7 +271,7 @@ class ManualStations:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        if station.mode != Mode.MANUAL:
+        if station.mode != StationMode.MANUAL:
             return False, f"{name} works by itself"
         station.attended = self._clock.now
         return self.part_of(station).confirm(station, sku, quantity)

@@ -5,10 +5,10 @@ import itertools
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.notices import Notices
 from warehouse_operations.stock import acceptance
-from warehouse_operations.stock.message_enums import OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Backlog, Order
 
 TOO_MANY = f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"

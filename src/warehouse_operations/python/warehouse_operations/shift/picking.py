@@ -5,6 +5,7 @@ import math
 from collections import defaultdict
 from collections.abc import Sequence
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState, StationMode
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
 from warehouse_operations.shift.context import Context
@@ -13,7 +14,6 @@ from warehouse_operations.shift.task_reports import TaskNumbers
 from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.candidates import Candidates
 from warehouse_operations.stock.inventory import Bin
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
@@ -257,7 +257,7 @@ class Picking:
     def next_piece(self, station: WorkStation) -> None:
         """Starts picking the next pieces, as many as pickers are free, if a unit is there."""
         visit = station.here
-        if not visit or station.mode == Mode.MANUAL:
+        if not visit or station.mode == StationMode.MANUAL:
             return
         while station.at_work < station.pickers and station.reaching < visit.pieces_to_pick:
             self._reach(station, visit)

@@ -7,6 +7,7 @@ from itertools import islice
 
 import numpy as np
 
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
 from warehouse_operations.shift.context import Context
@@ -14,7 +15,6 @@ from warehouse_operations.shift.task_reports import TaskNumbers
 from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.goods_in import GoodsIn
 from warehouse_operations.stock.inventory import Bin
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.stock.orders import Bundle
 from warehouse_operations.stock.stations import Visit, WorkStation
 
@@ -140,7 +140,7 @@ class Replenishing:
     def next_bundle(self, station: WorkStation) -> None:
         """Starts putting in the next bundle, if the station is free and a unit is there."""
         visit = station.here
-        if station.at_work or not visit or not visit.puts or station.mode == Mode.MANUAL:
+        if station.at_work or not visit or not visit.puts or station.mode == StationMode.MANUAL:
             return
         station.at_work = 1
         now = self._clock.now

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
 from warehouse_operations.shift import kpis
@@ -37,7 +38,6 @@ from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.event_queue import Clock
 from warehouse_operations.stock.goods_in import GoodsIn
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
@@ -264,12 +264,12 @@ class Shift:
         return self._stations.values()
 
     def set_station(self, name: str, is_open: bool, mode: int) -> tuple[bool, str]:
-        """Opens or closes a station and sets its Mode. Returns success and the fault."""
+        """Opens or closes a station and sets its StationMode. Returns success and the fault."""
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
         station.set_open(bool(is_open), self.now)
-        station.mode, station.attended = Mode(mode), self.now
+        station.mode, station.attended = StationMode(mode), self.now
         self._transports.set_open(name, station.is_open)
         parts: list[Picking | Replenishing] = [self.picking] if station.picks else []
         parts += [self.replenishing] if station.replenishes else []

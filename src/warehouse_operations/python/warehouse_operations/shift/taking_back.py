@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes confirmations of people back while the unit that they are about is still there."""
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState, StationMode
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.order_book import OrderBook
 from warehouse_operations.shift.picking import Picking
 from warehouse_operations.shift.task_reports import TaskNumbers
 from warehouse_operations.stock.inventory import Bin, Reason, StockError
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Bundle, Order
 from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
@@ -92,7 +92,7 @@ class TakingBack:
 def _away(visit: Visit) -> str:
     if not visit.here:
         return f"storage unit {visit.unit} has left {visit.station.name}"
-    if visit.station.mode != Mode.MANUAL:
+    if visit.station.mode != StationMode.MANUAL:
         return f"{visit.station.name} works by itself"
     return ""
 

@@ -5,7 +5,7 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from warehouse_operations.stock.message_enums import Outcome
+from warehouse_layout.message_enums import PickOutcome
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Report:
     item: str
     sequence: int
     quantity: int
-    outcome: Outcome
+    outcome: PickOutcome
     id: str = field(default="", compare=False)
 
 

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from warehouse_layout.message_enums import PickOutcome, StationMode
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.task_reports import Answer, Report
-from warehouse_operations.stock.message_enums import Mode, Outcome
 from warehouse_operations.stock.stations import WorkStation
 
 KEPT = 10_000  # reports that are known when they come again
@@ -95,7 +95,7 @@ class Tasks:
             return False, f"nothing was reported at {station} under {sequence}"
         if done.undone:
             return True, ""
-        is_write_off = done.report.outcome != Outcome.DONE  # else: until the unit leaves
+        is_write_off = done.report.outcome != PickOutcome.DONE  # else: until the unit leaves
         if is_write_off and self._clock.now - done.time > UNDO_WITHIN:
             return False, f"it was written off more than {UNDO_WITHIN:g} s ago"
         refusal = done.answer.undo()
@@ -106,7 +106,7 @@ class Tasks:
         station = self._stations.get(name)
         if not station:
             return None, f"there is no station '{name}'"
-        return station, "" if station.mode == Mode.MANUAL else f"{name} works by itself"
+        return station, "" if station.mode == StationMode.MANUAL else f"{name} works by itself"
 
     def _keep(self, done: Done) -> None:
         self._done[done.report.sequence] = done

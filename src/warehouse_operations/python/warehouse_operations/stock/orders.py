@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from warehouse_operations.stock.message_enums import OrderState
+from warehouse_layout.message_enums import OrderState
 
 
 class Line:

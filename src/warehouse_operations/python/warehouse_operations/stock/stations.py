@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations.stock.inventory import Bin, Inventory
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.totes import Totes
@@ -79,7 +79,7 @@ class WorkStation:
         began: float = 0.0,
     ) -> None:
         self.name, self.kind = place.name, place.kind
-        self.mode, self.inventory, self.settings = Mode.AUTOMATIC, inventory, settings
+        self.mode, self.inventory, self.settings = StationMode.AUTOMATIC, inventory, settings
         self.is_open, self._opened, self._open_s = True, began, 0.0
         self.picks = place.kind == PICK
         self.replenishes = settings.replenishes or not self.picks
@@ -151,7 +151,7 @@ class WorkStation:
     def waiting(self, now: float) -> float:
         """Returns how long a task has waited for a person [s]; 0 without one."""
         visit = self.here
-        if self.mode != Mode.MANUAL or not visit or visit.arrived is None:
+        if self.mode != StationMode.MANUAL or not visit or visit.arrived is None:
             return 0.0
         if not (visit.picks or visit.puts):
             return 0.0

@@ -8,11 +8,11 @@ from typing import Any
 
 from sqlalchemy import func, select, update
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState
 from warehouse_operations.shift.journal import Journal
 from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Visit
 from warehouse_operations.stock.stored_warehouse import Stored

@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import and_, exists, func, or_, select
 from sqlalchemy.engine import Engine
 
-from warehouse_operations.stock.message_enums import OrderState
+from warehouse_layout.message_enums import OrderState
 from warehouse_operations.store import schema
 
 MOST_ROWS = 10_000  # in an answer

@@ -10,11 +10,11 @@ import numpy as np
 from sqlalchemy import Table, and_, func, or_, select
 from sqlalchemy.engine import Connection, Engine
 
+from warehouse_layout.message_enums import OrderState, PickOutcome
 from warehouse_operations.shift.tally import INTERVAL
 from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderState, Outcome
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.store import schema
@@ -113,7 +113,7 @@ def reports(engine: Engine, most: int) -> list[tuple[Report, Answer]]:
 
 def _report(row: Any) -> Report:
     named = row.station, row.order_id, row.item, row.sequence
-    return Report(*named, row.quantity, Outcome(row.outcome), row.code)
+    return Report(*named, row.quantity, PickOutcome(row.outcome), row.code)
 
 
 def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:

@@ -6,8 +6,8 @@ import time
 import pytest
 from operations_site import site
 
+from warehouse_layout.message_enums import OrderState
 from warehouse_operations import Operations
-from warehouse_operations.stock.message_enums import OrderState
 from warehouse_operations.store.database import open_engine
 from warehouse_operations.store.queries import find_orders, find_stock
 
