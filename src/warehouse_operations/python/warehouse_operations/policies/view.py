@@ -89,15 +89,15 @@ class View:
     def work(self, unit: int) -> int:
         """Returns how many free pieces on a unit the orders of the backlog ask for."""
         demand, pieces = self.backlog.demand, 0
-        for one in self.inventory.of_unit[unit]:
-            wanted = demand.get(one.sku)
-            if wanted:
-                pieces += min(one.quantity - one.reserved, wanted)
+        for bin_ in self.inventory.of_unit[unit]:
+            asked = demand.get(bin_.sku)
+            if asked:
+                pieces += min(bin_.quantity - bin_.reserved, asked)
         return pieces
 
     def room(self, unit: int) -> int:
         """Returns how many pieces can be put into a unit's bins."""
-        return sum(one.room for one in self.inventory.of_unit[unit])
+        return sum(bin_.room for bin_ in self.inventory.of_unit[unit])
 
     def sku_to_refill(self) -> str | None:
         """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""

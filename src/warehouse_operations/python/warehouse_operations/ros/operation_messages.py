@@ -75,14 +75,16 @@ def _order_status(order: Any, order_id: int, lines: Sequence[Any]) -> msg.OrderS
     )
 
 
-def stock_place(one: Bin) -> msg.StockPlace:
+def stock_place(bin_: Bin) -> msg.StockPlace:
     """Returns the StockPlace of a Bin, or of its row in the database."""
-    return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+    return msg.StockPlace(
+        bin_.item, bin_.unit, bin_.sku, bin_.quantity, bin_.reserved, bin_.capacity
+    )
 
 
 def station_states(stations: Iterable[WorkStation], now: float) -> msg.StationStates:
     """Returns the StationStates at `now` [s]."""
-    states = [_station_state(one, now) for one in stations]
+    states = [_station_state(station, now) for station in stations]
     return msg.StationStates(header=header(now), stations=states)
 
 

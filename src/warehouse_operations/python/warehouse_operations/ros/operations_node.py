@@ -265,10 +265,10 @@ class OperationsNode:
 
     def _publish_changes(self, now: float) -> None:
         """Publishes orders and bins as they are now, if they have changed."""
-        orders = [operation_messages.order_status(one) for one in self._changes.take_orders()]
+        orders = [operation_messages.order_status(order) for order in self._changes.take_orders()]
         if orders:
             self._orders.publish(msg.OrderStatuses(header(now), orders))
-        places = [operation_messages.stock_place(one) for one in self._changes.take_bins()]
+        places = [operation_messages.stock_place(bin_) for bin_ in self._changes.take_bins()]
         if places:
             self._stock.publish(msg.StockPlaces(header(now), places))
 

@@ -125,7 +125,7 @@ class ShiftServices:
         return srv.UndoWriteOffResponse(*done)
 
     def _find_orders(self, request: Any) -> Any:
-        total, found = queries.find_orders(
+        total, orders = queries.find_orders(
             self._host.engine,
             request.order_id,
             request.search,
@@ -134,17 +134,17 @@ class ShiftServices:
             request.offset,
             self._host.shift.now if request.late else None,
         )
-        return srv.FindOrdersResponse(total, [stored_order_status(*one) for one in found])
+        return srv.FindOrdersResponse(total, [stored_order_status(*row) for row in orders])
 
     def _find_stock(self, request: Any) -> Any:
-        total, pieces, found = queries.find_stock(
+        total, pieces, bins = queries.find_stock(
             self._host.engine, request.sku, request.limit, request.offset
         )
-        return srv.FindStockResponse(total, pieces, [stock_place(one) for one in found])
+        return srv.FindStockResponse(total, pieces, [stock_place(bin_) for bin_ in bins])
 
     def _find_skus(self, request: Any) -> Any:
         inventory = self._host.shift.inventory
-        found = queries.matching(self._host.shift.assortment.skus, request.search)
-        shown = found[: min(request.limit, queries.MOST_ROWS)]
+        matching = queries.matching(self._host.shift.assortment.skus, request.search)
+        shown = matching[: min(request.limit, queries.MOST_ROWS)]
         available = [max(0, inventory.available(sku)) for sku in shown]
-        return srv.FindSkusResponse(len(found), shown, available)
+        return srv.FindSkusResponse(len(matching), shown, available)

@@ -66,11 +66,11 @@ def open_shift(
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
-    stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
+    stock_rng, demand_rng, policy_rng = (np.random.default_rng(seeds) for seeds in chance.spawn(3))
     if stored and database:
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
-        stock = [(one, 0) for one in (*stored.bins, *changed.new)]
+        stock = [(bin_, 0) for bin_ in (*stored.bins, *changed.new)]
     elif site.stock:
         assortment, stock = told(site.items, site.stock, stock_rng)
     else:
@@ -83,11 +83,11 @@ def open_shift(
     shift = Shift(
         transports,
         assortment,
-        [one for one, _ in stock],
+        [bin_ for bin_, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
         demand=make_demand(
-            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+            orders, assortment, count, demand_rng, now, sum(bin_.capacity for bin_, _ in stock)
         ),
         settings=settings,
         journal=journal,

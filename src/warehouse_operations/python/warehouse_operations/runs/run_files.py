@@ -153,7 +153,7 @@ def _station(station: WorkStation, plan: FloorPlan, now: float) -> dict[str, Any
 
 def _cell(name: str, plan: FloorPlan) -> list[int]:
     """Returns [x, y] of the cell in which units stand at a station."""
-    place = next(one for one in plan.stations if one.name == name)
+    place = next(station for station in plan.stations if station.name == name)
     return list(divmod(place.service_cell, plan.shape[1]))[::-1]
 
 

@@ -112,11 +112,11 @@ def with_settings(description: Description) -> Description:
     """Returns the Description completed by its settings file where it has defaults."""
     if not description.settings:
         return description
-    told, default = read_settings(description.settings), Description()
+    settings, default = read_settings(description.settings), Description()
     return replace(
         description,
-        orders=told.orders if description.orders == default.orders else description.orders,
-        policies=told.policies | description.policies,
+        orders=settings.orders if description.orders == default.orders else description.orders,
+        policies=settings.policies | description.policies,
     )
 
 
@@ -125,23 +125,25 @@ def remarks(description: Description) -> list[str]:
 
     Raises one of ERRORS.
     """
-    told: list[str] = []
+    sentences: list[str] = []
     if description.settings:
-        told += read_settings(description.settings).not_followed
+        sentences += read_settings(description.settings).not_followed
     if description.instance and not description.physics:
         jams = _jams(description.instance, read_instance(description.instance))
-        told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        sentences += (
+            [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        )
     if description.layout and not description.physics:
         file = layout_choice.chosen(description.layout)
-        told += [f"{description.layout}: {text}" for text in _of_bodies(file)]
-    return told
+        sentences += [f"{description.layout}: {text}" for text in _of_bodies(file)]
+    return sentences
 
 
 def _of_bodies(file: LayoutFile) -> list[str]:
     """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
     ideal ones, too."""
     faults = file_check.faults(file)
-    return [one.text for one in faults] if all(one.is_of_bodies for one in faults) else []
+    return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
 
 
 def _jams(path: str, site: Site) -> str:
@@ -161,8 +163,8 @@ def open_operations(description: Description, database: str | None = None) -> Op
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
-            told = read_settings(description.settings)
-            site = replace(site, level=told.level or site.level)
+            settings = read_settings(description.settings)
+            site = replace(site, level=settings.level or site.level)
         world = None
         if description.physics:
             if jams := _jams(description.instance, site):

@@ -101,11 +101,11 @@ def read(path: str | Path) -> Sweep:
     folder = path.parent / data.get("out", path.stem)
     jobs = []
     for point in _points(path, data.get("grid") or {}):
-        one = _description(path, data, point)
+        description = _description(path, data, point)
         words = [f"{key.rpartition('.')[2]}={_word(value)}" for key, value in point.items()]
         name = re.sub(r"[^\w=.,-]+", "-", ",".join(words)) or _only(data)
         for seed in _seeds(path, data.get("seeds", 1)):
-            jobs.append((replace(one, seed=seed), folder / name / f"seed-{seed}"))
+            jobs.append((replace(description, seed=seed), folder / name / f"seed-{seed}"))
     return Sweep(folder, tuple(jobs))
 
 
@@ -198,9 +198,9 @@ def _only(data: dict[str, Any]) -> str:
     return "" if data.get("out") == "." else "all"
 
 
-def _beside(path: Path, given: str) -> str:
+def _beside(path: Path, name: str) -> str:
     """Returns a file that a sweep names, by the same path whichever folder that is seen from."""
-    return os.path.abspath(path.parent / given)
+    return os.path.abspath(path.parent / name)
 
 
 def _orders_beside(path: Path, orders: str) -> str:
@@ -221,21 +221,21 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
     for key, value in point.items():
         if key.startswith("policies."):
             policies[key.removeprefix("policies.")] = value
-    known = {one.name for one in fields(Description)}
-    given = {key: merged[key] for key in merged.keys() & known}
+    known = {field.name for field in fields(Description)}
+    options = {key: merged[key] for key in merged.keys() & known}
     for key in ("layout", "instance", "settings"):
-        if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
-            given[key] = _beside(path, given[key])
-    if "orders" in given:
-        given["orders"] = _orders_beside(path, given["orders"])
-    sites = [key for key in ("size", "layout", "instance") if key in given]
+        if options.get(key) and not (key == "layout" and layout_choice.is_preset(options[key])):
+            options[key] = _beside(path, options[key])
+    if "orders" in options:
+        options["orders"] = _orders_beside(path, options["orders"])
+    sites = [key for key in ("size", "layout", "instance") if key in options]
     if len(sites) > 1:
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
-        given |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
-        one = with_settings(Description(**given))
-        one.config  # noqa: B018 - policies that don't exist are told before anything runs
-        return one
+        options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
+        description = with_settings(Description(**options))
+        description.config  # noqa: B018 - policies that don't exist are told before anything runs
+        return description
     except (TypeError, ValueError, *ERRORS) as error:
         raise SweepError(f"{path}: {error}") from error
 

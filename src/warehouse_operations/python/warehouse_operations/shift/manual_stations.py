@@ -55,17 +55,17 @@ class ManualPicking:
         visit, picks = self._asked(station, sku)
         if not visit or not picks:
             return False, f"none of {sku} is asked for at {station.name} now"
-        one = picks[0].bin
-        if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in stock in {one.item}"
-        self._write_off(visit, one, lacking, reason)
+        bin_ = picks[0].bin
+        if not 0 < lacking <= bin_.quantity:
+            return False, f"{bin_.quantity} of {sku} are in stock in {bin_.item}"
+        self._write_off(visit, bin_, lacking, reason)
         return True, ""
 
-    def _write_off(self, visit: Visit, one: Bin, lacking: int, reason: Reason) -> list[Line]:
+    def _write_off(self, visit: Visit, bin_: Bin, lacking: int, reason: Reason) -> list[Line]:
         """Writes off pieces of a bin; returns the lines that were to be served from it."""
-        station, sku = visit.station, one.sku
-        lines = [line for _, line in self._picking.drop_bin(one)]
-        self._inventory.move(one, sku, -lacking, reason, station=station)
+        station, sku = visit.station, bin_.sku
+        lines = [line for _, line in self._picking.drop_bin(bin_)]
+        self._inventory.move(bin_, sku, -lacking, reason, station=station)
         for line in lines:
             fields = sku, lacking, station.name, visit.unit, reason.value
             self._order_book.publish_event(line.order, OrderEventKind.SHORT, *fields)
@@ -93,7 +93,7 @@ class ManualPicking:
     def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
         """Carries out a Report of a Pick."""
         # The pick is of the unit at the station: task() found it there.
-        visit, one, sku = cast(Visit, station.here), pick.bin, pick.line.sku
+        visit, bin_, sku = cast(Visit, station.here), pick.bin, pick.line.sku
         if report.outcome == PickOutcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
@@ -104,16 +104,16 @@ class ManualPicking:
             when = self._clock.now
             return Answer(True, "", report.quantity, lambda: self._taking_back.pick(*taken, when))
         is_empty = report.outcome == PickOutcome.SHORT and not report.quantity
-        lacking = one.quantity if is_empty else report.quantity
-        if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
+        lacking = bin_.quantity if is_empty else report.quantity
+        if not 0 < lacking <= bin_.quantity:
+            return Answer(False, f"{bin_.quantity} of {sku} are in stock in {bin_.item}")
         reason = Reason.SHORT if report.outcome == PickOutcome.SHORT else Reason.DAMAGED
-        lines = self._write_off(visit, one, lacking, reason)
-        undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
-        return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
+        lines = self._write_off(visit, bin_, lacking, reason)
+        undo = lambda: self._put_back(station, bin_, (sku, lacking), lines)  # noqa: E731
+        return Answer(True, f"{lacking} of {sku} in {bin_.item} are written off", lacking, undo)
 
     def _put_back(
-        self, station: WorkStation, one: Bin, pieces: tuple[str, int], lines: list[Line]
+        self, station: WorkStation, bin_: Bin, pieces: tuple[str, int], lines: list[Line]
     ) -> str:
         """Puts (SKU, pieces) that were written off back into their bin.
 
@@ -121,18 +121,18 @@ class ManualPicking:
         them, or "".
         """
         sku, quantity = pieces
-        if one.room < quantity or not (one.empty or one.sku == sku):
-            return f"{one.item} has no room for {quantity} of {sku} any more"
-        self._inventory.move(one, sku, quantity, Reason.UNDONE, station=station)
+        if bin_.room < quantity or not (bin_.empty or bin_.sku == sku):
+            return f"{bin_.item} has no room for {quantity} of {sku} any more"
+        self._inventory.move(bin_, sku, quantity, Reason.UNDONE, station=station)
         visit = station.here
-        if visit and visit.unit == one.unit:
+        if visit and visit.unit == bin_.unit:
             for line in lines:
                 if line.order.order_id in station.orders:
                     self._take_from_others(station, line)
                     self._picking.allot(station, line)
-            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not one))
-        elif one.unit in self._visits.free_units:
-            self._picking.on_unit_free(one.unit)
+            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not bin_))
+        elif bin_.unit in self._visits.free_units:
+            self._picking.on_unit_free(bin_.unit)
         return ""
 
     def _take_from_others(self, station: WorkStation, line: Line) -> None:

@@ -76,15 +76,15 @@ class Picking:
 
     def on_unit_free(self, unit: int) -> None:
         """Lets stations fetch a unit that is back in storage, if it holds what they lack."""
-        for one in self._inventory.of_unit[unit]:
-            if one.available and one.sku in self._missing:
-                for station in self._missing[one.sku].values():
+        for bin_ in self._inventory.of_unit[unit]:
+            if bin_.available and bin_.sku in self._missing:
+                for station in self._missing[bin_.sku].values():
                     self._to_fetch[station] = None
 
     def work(self) -> None:
         """Assigns orders and asks for units where something has changed."""
         while self._to_assign or self._to_fetch:
-            for station in sorted(self._to_assign, key=lambda one: -one.free_slots):
+            for station in sorted(self._to_assign, key=lambda station: -station.free_slots):
                 self._assign(station)
             self._to_assign.clear()
             stations, self._to_fetch = self._to_fetch, {}
@@ -130,19 +130,19 @@ class Picking:
     def allot(self, station: WorkStation, line: Line) -> None:
         """Reserves for a line what units at its station or on their way there can serve."""
         for visit in station.coming_for(replenishes=False):
-            for one in self._inventory.of_unit[visit.unit]:
-                pieces = min(line.missing, one.available) if one.sku == line.sku else 0
+            for bin_ in self._inventory.of_unit[visit.unit]:
+                pieces = min(line.missing, bin_.available) if bin_.sku == line.sku else 0
                 if pieces > 0:
-                    self._reserve(visit, line, one, pieces)
+                    self._reserve(visit, line, bin_, pieces)
         self._note(station, line)
         here = station.here
         if here and here.picks:
             self.next_piece(station)
 
-    def _reserve(self, visit: Visit, line: Line, one: Bin, pieces: int) -> None:
-        self._inventory.reserve(one, pieces)
+    def _reserve(self, visit: Visit, line: Line, bin_: Bin, pieces: int) -> None:
+        self._inventory.reserve(bin_, pieces)
         line.allotted += pieces
-        visit.picks.append(Pick(line, one, pieces, self._task_numbers.number()))
+        visit.picks.append(Pick(line, bin_, pieces, self._task_numbers.number()))
 
     def _note(self, station: WorkStation, line: Line) -> None:
         """Notes whether units are to be fetched for a line."""
@@ -188,9 +188,9 @@ class Picking:
             self._note(visit.station, line)
         self._to_fetch[visit.station] = None  # there is room for another one
 
-    def drop_bin(self, one: Bin) -> list[tuple[Visit, Line]]:
+    def drop_bin(self, bin_: Bin) -> list[tuple[Visit, Line]]:
         """Drops all picks from a bin; returns the visit and line of each."""
-        dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
+        dropped = [(v, p) for v in self._visits_of(bin_.unit) for p in v.picks if p.bin is bin_]
         for visit, pick in dropped:
             self.drop(visit, pick)
         return [(visit, pick.line) for visit, pick in dropped]

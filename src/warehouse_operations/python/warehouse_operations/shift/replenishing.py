@@ -79,10 +79,10 @@ class Replenishing:
         for bundle in islice(self._goods_in.bundles.values(), LOOK_AHEAD):
             candidates = self._within_reach(station, self._candidates(bundle))
             if candidates:
-                one = self._policies.bins.choose(bundle, candidates, self._view)
-                visit = self._visits.request(one.unit, station, replenishes=True)
+                bin_ = self._policies.bins.choose(bundle, candidates, self._view)
+                visit = self._visits.request(bin_.unit, station, replenishes=True)
                 if visit:
-                    self._place(bundle, one, visit)
+                    self._place(bundle, bin_, visit)
                     self._fill_up(visit)
                     return True
                 self._clock.schedule(self._clock.now + RETRY, self._retry)
@@ -97,10 +97,10 @@ class Replenishing:
         inventory, free = self._inventory, self._visits.free_units
         both = (inventory.with_sku(bundle.sku), inventory.empty.values())
         return [
-            one
+            bin_
             for bins in both
-            for one in bins
-            if one.unit in free and inventory.takes(one, bundle.sku, bundle.quantity)
+            for bin_ in bins
+            if bin_.unit in free and inventory.takes(bin_, bundle.sku, bundle.quantity)
         ]
 
     def _within_reach(self, station: WorkStation, bins: list[Bin]) -> list[Bin]:
@@ -108,26 +108,26 @@ class Replenishing:
         floor = self._view.floor
         if not bins or np.isinf(floor.reach):
             return bins
-        seconds = floor.seconds_to_all(station.name, np.array([one.unit for one in bins]))
+        seconds = floor.seconds_to_all(station.name, np.array([bin_.unit for bin_ in bins]))
         is_near = seconds <= seconds.min() + floor.reach
-        return [one for one, near in zip(bins, is_near.tolist()) if near]
+        return [bin_ for bin_, near in zip(bins, is_near.tolist()) if near]
 
     def _fill_up(self, visit: Visit) -> None:
         """Adds other waiting bundles that have a place on the same unit to its visit."""
         inventory = self._inventory
         bins = inventory.of_unit[visit.unit]
         for bundle in list(self._goods_in.bundles.values()):
-            places = [one for one in bins if inventory.takes(one, bundle.sku, bundle.quantity)]
-            same = [one for one in places if one.sku == bundle.sku]
+            places = [bin_ for bin_ in bins if inventory.takes(bin_, bundle.sku, bundle.quantity)]
+            same = [bin_ for bin_ in places if bin_.sku == bundle.sku]
             if same:
-                self._place(bundle, min(same, key=lambda one: one.room), visit)
+                self._place(bundle, min(same, key=lambda bin_: bin_.room), visit)
             elif places and self._view.stock_of(bundle.sku) < bundle.quantity:
                 self._place(bundle, places[0], visit)
 
-    def _place(self, bundle: Bundle, one: Bin, visit: Visit) -> None:
+    def _place(self, bundle: Bundle, bin_: Bin, visit: Visit) -> None:
         self._goods_in.remove(bundle)
-        bundle.bin, bundle.sequence = one, self._task_numbers.number()
-        self._inventory.expect(one, bundle.sku, bundle.quantity)
+        bundle.bin, bundle.sequence = bin_, self._task_numbers.number()
+        self._inventory.expect(bin_, bundle.sku, bundle.quantity)
         visit.puts.append(bundle)
 
     # At the station.
@@ -172,10 +172,10 @@ class Replenishing:
             self._return(bundle)
         visit.puts = deque()
 
-    def drop_bin(self, one: Bin) -> None:
+    def drop_bin(self, bin_: Bin) -> None:
         """Queues the bundles again that were meant for a bin."""
-        for visit in [v for s in self.stations for v in s.inbound.values() if v.unit == one.unit]:
-            dropped = [bundle for bundle in visit.puts if bundle.bin is one]
+        for visit in [v for s in self.stations for v in s.inbound.values() if v.unit == bin_.unit]:
+            dropped = [bundle for bundle in visit.puts if bundle.bin is bin_]
             for bundle in dropped:
                 visit.puts.remove(bundle)
                 self._return(bundle)

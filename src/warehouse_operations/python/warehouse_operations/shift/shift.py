@@ -146,9 +146,9 @@ class Shift:
 
     def begin(self, stock: Iterable[tuple[Bin, int]]) -> None:
         """Lays the first stock, pairs (bin, pieces), into the bins."""
-        for one, pieces in stock:
+        for bin_, pieces in stock:
             if pieces:
-                self.inventory.move(one, one.sku, pieces, Reason.INITIAL)
+                self.inventory.move(bin_, bin_.sku, pieces, Reason.INITIAL)
 
     def resume(self, stored: Stored, changed: Changes) -> None:
         """Goes on with the orders of a Stored warehouse, whose bins this shift was given.
@@ -157,9 +157,9 @@ class Shift:
         """
         if text := str(changed):
             self.notices.add(text)
-        for one in changed.gone:
-            self.fallen.forget(one)
-            self.inventory.write_off(one)
+        for bin_ in changed.gone:
+            self.fallen.forget(bin_)
+            self.inventory.write_off(bin_)
         self.inventory.house(self.assortment.skus)
         self.inventory.blocked |= stored.blocked
         self.visits.free_units -= stored.blocked
@@ -196,10 +196,10 @@ class Shift:
     def _submit_due_orders(self) -> None:
         if not self.demand:
             return
-        for wanted in self.demand.due(self.now, self.backlog, self.order_book.unpromised):
-            order, why = self.submit(wanted.lines, wanted.due, wanted.priority, wanted.reference)
+        for draft in self.demand.due(self.now, self.backlog, self.order_book.unpromised):
+            order, why = self.submit(draft.lines, draft.due, draft.priority, draft.reference)
             if not order:
-                self.notices.add(f"order {wanted.reference} is refused: {why}")
+                self.notices.add(f"order {draft.reference} is refused: {why}")
 
     def _refill(self, _: None) -> None:
         self.replenishing.refill()

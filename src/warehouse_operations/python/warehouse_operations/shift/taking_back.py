@@ -40,15 +40,15 @@ class TakingBack:
 
     def put(self, visit: Visit, bundle: Bundle, when: float) -> str:
         """Takes a bundle that was put in at a time [s] out again, to be put in next."""
-        one, sku, pieces = bundle.bin, bundle.sku, bundle.quantity
+        bin_, sku, pieces = bundle.bin, bundle.sku, bundle.quantity
         if refusal := _away(visit):
             return refusal
         context = {"station": visit.station, "visit": visit}
         try:
-            self._inventory.move(one, sku, -pieces, Reason.UNDONE, **context)
+            self._inventory.move(bin_, sku, -pieces, Reason.UNDONE, **context)
         except StockError:
-            return f"pieces of {sku} in {one.item} are promised to orders by now"
-        self._inventory.expect(one, sku, pieces)
+            return f"pieces of {sku} in {bin_.item} are promised to orders by now"
+        self._inventory.expect(bin_, sku, pieces)
         self._context.tally.unstored(when, bundle)
         self._count_out(visit, pieces)
         bundle.sequence = self._task_numbers.number()
@@ -97,7 +97,7 @@ def _away(visit: Visit) -> str:
     return ""
 
 
-def _no_room(one: Bin, sku: str, pieces: int) -> str:
-    if one.room >= pieces and (one.empty or one.sku == sku):
+def _no_room(bin_: Bin, sku: str, pieces: int) -> str:
+    if bin_.room >= pieces and (bin_.empty or bin_.sku == sku):
         return ""
-    return f"{one.item} has no room for {pieces} of {sku} any more"
+    return f"{bin_.item} has no room for {pieces} of {sku} any more"

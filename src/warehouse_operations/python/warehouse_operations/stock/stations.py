@@ -169,7 +169,7 @@ class WorkStation:
     def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
         stock: dict[str, int] = defaultdict(int)
         for visit in visits:
-            for one in self.inventory.of_unit[visit.unit]:
-                if one.available:
-                    stock[one.sku] += one.available
+            for bin_ in self.inventory.of_unit[visit.unit]:
+                if bin_.available:
+                    stock[bin_.sku] += bin_.available
         return stock

@@ -45,7 +45,7 @@ class Changes:
     def __str__(self) -> str:
         sentences = []
         if self.gone:
-            pieces = sum(one.quantity + (one.fallen or 0) for one in self.gone)
+            pieces = sum(bin_.quantity + (bin_.fallen or 0) for bin_ in self.gone)
             sentences.append(f"{_named(self.gone)} gone: {pieces} pieces are written off")
         if self.new:
             sentences.append(f"{_named(self.new)} new, and still empty")
@@ -56,7 +56,7 @@ class Changes:
 
 def _named(bins: Sequence[Bin]) -> str:
     """Returns words for bins with the first units by name, and the verb."""
-    units = sorted({one.unit for one in bins})
+    units = sorted({bin_.unit for bin_ in bins})
     names = ", ".join(map(str, units[:5])) + (f" and {len(units) - 5} more" if units[5:] else "")
     which = f"{len(bins)} bins" if len(bins) > 1 else bins[0].item
     where = f"storage unit{'s' if len(units) > 1 else ''} {names}"

@@ -77,29 +77,29 @@ class DatabaseJournal(Journal):
 
     def take_in(self, bins: Iterable[Bin], moved: Iterable[Bin] = ()) -> None:
         """Writes bins that are new, still empty, and those that are on another unit now."""
-        for unit in dict.fromkeys(one.unit for one in (*bins, *moved)):
+        for unit in dict.fromkeys(bin_.unit for bin_ in (*bins, *moved)):
             if unit not in self._units:
                 self._units.add(unit)
                 self._rows.insert(schema.unit, unit, in_service=1)
-        for one in bins:
-            put = self._rows.update if one.bin_id in self._bins else self._rows.insert
+        for bin_ in bins:
+            put = self._rows.update if bin_.bin_id in self._bins else self._rows.insert
             put(
                 schema.bin_,
-                one.bin_id,
-                item=one.item,
-                unit=one.unit,
-                sku=one.sku,
+                bin_.bin_id,
+                item=bin_.item,
+                unit=bin_.unit,
+                sku=bin_.sku,
                 quantity=0,
                 reserved=0,
-                capacity=one.capacity,
+                capacity=bin_.capacity,
             )
-        for one in moved:
-            self._rows.update(schema.bin_, one.bin_id, unit=one.unit)
+        for bin_ in moved:
+            self._rows.update(schema.bin_, bin_.bin_id, unit=bin_.unit)
 
     def gone(self, bins: Iterable[Bin]) -> None:
         """Writes bins that are no longer in the warehouse, and were written off."""
-        for one in bins:
-            self._rows.update(schema.bin_, one.bin_id, capacity=0)
+        for bin_ in bins:
+            self._rows.update(schema.bin_, bin_.bin_id, capacity=0)
 
     def resume(self, stored: Stored) -> None:
         """What an earlier run left under way has ended: its visits, assignments and promises. The

@@ -18,7 +18,10 @@ class SiteError(ValueError):
 def layout_of(site: Site) -> list[str]:
     """Returns the stations with their places [m], sorted: a warehouse is recognised by them."""
     plan = site.plan
-    places = ((one.name, *plan.point_of(int(one.cells[one.service]))) for one in plan.stations)
+    places = (
+        (station.name, *plan.point_of(int(station.cells[station.service])))
+        for station in plan.stations
+    )
     return sorted(f"{name} at ({x:.2f}, {y:.2f})" for name, x, y in places)
 
 
@@ -27,12 +30,12 @@ def changes(site: Site, stored: Stored, url: str) -> Changes:
 
     Raises SiteError if the database at url is of another warehouse.
     """
-    here, there = dict(site.items), {one.item for one in stored.bins}
-    gone = [one for one in stored.bins if one.item not in here]
-    moved = [one for one in stored.bins if one.unit != here.get(one.item, one.unit)]
+    here, there = dict(site.items), {bin_.item for bin_ in stored.bins}
+    gone = [bin_ for bin_ in stored.bins if bin_.item not in here]
+    moved = [bin_ for bin_ in stored.bins if bin_.unit != here.get(bin_.item, bin_.unit)]
     _check(layout_of(site), stored, len(gone), len(moved), url)
-    for one in moved:
-        one.unit = here[one.item]
+    for bin_ in moved:
+        bin_.unit = here[bin_.item]
     items = [(item, unit) for item, unit in here.items() if item not in there]
     return Changes(gone, _new_bins(items, stored, here), moved)
 
@@ -41,12 +44,12 @@ def _new_bins(
     items: Iterable[tuple[str, int]], stored: Stored, here: Mapping[str, int]
 ) -> list[Bin]:
     """Returns empty bins for items, each kept for the SKU with the fewest bins."""
-    count = Counter(one.sku for one in stored.bins if one.item in here)
+    count = Counter(bin_.sku for bin_ in stored.bins if bin_.item in here)
     rank = {sku: rank for rank, sku in enumerate(stored.assortment.skus)}
     numbers, result = itertools.count(stored.last_bin + 1), []
     for item, unit in items:
         number = stored.former.get(item) or next(numbers)
-        sku = min(rank, key=lambda one: (count[one], rank[one]))
+        sku = min(rank, key=lambda name: (count[name], rank[name]))
         count[sku] += 1
         result.append(Bin(number, item, unit, CAPACITY, sku))
     return result

@@ -47,8 +47,8 @@ def read(engine: Engine, now: float = 0.0) -> Stored | None:
 def _layout(connection: Connection) -> list[Any] | None:
     run = schema.run.c
     query = select(run.layout).where(run.layout.is_not(None)).order_by(run.id.desc()).limit(1)
-    found = connection.execute(query).scalar()
-    return None if found is None else json.loads(found)
+    layout = connection.execute(query).scalar()
+    return None if layout is None else json.loads(layout)
 
 
 def transports_left(engine: Engine) -> tuple[set[int], int | None]:
@@ -107,8 +107,8 @@ def reports(engine: Engine, most: int) -> list[tuple[Report, Answer]]:
     """Returns what people at stations reported under ids, the last ones, the oldest first."""
     rows = select(schema.report).order_by(schema.report.c.id.desc()).limit(most)
     with engine.connect() as connection:
-        found = list(connection.execute(rows))
-    return [(_report(row), Answer(True, row.message, row.done)) for row in reversed(found)]
+        newest = list(connection.execute(rows))
+    return [(_report(row), Answer(True, row.message, row.done)) for row in reversed(newest)]
 
 
 def _report(row: Any) -> Report:
@@ -152,9 +152,9 @@ def _bins(connection: Connection, skus: Iterable[str]) -> tuple[list[Bin], dict[
         if not row.capacity:
             former[row.item] = row.id
             continue
-        one = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
-        one.quantity, one.fallen = row.quantity, fallen.get(row.id)
-        result.append(one)
+        bin_ = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
+        bin_.quantity, bin_.fallen = row.quantity, fallen.get(row.id)
+        result.append(bin_)
     return result, former, last
 
 
@@ -163,7 +163,9 @@ def _fallen(connection: Connection) -> dict[int, int]:
     move = schema.move.c
     pieces = func.sum(move.quantity)
     query = select(move.bin, pieces).where(move.reason.in_((Reason.FELL, Reason.PICKED_UP)))
-    return {one: -n for one, n in connection.execute(query.group_by(move.bin).having(pieces < 0))}
+    return {
+        bin_id: -n for bin_id, n in connection.execute(query.group_by(move.bin).having(pieces < 0))
+    }
 
 
 def _orders(connection: Connection, now: float) -> list[Order]:
