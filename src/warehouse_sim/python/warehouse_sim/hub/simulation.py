@@ -40,7 +40,7 @@ class Simulation:
         self.state, self.reason = State.STOPPED, ""
         self.viewer = ""  # the address of its pages, "" while there are none
         self.process: Process | None = None
-        self.used = time.monotonic()  # when somebody last looked at it [s, wall]
+        self.used = time.monotonic()  # when its pages were last asked for [s, wall]
         self._begun = 0.0  # [s, wall]
         self._warehouse: dict[str, Any] = {}
 

@@ -180,7 +180,7 @@ class Simulations:
             idle = time.monotonic() - simulation.used
             if simulation.lives and idle > self._limits.idle:
                 hours = self._limits.idle / 3600
-                reason = f"nobody looked at its pages for {hours:g} hours"
+                reason = f"its pages were not asked for in {hours:g} hours"
                 await self._in_thread(simulation.stop, State.STOPPED, reason)
 
     async def close(self) -> None:

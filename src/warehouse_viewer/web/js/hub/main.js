@@ -115,11 +115,7 @@ class Page {
     tell($('log-title'), `Log of ${row.name}`);
     tell($('log-text'), '');
     $('log').showModal();
-    const show = (text) => {
-      tell($('log-text'), text);
-      $('log-text').scrollTop = $('log-text').scrollHeight;
-    };
-    server.follow(row.name, show, this.following.signal).catch((error) => {
+    server.follow(row.name, showLog, this.following.signal).catch((error) => {
       if (error.name !== 'AbortError') tell($('log-text'), error.message);
     });
   }
@@ -139,6 +135,11 @@ class Page {
     $('answer').dataset.kind = kind;
     tell($('answer'), text);
   }
+}
+
+function showLog(text) {
+  tell($('log-text'), text);
+  $('log-text').scrollTop = $('log-text').scrollHeight;
 }
 
 window.page = new Page(); // for a look from the console

@@ -13,8 +13,7 @@ export async function look(url) {
     ask('GET', `${url}api/v1/robots?limit=${MOST}`),
     ask('GET', `${url}api/v1/storage_units?limit=${MOST}`),
   ]);
-  const units_ = (units.storage_units ?? []).map(placeOf);
-  return { robots: (robots.robots ?? []).map(placeOf), units: units_ };
+  return { robots: (robots.robots ?? []).map(placeOf), units: (units.storage_units ?? []).map(placeOf) };
 }
 
 function placeOf(thing) {

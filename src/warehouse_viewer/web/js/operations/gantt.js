@@ -4,7 +4,7 @@
 
 import { onTheme } from '../base/charts.js';
 import { $, make, on } from '../base/dom.js';
-import { ROOT, at } from '../base/root.js';
+import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
@@ -209,6 +209,6 @@ export class Gantt {
 
   openOnFloor() {
     const row = this.rows[this.chosen]?.row;
-    if (row) location.href = at(row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`);
+    if (row) location.href = ROOT + (row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`);
   }
 }

@@ -133,7 +133,9 @@ def test_a_simulation_that_dies_says_why(hub):
     hub.wait_for("one", "RUNNING")
     below = descendants(hub.process.pid)
     (world,) = (
-        n for n in below if "kiva_world_node" in Path(f"/proc/{n}/cmdline").read_text().split("\0")[0]
+        n
+        for n in below
+        if "kiva_world_node" in Path(f"/proc/{n}/cmdline").read_text().split("\0")[0]
     )
     os.kill(world, signal.SIGKILL)
     row = hub.wait_for("one", "STOPPED")

@@ -3,9 +3,9 @@
 
 import pytest
 
-from warehouse_layout.generate import generator
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.request import PRESETS
+from warehouse_layout.generate import generator
 from warehouse_sim.hub import forms, wish
 from warehouse_sim.hub.wish import WishError
 
