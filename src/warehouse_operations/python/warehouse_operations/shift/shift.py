@@ -254,10 +254,6 @@ class Shift:
         """Returns the WorkStation of that name. Raises KeyError."""
         return self._stations[name]
 
-    def find_station(self, name: str) -> WorkStation | None:
-        """Returns the WorkStation of that name, or None."""
-        return self._stations.get(name)
-
     @property
     def stations(self) -> Collection[WorkStation]:
         """All WorkStations."""

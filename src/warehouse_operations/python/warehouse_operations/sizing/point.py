@@ -31,9 +31,7 @@ SERIES = (*minute_log.SERIES, *FATES)
 class Point:
     """A shift to be simulated, with all that decides its outcome.
 
-    layout: the text of a layout file.
-
-    minutes: the length of the shift after the run-in.
+    layout: the text of a layout file. minutes: the length of the shift after the run-in.
     """
 
     robots: int
