@@ -90,7 +90,7 @@ class Desk:
         self.lifts = Lifts(self.book, self.robots)
         self.streets = Streets(self.units, self.roads, StationWays(plan))
         self.completion = Completion(self.book, self.robots)
-        self.journeys = Journeys(self.robots, self.roads, self.roads, self.book.totals)
+        self.journeys = Journeys(self.robots, self.roads, self.book.totals)
         self.storing = Storing(
             self.aside,
             self.book,

@@ -184,6 +184,10 @@ class Traffic:
         there = robots.stands & ~robots.busy & (robots.cell == robots.goal)
         return (there & among).nonzero()[0]
 
+    def shortest(self, begin: int, end: int, loaded: bool = False) -> int:
+        """Returns the cells of the shortest path from `begin` to `end`."""
+        return self.floor.shortest(begin, end, loaded=loaded)
+
     def on_refused(self, model: str) -> None:
         """Notes that a robot, by its model's name, has refused its path."""
         robot = self.robots.index(int(model.removeprefix("kiva")))

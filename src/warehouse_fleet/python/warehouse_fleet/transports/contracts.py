@@ -35,9 +35,5 @@ class Drives(Protocol):
     def journey(self, robot: int) -> tuple[float, float, int]:
         """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""
 
-
-class ShortestPaths(Protocol):
-    """The lengths of shortest paths; a warehouse_layout.Floor has them."""
-
     def shortest(self, begin: int, end: int, loaded: bool = False) -> int:
         """Returns the cells of the shortest path from `begin` to `end`."""

@@ -4,18 +4,15 @@
 import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
-from warehouse_fleet.transports.contracts import Drives, ShortestPaths
+from warehouse_fleet.transports.contracts import Drives
 from warehouse_fleet.transports.transport_book import Totals
 
 
 class Journeys:
     """Sends robots on journeys, and adds each journey that ends to `totals`."""
 
-    def __init__(
-        self, robots: RobotTable, drives: Drives, paths: ShortestPaths, totals: Totals
-    ) -> None:
-        self._robots, self._drives, self._paths = robots, drives, paths
-        self._totals = totals
+    def __init__(self, robots: RobotTable, drives: Drives, totals: Totals) -> None:
+        self._robots, self._drives, self._totals = robots, drives, totals
         self._shortest: dict[int, int] = {}  # cells of the journey that a robot is on
 
     def begin(self, robot: int, cell: int, home: int = NOWHERE) -> None:
@@ -23,7 +20,7 @@ class Journeys:
         self._drives.journey(robot)
         begin = int(self._robots.cell[robot])
         loaded = home != NOWHERE
-        self._shortest[robot] = self._paths.shortest(begin, int(cell), loaded=loaded)
+        self._shortest[robot] = self._drives.shortest(begin, int(cell), loaded=loaded)
         self._robots.send(robot, cell, home)
 
     def take_arrived(self, among: np.ndarray) -> list[int]:

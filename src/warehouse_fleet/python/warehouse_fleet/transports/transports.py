@@ -95,7 +95,7 @@ class Transports(TransportRequests):
         lifts = self._lifts = Lifts(book, robots)
         streets = self._streets = Streets(units, traffic, StationWays(plan))
         completion = self._completion = Completion(book, robots)
-        journeys = Journeys(robots, traffic, traffic.floor, book.totals)
+        journeys = Journeys(robots, traffic, book.totals)
         storage = plan.storage.ravel()
         storing = self._storing = Storing(
             storage, book, robots, units, traffic, journeys, self._choose_place
