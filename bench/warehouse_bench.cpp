@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "chunks.h"
-#include "core/state/poses.h"
+#include "core/state/places/poses.h"
 #include "core/state/world_state.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"

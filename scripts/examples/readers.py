@@ -58,12 +58,12 @@ def read_xml(example: Example) -> None:
 def read_yaml(example: Example) -> None:
     """Has the reader of a YAML file read a block. Raises what that raises."""
     check(example)
-    given = yaml.safe_load(example.text)
-    reader = next((read for mark, read in READERS.items() if mark in given), None)
-    if reader is None and all(isinstance(key, int) for key in given):
+    document = yaml.safe_load(example.text)
+    reader = next((read for mark, read in READERS.items() if mark in document), None)
+    if reader is None and all(isinstance(key, int) for key in document):
         reader = _robots
     if reader is None:
-        raise ValueError(f"no reader is known for the keys {', '.join(map(str, given))}")
+        raise ValueError(f"no reader is known for the keys {', '.join(map(str, document))}")
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "example.layout.yaml"
         file.write_text(example.text)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layout editor of a running warehouse builds what is drawn in it.
 
-What else the editor does is tested without ROS, in unit/python/viewer/test_editor_page.py.
+What else the editor does is tested without ROS, in unit/python/viewer/editor/test_editor_page.py.
 """
 
 import rospy

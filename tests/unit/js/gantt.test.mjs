@@ -3,8 +3,8 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { GanttView, sorted } from '../../../src/warehouse_viewer/web/js/gantt_view.js';
-import { Spans } from '../../../src/warehouse_viewer/web/js/spans.js';
+import { GanttView, sorted } from '../../../src/warehouse_viewer/web/js/operations/gantt_view.js';
+import { Spans } from '../../../src/warehouse_viewer/web/js/operations/spans.js';
 
 /** An answer of the server: `moments` are [time after origin, [[row, state], …]]. */
 function answer(head, moments) {

@@ -3,18 +3,18 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { verdict } from '../../../src/warehouse_viewer/web/js/figures.js';
-import { coloursOf } from '../../../src/warehouse_viewer/web/js/heat.js';
-import { topOf } from '../../../src/warehouse_viewer/web/js/heat_scale.js';
-import { whole } from '../../../src/warehouse_viewer/web/js/order_entry.js';
-import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
-import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
-import { sharesOf } from '../../../src/warehouse_viewer/web/js/robot_shares.js';
-import { waitsOf, Wanted } from '../../../src/warehouse_viewer/web/js/stations.js';
-import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
-import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
-import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
-import { countedWork } from '../../../src/warehouse_viewer/web/js/words.js';
+import { verdict } from '../../../src/warehouse_viewer/web/js/operations/figures.js';
+import { coloursOf } from '../../../src/warehouse_viewer/web/js/scene/heat.js';
+import { topOf } from '../../../src/warehouse_viewer/web/js/base/heat_scale.js';
+import { whole } from '../../../src/warehouse_viewer/web/js/operations/order_entry.js';
+import { lateness } from '../../../src/warehouse_viewer/web/js/operations/order_row.js';
+import { sizeOf } from '../../../src/warehouse_viewer/web/js/operations/order_upload.js';
+import { sharesOf } from '../../../src/warehouse_viewer/web/js/operations/robot_shares.js';
+import { waitsOf, Wanted } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
+import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/operations/throughput.js';
+import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/base/time.js';
+import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/scene/where.js';
+import { countedWork } from '../../../src/warehouse_viewer/web/js/base/words.js';
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-const { Requested } = await import('../../../src/warehouse_viewer/web/js/requested.js');
+const { Requested } = await import('../../../src/warehouse_viewer/web/js/panels/requested.js');
 
 const world = {
   scene: { units: ['storage_unit7', 'storage_unit8'] },

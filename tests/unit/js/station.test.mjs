@@ -190,12 +190,13 @@ test('the worker keeps every file of the page', () => {
   const worker = readFileSync(new URL('js/station/worker.js', WEB), 'utf8');
   const files = readdirSync(new URL('js/station/', WEB)).filter((name) => name !== 'worker.js');
   const used = new Set(files.map((name) => `station/${name.slice(0, -3)}`));
-  for (const name of files) {
-    const text = readFileSync(new URL(`js/station/${name}`, WEB), 'utf8');
-    for (const [, other] of text.matchAll(/from '\.\.\/(\w+)\.js'/g)) used.add(other);
+  for (const name of used) { // what is added meanwhile is read, too
+    const module = new URL(`js/${name}.js`, WEB);
+    for (const [, path] of readFileSync(module, 'utf8').matchAll(/from '(\.[^']+)\.js'/g)) {
+      used.add(new URL(path, module).href.slice(new URL('js/', WEB).href.length));
+    }
   }
-  const told = worker.match(/MODULES = \[(.*?)\]\./s)[1].replace(/map.*/s, '');
-  const named = [...told.matchAll(/'(\w+)'/g)].map(([, name]) => name);
-  for (const name of used) assert.ok(named.includes(name.replace('station/', '')), `${name} is not kept`);
-  assert.equal(named.length, used.size);
+  const rooms = worker.match(/MODULES = \{(.*?)\n\};/s)[1].matchAll(/(\w+): \[(.*?)\]/gs);
+  const kept = [...rooms].flatMap(([, room, names]) => [...names.matchAll(/'(\w+)'/g)].map(([, name]) => `${room}/${name}`));
+  assert.deepEqual(kept.sort(), [...used].sort());
 });

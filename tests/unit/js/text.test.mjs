@@ -3,13 +3,13 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { reasonOf } from '../../../src/warehouse_viewer/web/js/api.js';
-import { clock } from '../../../src/warehouse_viewer/web/js/bar.js';
-import { planOf } from '../../../src/warehouse_viewer/web/js/builder.js';
-import { fanOf } from '../../../src/warehouse_viewer/web/js/overlays.js';
-import { decode } from '../../../src/warehouse_viewer/web/js/protocol.js';
-import { found, rowsOf, wanted } from '../../../src/warehouse_viewer/web/js/search.js';
-import { bordersOf } from '../../../src/warehouse_viewer/web/js/stage.js';
+import { reasonOf } from '../../../src/warehouse_viewer/web/js/base/request.js';
+import { clock } from '../../../src/warehouse_viewer/web/js/panels/bar.js';
+import { planOf } from '../../../src/warehouse_viewer/web/js/panels/builder.js';
+import { fanOf } from '../../../src/warehouse_viewer/web/js/scene/overlays.js';
+import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
+import { found, rowsOf, wanted } from '../../../src/warehouse_viewer/web/js/base/search.js';
+import { bordersOf } from '../../../src/warehouse_viewer/web/js/scene/stage.js';
 
 test('a search is for what a person means', () => {
   assert.equal(wanted('Robot 3'), 'kiva3');

@@ -9,7 +9,7 @@ import * as THREE from '/three/build/three.module.js';
 const FOLDER = new URL('../../../src/warehouse_viewer/web/js/', import.meta.url);
 const CONTROLS = '/usr/share/javascript/three/examples/jsm/controls/OrbitControls.js';
 const text = (name) => readFileSync(new URL(name, FOLDER), 'utf8');
-const offered = text('three.js').match(/export const \{([^}]*)\}/)[1].split(',').map((name) => name.trim()).filter(Boolean);
+const offered = text('base/three.js').match(/export const \{([^}]*)\}/)[1].split(',').map((name) => name.trim()).filter(Boolean);
 
 test('the module offers what the page and the controls use, and nothing that is not there', () => {
   const used = new Set();

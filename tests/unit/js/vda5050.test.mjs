@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { factsOf, vda5050Of } from '../../../src/warehouse_viewer/web/js/vda5050.js';
+import { factsOf, vda5050Of } from '../../../src/warehouse_viewer/web/js/panels/vda5050.js';
 
 const ROBOT = { id: 7, driven_by: 'OUTSIDE_MASTER', manufacturer: 'kiva', serial: '7', broker: 'host:1883',
   connection: 'ONLINE', driven: true, order: 'fetch', errors: ['orderError: off the floor'] };

@@ -3,10 +3,10 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { factsOf } from '../../../src/warehouse_viewer/web/js/fleet.js';
-import { decode } from '../../../src/warehouse_viewer/web/js/protocol.js';
-import { addDashes, addSolid, Ways } from '../../../src/warehouse_viewer/web/js/ways.js';
-import { World } from '../../../src/warehouse_viewer/web/js/world.js';
+import { factsOf } from '../../../src/warehouse_viewer/web/js/panels/fleet.js';
+import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
+import { addDashes, addSolid, Ways } from '../../../src/warehouse_viewer/web/js/scene/ways.js';
+import { World } from '../../../src/warehouse_viewer/web/js/base/world.js';
 import { scene } from './look.mjs';
 
 /** As viewer/protocol.py writes it: rows [id, waits for, released, planned, goal x, goal y], points. */

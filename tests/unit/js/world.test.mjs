@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
-import { World, within, wrapped } from '../../../src/warehouse_viewer/web/js/world.js';
+import { World, within, wrapped } from '../../../src/warehouse_viewer/web/js/base/world.js';
 import { AT, scene, table } from './look.mjs';
 
 const BODY = 9, ROBOT = 7;

@@ -217,7 +217,7 @@ class World(_core.World):
 
     @classmethod
     def of_layout(cls, laid: "Layout", *, own_models: bool = False, **options: Any) -> "World":
-        """Builds what warehouse_layout.place.layout.plan() laid out; options as of World.
+        """Builds what warehouse_layout.generate.generated.plan() laid out; options as of World.
 
         Models of robots and units in model_paths replace those of worlds/models, unless own_models.
         """

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/drives.h"
+#include "core/motion/driving/drives.h"
 #include "core/sensing/look_ahead.h"
 #include "core/sensing/scans.h"
-#include "core/state/footprints.h"
-#include "core/state/tasks.h"
+#include "core/state/places/footprints.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "core/contact/activation.h"
 #include "core/models/load.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/tasks.h"
-#include "core/state/unit_geometry.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/places/unit_geometry.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

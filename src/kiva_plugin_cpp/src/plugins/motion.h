@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/fleet_plugin.h"
+#include "core/state/views/fleet_plugin.h"
 
 namespace kiva {
 

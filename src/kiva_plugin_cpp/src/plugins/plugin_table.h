@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/state/fleet_plugin.h"
+#include "core/state/views/fleet_plugin.h"
 
 namespace kiva {
 

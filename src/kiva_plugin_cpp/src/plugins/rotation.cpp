@@ -5,13 +5,13 @@
 #include <cmath>
 #include <string>
 
-#include "core/motion/cruise.h"
-#include "core/motion/drives.h"
-#include "core/motion/ground.h"
-#include "core/motion/self_location.h"
-#include "core/motion/stretches.h"
+#include "core/motion/driving/cruise.h"
+#include "core/motion/driving/drives.h"
+#include "core/motion/driving/self_location.h"
+#include "core/motion/driving/stretches.h"
+#include "core/motion/wheels/ground.h"
 #include "core/sensing/room.h"
-#include "core/state/tasks.h"
+#include "core/state/progress/tasks.h"
 #include "plugins/motion.h"
 
 namespace kiva {

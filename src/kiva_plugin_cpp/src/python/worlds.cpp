@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/motion/wheels.h"
+#include "core/motion/wheels/wheels.h"
 #include "kiva_plugin_cpp/command.h"
 
 namespace kiva::python {

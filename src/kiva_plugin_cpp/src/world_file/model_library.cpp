@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/model_library.h"
 
-#include "world_file/bounded_cache.h"
-#include "world_file/files.h"
-#include "world_file/frames.h"
-#include "world_file/model_paths.h"
-#include "world_file/models.h"
-#include "world_file/parser.h"
-#include "world_file/sensors.h"
-#include "world_file/values.h"
+#include "world_file/elements/frames.h"
+#include "world_file/elements/values.h"
+#include "world_file/files/bounded_cache.h"
+#include "world_file/files/model_paths.h"
+#include "world_file/files/text_file.h"
+#include "world_file/parsing/parser.h"
+#include "world_file/sdf/models.h"
+#include "world_file/sdf/sensors.h"
 
 namespace kiva {
 namespace {

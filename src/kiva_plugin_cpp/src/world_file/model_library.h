@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/world_file.h"
-#include "world_file/file_stamps.h"
+#include "world_file/files/file_stamps.h"
 
 namespace kiva {
 

@@ -6,20 +6,20 @@
 #include <map>
 #include <set>
 
-#include "world_file/bounded_cache.h"
-#include "world_file/elements.h"
-#include "world_file/errors.h"
-#include "world_file/files.h"
-#include "world_file/frames.h"
+#include "world_file/elements/elements.h"
+#include "world_file/elements/frames.h"
+#include "world_file/elements/values.h"
+#include "world_file/files/bounded_cache.h"
+#include "world_file/files/errors.h"
+#include "world_file/files/model_paths.h"
+#include "world_file/files/text_file.h"
 #include "world_file/model_library.h"
-#include "world_file/model_paths.h"
-#include "world_file/models.h"
-#include "world_file/parser.h"
-#include "world_file/preparation.h"
-#include "world_file/sensors.h"
-#include "world_file/stand_in.h"
-#include "world_file/urdf.h"
-#include "world_file/values.h"
+#include "world_file/parsing/parser.h"
+#include "world_file/parsing/preparation.h"
+#include "world_file/sdf/models.h"
+#include "world_file/sdf/sensors.h"
+#include "world_file/sdf/stand_in.h"
+#include "world_file/urdf/urdf.h"
 
 namespace kiva {
 namespace {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbers in messages as the words that the messages define for them.
 
-The pages show the same words: web/js/words.js, which a test compares with these.
+The pages show the same words: web/js/base/words.js, which a test compares with these.
 """
 
 from typing import Any

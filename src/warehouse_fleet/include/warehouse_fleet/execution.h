@@ -7,7 +7,7 @@
 //   cell_holders.h   which robot holds which cell, and which cells are closed
 //   course.h         one robot's path, a state machine
 //   passing_order.h  which robot passes a cell next by the plan
-//   src/core/execution*.cpp  reports, plan, releases, recovery of robots that were pushed
+//   src/core/execution/*.cpp  reports, plan, releases, recovery of robots that were pushed
 #pragma once
 
 #include <cstdint>

@@ -9,14 +9,14 @@
 namespace layout {
 namespace {
 
-std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& given, Cell size,
+std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& values, Cell size,
                                  std::uint8_t otherwise, const char* name) {
-  if (given.empty()) return std::vector<std::uint8_t>(size, otherwise);
-  if (static_cast<Cell>(given.size()) != size) {
-    throw FloorError(std::string(name) + " has " + std::to_string(given.size()) +
+  if (values.empty()) return std::vector<std::uint8_t>(size, otherwise);
+  if (static_cast<Cell>(values.size()) != size) {
+    throw FloorError(std::string(name) + " has " + std::to_string(values.size()) +
                      " elements; width * height = " + std::to_string(size) + " were expected");
   }
-  return given;
+  return values;
 }
 
 Cell checkedSize(const FloorDescription& description) {

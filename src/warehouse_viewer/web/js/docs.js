@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The API's description as a page on which each request can be tried.
 
-import { $, make, on } from './dom.js';
+import { $, make, on } from './base/dom.js';
 
 const OPENAPI = '/api/v1/openapi.json';
 

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: what comes from the server goes to the World and from there into picture and panels.
 
-import { Actors } from './actors.js';
-import { Bar } from './bar.js';
-import { Builder } from './builder.js';
-import { Connection } from './connection.js';
-import { Details } from './details.js';
-import { $, isPressed, on, press, tell } from './dom.js';
-import { Drawers, marginsOf } from './drawers.js';
-import { FallenItems } from './fallen.js';
-import { FleetPanel } from './fleet.js';
-import { HeatMap } from './heat.js';
-import { Keys } from './keys.js';
-import { Labels } from './labels.js';
-import { RobotList } from './list.js';
-import { EventLog } from './log.js';
-import { Navigator } from './navigator.js';
-import { Overlays } from './overlays.js';
-import { isPerson, People } from './people.js';
-import { Picker } from './picker.js';
-import { Pointer } from './pointer.js';
-import { VERSION } from './protocol.js';
+import { Actors } from './scene/actors.js';
+import { Bar } from './panels/bar.js';
+import { Builder } from './panels/builder.js';
+import { Connection } from './base/connection.js';
+import { Details } from './panels/details.js';
+import { $, isPressed, on, press, tell } from './base/dom.js';
+import { Drawers, marginsOf } from './base/drawers.js';
+import { FallenItems } from './panels/fallen.js';
+import { FleetPanel } from './panels/fleet.js';
+import { HeatMap } from './scene/heat.js';
+import { Keys } from './panels/keys.js';
+import { Labels } from './scene/labels.js';
+import { RobotList } from './panels/list.js';
+import { EventLog } from './panels/log.js';
+import { Navigator } from './scene/navigator.js';
+import { Overlays } from './scene/overlays.js';
+import { isPerson, People } from './panels/people.js';
+import { Picker } from './scene/picker.js';
+import { Pointer } from './scene/pointer.js';
+import { VERSION } from './base/protocol.js';
 import { momentOf } from './replay/link.js';
 import { Timeline } from './replay/timeline.js';
-import { Requested } from './requested.js';
-import { SceneKeys, speak } from './scene_keys.js';
-import { Signs } from './signs.js';
-import { Stage } from './stage.js';
-import { Tip } from './tip.js';
-import { skuIn, Where } from './where.js';
-import { World } from './world.js';
+import { Requested } from './panels/requested.js';
+import { SceneKeys, speak } from './scene/scene_keys.js';
+import { Signs } from './scene/signs.js';
+import { Stage } from './scene/stage.js';
+import { Tip } from './base/tip.js';
+import { skuIn, Where } from './scene/where.js';
+import { World } from './base/world.js';
 
 const PANELS_EVERY = 250; // [ms]
 const NOTABLE = 60; // between two pictures; a person sees it [ms]

@@ -12,9 +12,9 @@ from warehouse_client.build_transaction import BUILDING
 from warehouse_client.engine import Engine, EngineError
 from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.floor import poses
+from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
 from warehouse_layout.models.models import FLOOR, kind_and_number
-from warehouse_layout.place.layout import plan
 from warehouse_msgs.srv import CreateWarehouseRequest
 from warehouse_sim.service import WarehouseService
 

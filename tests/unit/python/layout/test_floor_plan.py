@@ -12,9 +12,9 @@ from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.floor import floor_markings
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.generate import generated
+from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
 from warehouse_layout.models.world_file import insertable
-from warehouse_layout.place.layout import plan
 
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {

@@ -9,9 +9,8 @@ import pytest
 
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.request import PRESETS, Request, RequestError, resolve
-from warehouse_layout.generate import compact, generator
+from warehouse_layout.generate import compact, generated, generator
 from warehouse_layout.place import file_check, placement
-from warehouse_layout.place import layout as regular
 
 ARRAYS = ("robots", "units", "places", "item_unit", "item_place", "belts", "drops")
 PLAN = ("passable", "storage", "parking", "exits")
@@ -39,7 +38,7 @@ def assert_same(laid, wanted):
 def test_a_preset_stands_the_same_through_its_file(preset):
     request = PRESETS[preset]
     file = through_text(generator.of_request(request, preset))
-    assert_same(placement.place(file), regular.plan(request))
+    assert_same(placement.place(file), generated.plan(request))
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -47,7 +46,7 @@ def test_so_do_other_counts(seed):
     rng = random.Random(seed)
     request = resolve("", rng.randrange(1, 60), rng.randrange(0, 200), rng.randrange(5, 400))
     file = through_text(generator.of_request(request))
-    assert_same(placement.place(file), regular.plan(request))
+    assert_same(placement.place(file), generated.plan(request))
     assert file_check.faults(file) == []
 
 

@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from warehouse_layout._core import Floor, routes, ways
 from warehouse_layout.file.request import resolve
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 
 STEP, TURN = 2 / 3, 2.125  # [s]
 

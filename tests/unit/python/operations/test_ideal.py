@@ -8,7 +8,7 @@ from operations_site import site
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.transports.transports import STAY, Kind
 from warehouse_layout.file.request import PRESETS
-from warehouse_layout.place import layout
+from warehouse_layout.generate import generated
 from warehouse_operations.fleets.ideal import IdealFleet
 from warehouse_operations.stock.travel import Travel
 
@@ -56,7 +56,7 @@ def test_ways_of_loaded_robots_keep_to_streets_and_lanes(where):
 
 
 def test_ways_to_and_from_storage_are_those_of_tables_of_all_cells():
-    plan = layout.plan(PRESETS["small"]).plan
+    plan = generated.plan(PRESETS["small"]).plan
     assert not plan.passable.all()  # their graph has the passable cells alone
     travel = Travel(plan, Kinematics())
     places = np.flatnonzero(plan.storage)

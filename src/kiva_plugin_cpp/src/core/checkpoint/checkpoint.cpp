@@ -15,7 +15,7 @@
 #include "core/disturbances/failures.h"
 #include "core/people/protective_fields.h"
 #include "core/sensing/scans.h"
-#include "core/state/path_progress.h"
+#include "core/state/progress/path_progress.h"
 
 namespace kiva {
 namespace {

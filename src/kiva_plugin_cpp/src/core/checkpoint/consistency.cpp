@@ -7,7 +7,7 @@
 
 #include "core/checkpoint/archive.h"
 #include "core/checkpoint/describe.h"
-#include "core/motion/jointed_body.h"
+#include "core/motion/joints/jointed_body.h"
 
 namespace kiva {
 namespace {

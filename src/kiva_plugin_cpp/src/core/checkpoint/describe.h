@@ -8,7 +8,7 @@
 #include "core/checkpoint/plugin_states.h"
 #include "core/checkpoint/rebuild.h"
 #include "core/models/models.h"
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 

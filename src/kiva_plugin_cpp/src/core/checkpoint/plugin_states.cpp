@@ -5,7 +5,7 @@
 
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
-#include "core/state/fleet_plugin.h"
+#include "core/state/views/fleet_plugin.h"
 
 namespace kiva {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/checkpoint/archive.h"
-#include "core/motion/joints.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
+#include "core/motion/joints/joints.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
 
 namespace kiva {
 namespace {

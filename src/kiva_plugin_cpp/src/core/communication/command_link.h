@@ -3,9 +3,9 @@
 // Carries commands to the robots: at once, or delayed by a radio.
 #pragma once
 
-#include "core/state/command_link.h"
-#include "core/state/inbox.h"
-#include "core/state/scene.h"
+#include "core/state/robots/command_link.h"
+#include "core/state/robots/inbox.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

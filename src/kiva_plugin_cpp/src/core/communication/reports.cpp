@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/state/random_stream.h"
+#include "core/state/world/random_stream.h"
 
 namespace kiva {
 namespace {

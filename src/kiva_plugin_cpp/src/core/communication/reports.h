@@ -3,8 +3,8 @@
 // Carries the robots' reports to clients: at once, or by a radio that delays and loses them.
 #pragma once
 
-#include "core/state/failure_state.h"
-#include "core/state/motion_view.h"
+#include "core/state/robots/failure_state.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

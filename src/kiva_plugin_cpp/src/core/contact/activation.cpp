@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "core/contact/upright.h"
-#include "core/motion/clearance.h"
+#include "core/motion/driving/clearance.h"
 #include "core/motion/dynamics.h"
-#include "core/motion/traction.h"
+#include "core/motion/wheels/traction.h"
 #include "core/parallel/workers.h"
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

@@ -5,7 +5,7 @@
 // reach them, and leave Bullet again when none can.
 #pragma once
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/contact/upright.h"
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

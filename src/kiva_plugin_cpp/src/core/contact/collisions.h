@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

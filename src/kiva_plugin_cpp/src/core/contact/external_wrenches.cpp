@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/motion/joints.h"
-#include "core/state/poses.h"
+#include "core/motion/joints/joints.h"
+#include "core/state/places/poses.h"
 
 namespace kiva {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/physics/sliding_friction.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/unit_geometry.h"
+#include "core/physics/solver/sliding_friction.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/places/unit_geometry.h"
 
 namespace kiva {
 namespace {

@@ -6,7 +6,7 @@
 // it stands on its feet again it is planar again.
 #pragma once
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

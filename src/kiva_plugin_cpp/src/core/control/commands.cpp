@@ -8,8 +8,8 @@
 #include "core/control/paths.h"
 #include "core/control/route.h"
 #include "core/models/load.h"
-#include "core/state/tasks.h"
-#include "core/state/unit_geometry.h"
+#include "core/state/places/unit_geometry.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

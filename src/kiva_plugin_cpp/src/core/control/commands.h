@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/contact_log.h"
-#include "core/state/inbox.h"
-#include "core/state/motion_view.h"
-#include "core/state/shadows.h"
+#include "core/state/robots/inbox.h"
+#include "core/state/robots/shadows.h"
+#include "core/state/views/motion_view.h"
+#include "core/state/world/contact_log.h"
 
 namespace kiva {
 

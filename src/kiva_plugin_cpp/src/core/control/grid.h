@@ -3,7 +3,7 @@
 // The grid that robots drive along, and the floor beneath it.
 #pragma once
 
-#include "core/state/scene.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/control/route.h"
-#include "core/motion/cruise.h"
-#include "core/state/tasks.h"
+#include "core/motion/driving/cruise.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

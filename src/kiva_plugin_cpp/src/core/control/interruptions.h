@@ -3,7 +3,7 @@
 // Cancels, stops and resumes commands under way.
 #pragma once
 
-#include "core/state/motion_view.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

@@ -7,11 +7,11 @@
 
 #include "core/control/route.h"
 #include "core/geometry/solid.h"
-#include "core/motion/cruise.h"
+#include "core/motion/driving/cruise.h"
 #include "core/sensing/look_ahead.h"
-#include "core/state/footprints.h"
-#include "core/state/path_progress.h"
-#include "core/state/tasks.h"
+#include "core/state/places/footprints.h"
+#include "core/state/progress/path_progress.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

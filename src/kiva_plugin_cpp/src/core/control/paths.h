@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/state/motion_view.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

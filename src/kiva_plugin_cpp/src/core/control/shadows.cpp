@@ -7,8 +7,8 @@
 
 #include "core/models/load.h"
 #include "core/models/models.h"
-#include "core/state/poses.h"
-#include "core/state/tasks.h"
+#include "core/state/places/poses.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

@@ -3,8 +3,8 @@
 // Shadows of robots that are elsewhere: they stand where those are, and do what those do.
 #pragma once
 
-#include "core/state/model_view.h"
-#include "core/state/shadows.h"
+#include "core/state/robots/shadows.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

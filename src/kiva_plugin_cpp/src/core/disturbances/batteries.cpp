@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/control/interruptions.h"
-#include "core/state/random_stream.h"
+#include "core/state/world/random_stream.h"
 
 namespace kiva {
 namespace {

@@ -3,8 +3,8 @@
 // Drains and charges the robots' batteries; does nothing while the world's realism has no energy.
 #pragma once
 
-#include "core/state/chargers.h"
-#include "core/state/motion_view.h"
+#include "core/state/floor/chargers.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

@@ -11,8 +11,8 @@
 #include "core/communication/reports.h"
 #include "core/control/interruptions.h"
 #include "core/disturbances/batteries.h"
-#include "core/state/random_stream.h"
-#include "core/state/tasks.h"
+#include "core/state/progress/tasks.h"
+#include "core/state/world/random_stream.h"
 
 namespace kiva {
 namespace {

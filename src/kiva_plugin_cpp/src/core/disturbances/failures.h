@@ -4,8 +4,8 @@
 // comparison a step.
 #pragma once
 
-#include "core/state/failure_state.h"
-#include "core/state/motion_view.h"
+#include "core/state/robots/failure_state.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

@@ -8,9 +8,9 @@
 
 #include "core/geometry/footprint.h"
 #include "core/models/items.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/random_stream.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/world/random_stream.h"
 
 namespace kiva {
 namespace {

@@ -4,7 +4,7 @@
 // floor; does nothing while the world's realism has no loads.
 #pragma once
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/models/models.h"
-#include "core/state/poses.h"
-#include "core/state/tasks.h"
+#include "core/state/places/poses.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

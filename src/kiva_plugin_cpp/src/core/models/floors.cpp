@@ -11,8 +11,8 @@
 
 #include "core/contact/activation.h"
 #include "core/contact/upright.h"
-#include "core/state/floors.h"
-#include "core/state/footprints.h"
+#include "core/state/places/floors.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "core/models/load.h"
 #include "core/motion/dynamics.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/unit_geometry.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/places/unit_geometry.h"
 
 namespace kiva {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "core/contact/activation.h"
-#include "core/motion/jointed_body.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/tasks.h"
-#include "core/state/unit_geometry.h"
+#include "core/motion/joints/jointed_body.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/places/unit_geometry.h"
+#include "core/state/progress/tasks.h"
 
 namespace kiva {
 namespace {

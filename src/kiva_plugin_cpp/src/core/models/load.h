@@ -3,7 +3,7 @@
 // Loads robots with storage units, and unloads them.
 #pragma once
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

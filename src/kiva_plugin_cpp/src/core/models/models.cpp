@@ -11,14 +11,14 @@
 #include "core/models/storage_units.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
-#include "core/motion/ground.h"
-#include "core/motion/joints.h"
-#include "core/state/fleet_plugin.h"
-#include "core/state/floors.h"
-#include "core/state/footprints.h"
-#include "core/state/people.h"
-#include "core/state/poses.h"
-#include "core/state/tasks.h"
+#include "core/motion/joints/joints.h"
+#include "core/motion/wheels/ground.h"
+#include "core/state/people/people.h"
+#include "core/state/places/floors.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/progress/tasks.h"
+#include "core/state/views/fleet_plugin.h"
 
 namespace kiva {
 namespace {

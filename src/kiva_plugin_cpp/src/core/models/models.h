@@ -3,7 +3,7 @@
 // Adds, removes and places models.
 #pragma once
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

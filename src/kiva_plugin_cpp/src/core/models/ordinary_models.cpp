@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "core/models/floors.h"
-#include "core/motion/joints.h"
-#include "core/state/floors.h"
-#include "core/state/footprints.h"
-#include "core/state/people.h"
-#include "core/state/poses.h"
+#include "core/motion/joints/joints.h"
+#include "core/state/people/people.h"
+#include "core/state/places/floors.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
 
 namespace kiva {
 namespace {

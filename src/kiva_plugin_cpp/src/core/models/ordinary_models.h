@@ -4,7 +4,7 @@
 // joints of their own.
 #pragma once
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

@@ -3,7 +3,7 @@
 // Kiva robots: in arrays as long as they are alone, see contact/activation.h.
 #pragma once
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

@@ -8,10 +8,10 @@
 #include "core/contact/upright.h"
 #include "core/models/load.h"
 #include "core/models/ordinary_models.h"
-#include "core/state/floors.h"
-#include "core/state/footprints.h"
-#include "core/state/poses.h"
-#include "core/state/unit_geometry.h"
+#include "core/state/places/floors.h"
+#include "core/state/places/footprints.h"
+#include "core/state/places/poses.h"
+#include "core/state/places/unit_geometry.h"
 
 namespace kiva {
 namespace {

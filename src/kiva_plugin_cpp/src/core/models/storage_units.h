@@ -3,7 +3,7 @@
 // Storage units: they stand on their legs, lie where they were thrown, or rest on a robot.
 #pragma once
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/state/model_view.h"
+#include "core/state/views/model_view.h"
 
 namespace kiva {
 

@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "core/geometry/angle.h"
-#include "core/motion/cruise.h"
-#include "core/motion/drives.h"
-#include "core/motion/ground.h"
-#include "core/motion/jointed.h"
-#include "core/motion/joints.h"
-#include "core/motion/self_location.h"
-#include "core/motion/traction.h"
+#include "core/motion/driving/cruise.h"
+#include "core/motion/driving/drives.h"
+#include "core/motion/driving/self_location.h"
+#include "core/motion/joints/jointed.h"
+#include "core/motion/joints/joints.h"
+#include "core/motion/wheels/ground.h"
+#include "core/motion/wheels/traction.h"
 #include "core/parallel/workers.h"
-#include "core/state/footprints.h"
-#include "core/state/path_progress.h"
+#include "core/state/places/footprints.h"
+#include "core/state/progress/path_progress.h"
 
 namespace kiva {
 namespace {

@@ -3,7 +3,7 @@
 // What moves in a step: robots by arrays or by Bullet, storage units and other bodies by Bullet.
 #pragma once
 
-#include "core/state/motion_view.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

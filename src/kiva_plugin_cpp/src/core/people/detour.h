@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/state/scene.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

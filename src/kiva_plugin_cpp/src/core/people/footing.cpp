@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

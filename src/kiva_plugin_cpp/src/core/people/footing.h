@@ -3,7 +3,7 @@
 // Tells where on the floor a person has room to stand.
 #pragma once
 
-#include "core/state/scene.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "core/control/interruptions.h"
-#include "core/motion/drives.h"
+#include "core/motion/driving/drives.h"
 #include "core/sensing/scans.h"
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

@@ -4,7 +4,7 @@
 // curtains. Without people it costs a comparison a step.
 #pragma once
 
-#include "core/state/motion_view.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

@@ -9,9 +9,9 @@
 #include "core/geometry/solid.h"
 #include "core/people/detour.h"
 #include "core/people/footing.h"
-#include "core/state/floors.h"
-#include "core/state/footprints.h"
-#include "core/state/people.h"
+#include "core/state/people/people.h"
+#include "core/state/places/floors.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

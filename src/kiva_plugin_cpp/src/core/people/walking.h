@@ -3,7 +3,7 @@
 // Moves people from waypoint to waypoint, around obstacles.
 #pragma once
 
-#include "core/state/contact_view.h"
+#include "core/state/views/contact_view.h"
 
 namespace kiva {
 

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/physics/bodies/touching_parts.h"
 #include "core/physics/physics.h"
-#include "core/physics/touching_parts.h"
 
 namespace kiva {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/geometry/ray.h"
-#include "core/physics/planar_contacts.h"
-#include "core/physics/touching_parts.h"
+#include "core/physics/bodies/touching_parts.h"
+#include "core/physics/collision/planar_contacts.h"
 
 namespace kiva {
 namespace {

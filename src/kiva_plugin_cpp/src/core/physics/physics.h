@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/physics/bodies.h"
-#include "core/physics/box_contacts.h"
-#include "core/physics/ordered_bullet.h"
-#include "core/physics/round_contacts.h"
+#include "core/physics/bodies/bodies.h"
+#include "core/physics/collision/box_contacts.h"
+#include "core/physics/collision/round_contacts.h"
+#include "core/physics/solver/ordered_bullet.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {

@@ -9,8 +9,8 @@
 #include "core/parallel/workers.h"
 #include "core/sensing/room.h"
 #include "core/sensing/scans.h"
-#include "core/state/footprints.h"
-#include "core/state/path_progress.h"
+#include "core/state/places/footprints.h"
+#include "core/state/progress/path_progress.h"
 
 namespace kiva {
 namespace {

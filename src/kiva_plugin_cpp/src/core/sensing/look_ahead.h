@@ -3,8 +3,8 @@
 // Finds what lies in a robot's way, as its laser sees it.
 #pragma once
 
-#include "core/state/motion_view.h"
-#include "core/state/scans.h"
+#include "core/state/robots/scans.h"
+#include "core/state/views/motion_view.h"
 
 namespace kiva {
 

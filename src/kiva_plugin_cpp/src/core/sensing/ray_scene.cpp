@@ -6,7 +6,7 @@
 
 #include "core/geometry/infinity.h"
 #include "core/geometry/ray.h"
-#include "core/state/poses.h"
+#include "core/state/places/poses.h"
 
 namespace kiva {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/geometry/footprint.h"
 #include "core/geometry/solid.h"
-#include "core/state/scene.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

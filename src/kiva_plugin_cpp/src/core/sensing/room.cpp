@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/state/footprints.h"
+#include "core/state/places/footprints.h"
 
 namespace kiva {
 namespace {

@@ -4,7 +4,7 @@
 // pushed aside leaves less of it than one in its place.
 #pragma once
 
-#include "core/state/scene.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/state/random_stream.h"
+#include "core/state/world/random_stream.h"
 
 namespace kiva {
 namespace {

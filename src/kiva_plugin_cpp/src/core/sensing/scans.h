@@ -3,9 +3,9 @@
 // The robots' lasers: when they scan, and what they see.
 #pragma once
 
-#include "core/state/failure_state.h"
-#include "core/state/scans.h"
-#include "core/state/scene.h"
+#include "core/state/robots/failure_state.h"
+#include "core/state/robots/scans.h"
+#include "core/state/views/scene.h"
 
 namespace kiva {
 

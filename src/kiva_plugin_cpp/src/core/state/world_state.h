@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a world: its parts, each with a header of its own. The rooms are functions over
-// those parts; none includes a room that is named after it here, which scripts/check_includes holds
-// them to:
+// The state of a world: its parts, each with a header of its own, in rooms by subject. The rooms of
+// core are functions over those parts; none includes a room that is named after it here, which
+// scripts/check_includes holds them to. src/README.md lists the rooms within these.
 //   parallel       the threads that share loops
 //   estimation     the Kalman filter by which a robot locates itself
 //   state          the parts, and what follows from them alone
@@ -19,12 +19,12 @@
 
 #include <memory>
 
-#include "core/state/chargers.h"
-#include "core/state/command_link.h"
-#include "core/state/inbox.h"
-#include "core/state/model_view.h"
-#include "core/state/origin.h"
-#include "core/state/shadows.h"
+#include "core/state/floor/chargers.h"
+#include "core/state/robots/command_link.h"
+#include "core/state/robots/inbox.h"
+#include "core/state/robots/shadows.h"
+#include "core/state/views/model_view.h"
+#include "core/state/world/origin.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "gazebo_plugin.h"
+#include "ros/gazebo_plugins/base/gazebo_plugin.h"
 
 namespace kiva_ros {
 

@@ -4,7 +4,7 @@
 #include <ros/ros.h>
 
 #include "kiva_plugin_cpp/world.h"
-#include "plugin_inputs.h"
+#include "ros/gazebo_plugins/base/plugin_inputs.h"
 #include "ros/transport/publish_queue.h"
 
 namespace kiva_ros {

@@ -96,7 +96,7 @@ def write(file: LayoutFile, path: str | Path) -> None:
 def text_of(file: LayoutFile) -> str:
     """Returns the text of a layout file, which parse() reads as the same."""
     lines = lines_of(file.floor)
-    # YAML takes the first line's leading spaces for indentation, unless it is told how much.
+    # YAML takes the first line's leading spaces for indentation, unless a digit says how much.
     begin = "floor: |2" if lines[:1] and lines[0].startswith(" ") else "floor: |"
     out = [f"layout: {VERSION}"]
     out += [f"name: {_flow(file.name)}"] if file.name else []

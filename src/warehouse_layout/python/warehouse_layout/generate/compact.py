@@ -18,8 +18,8 @@ from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.file.request import Request, RequestError, check_stations
 from warehouse_layout.floor.stations import STEPS
-from warehouse_layout.place.blocks import FETCH, QUEUE, WAIT, places_for
-from warehouse_layout.place.layout import CHARGED
+from warehouse_layout.generate.blocks import FETCH, QUEUE, WAIT, places_for
+from warehouse_layout.generate.generator import CHARGED
 
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes

@@ -103,12 +103,12 @@ class _Reader:
         self._files: dict[Path, ElementTree.Element | None] = {}
 
     def world(self, root: ElementTree.Element, world: ElementTree.Element) -> SdfWorld:
-        found = [self._model(e) for e in world if e.tag in ("model", "include")]
+        models = [self._model(e) for e in world if e.tag in ("model", "include")]
         text = world.findtext("plugin[@name='grid']/spacing", "1")
         spacing = self._numbers(text, 1, "the spacing of the grid")[0]
         if not 0.01 <= spacing <= 1000:
             raise WorldError(f"{self._path}: the spacing of the grid is {spacing:g} m")
-        return SdfWorld(world.get("name", ""), float(spacing), found, root, self._unknown)
+        return SdfWorld(world.get("name", ""), float(spacing), models, root, self._unknown)
 
     def _model(self, element: ElementTree.Element) -> Model:
         out = Model(name_of(element), self._pose(element))

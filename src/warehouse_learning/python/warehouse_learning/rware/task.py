@@ -109,11 +109,6 @@ class Task:
             self.floor = of_parameters(self.shelf_columns, self.shelf_rows, self.column_height)
 
     @property
-    def sees_images(self) -> bool:
-        """Whether agents see layers of a picture."""
-        return self.observation_type in (ObservationType.IMAGE, ObservationType.IMAGE_DICT)
-
-    @property
     def vector_size(self) -> int:
         """Numbers that an agent's vector has."""
         return 8 + self.sensor_cells * (7 + self.msg_bits)

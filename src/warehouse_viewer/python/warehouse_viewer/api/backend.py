@@ -5,7 +5,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
 from fastapi import Depends, HTTPException
 from fastapi.requests import HTTPConnection
@@ -92,7 +92,7 @@ class ApiBackend:
         await self.wait_for_positions()
         return catalogue.things(kind, *(self.feed.objects_and_states or self._no_things()))
 
-    def _no_things(self):
+    def _no_things(self) -> NoReturn:
         raise HTTPException(503, "the world is being rebuilt; ask again")
 
     def stations(self, message: StationStates) -> list[dict[str, Any]]:
@@ -126,7 +126,7 @@ class ApiBackend:
             raise HTTPException(503, str(error)) from error
 
 
-async def _until(condition):
+async def _until(condition: Callable[[], object]) -> bool:
     """Returns whether the condition comes true within PATIENCE."""
     for _ in range(int(PATIENCE / 0.05)):
         if condition():

@@ -19,8 +19,10 @@ A slow reader misses states in between, never the newest. `missed`: there were m
 list again.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, Field
 from starlette.websockets import WebSocket
@@ -32,6 +34,9 @@ from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station,
 from warehouse_viewer.api.schemas.watch import Alarm, LeadingFigures
 from warehouse_viewer.api.stream import until_gone
 from warehouse_viewer.json_text import dumps
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState
 
 ROWS = {
     "orders": operations_json.order,
@@ -166,13 +171,14 @@ async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], r
 
 
 class _Reader:
-    def __init__(self, socket, backend, wanted):
+    def __init__(self, socket: WebSocket, backend: ApiBackend, wanted: Sequence[str]) -> None:
         self._socket, self._backend, self._wanted = socket, backend, wanted
         self._feed, self._book = backend.operations.feed, backend.changes
         self._read = {topic: self._book.last if topic in ROWS else 0 for topic in wanted}
-        self._runs, self._coordinator = None, ()
+        self._runs: bool | None = None
+        self._coordinator: CoordinatorState | tuple[()] | None = ()
 
-    async def send_news(self):
+    async def send_news(self) -> None:
         runs = self._feed.runs
         if runs != self._runs:
             self._runs = runs
@@ -185,7 +191,7 @@ class _Reader:
             elif runs or topic in WITHOUT_SHIFT:
                 await self._send_whole(topic)
 
-    async def _send_rows(self, topic):
+    async def _send_rows(self, topic: str) -> None:
         now = self._book.last
         rows, missed = self._book.since(topic, self._read[topic])
         self._read[topic] = now
@@ -193,21 +199,21 @@ class _Reader:
             shown = [ROWS[topic](row) for row in rows]
             await self._send(topic, **{topic: shown}, missed=missed)
 
-    async def _send_whole(self, topic):
+    async def _send_whole(self, topic: str) -> None:
         now = self._book.last
         rows, _ = self._book.since(topic, self._read[topic])
         if rows:
             self._read[topic] = now
             await self._send(topic, **{topic: self._shown(topic, rows[-1])})
 
-    def _shown(self, topic, row):
+    def _shown(self, topic: str, row: Any) -> object:
         """A row of the book as JSON has it."""
         if topic in OF_MONITOR:
             return row
         told = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
         return told(row)
 
-    async def _send_coordinator(self):
+    async def _send_coordinator(self) -> None:
         self._backend.feed.subscribe(("coordinator", "fleet"))
         state = self._backend.feed.coordinator
         if state is not self._coordinator:
@@ -216,5 +222,5 @@ class _Reader:
             told = catalogue.plain_coordinator(state, fleet) if state else None
             await self._send("coordinator", coordinator=told)
 
-    async def _send(self, kind, **fields):
+    async def _send(self, kind: str, **fields: Any) -> None:
         await self._socket.send_text(dumps({"type": kind, **fields}))

@@ -37,7 +37,7 @@ class Part:
         return _moved(self.pose, _SOLIDS.get(self.kind, shapes.box)() * self.size)
 
 
-def _moved(pose, points):
+def _moved(pose: np.ndarray, points: np.ndarray) -> np.ndarray:
     turn = np.broadcast_to(pose[3:], (len(points), 4))
     return poses.rotate(turn, points) + pose[:3]
 

@@ -2,7 +2,7 @@
 """A bag of the warehouse's array topics as Moments, and as a film."""
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from matplotlib import animation
@@ -47,7 +47,7 @@ def film(bag: str, path: str, speed: float, rate: float, **look: Any) -> None:
     (_write_gif if path.endswith(".gif") else _write_mp4)(path, frames, rate)
 
 
-def _frames(bag, period, look):
+def _frames(bag: str, period: float, look: Mapping[str, Any]) -> Iterator[Drawing]:
     drawing = None
     for moment in moments(bag, period):
         drawing = drawing or Drawing(moment, **look)
@@ -55,12 +55,12 @@ def _frames(bag, period, look):
         yield drawing
 
 
-def _write_gif(path, frames, rate):
+def _write_gif(path: str, frames: Iterable[Drawing], rate: float) -> None:
     first, *rest = (Image.fromarray(d.pixels()).quantize(64) for d in frames)
     first.save(path, save_all=True, append_images=rest, duration=round(1000 / rate), loop=0)
 
 
-def _write_mp4(path, frames, rate):
+def _write_mp4(path: str, frames: Iterator[Drawing], rate: float) -> None:
     if not shutil.which("ffmpeg"):
         raise RecordingError(f"{path}: an MP4 needs ffmpeg (apt install ffmpeg); a GIF does not")
     writer = animation.FFMpegWriter(fps=rate)

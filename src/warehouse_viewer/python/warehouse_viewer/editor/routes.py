@@ -16,6 +16,7 @@ from starlette.routing import Route
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
+from warehouse_layout.file.request import Request as Preset
 from warehouse_layout.generate import generated
 from warehouse_viewer.editor import checking, drawing_json, opening
 from warehouse_viewer.json_text import JSONResponse, dumps
@@ -117,7 +118,7 @@ async def _trial(text: bytes) -> AsyncIterator[bytes]:
             process.kill()
 
 
-def _counts(request: Any) -> Answer:
+def _counts(request: Preset) -> Answer:
     return {
         "robots": request.robots,
         "units": request.shelves,
@@ -142,7 +143,7 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
     return endpoint
 
 
-def _fields(asked: Any, work: Callable[..., Answer]) -> Answer:
+def _fields(asked: object, work: Callable[..., Answer]) -> Answer:
     """Returns the arguments of `work` from a request's body. Raises TypeError."""
     kinds = typing.get_type_hints(work)
     kinds.pop("return")

@@ -2,13 +2,19 @@
 """What robots do at a glance: five activities, each with a colour, the same in list, floor, panels,
 pictures and API. words.js and design.css have them for the page."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from enum import IntEnum
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_viewer.message_enums import EventKind, State, Status
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState
 
 
 class Activity(IntEnum):
@@ -24,7 +30,7 @@ class Activity(IntEnum):
 TOO_LONG = 30.0  # to wait [s, simulated]
 
 
-def shown_status(fleet: Any) -> np.ndarray:
+def shown_status(fleet: FleetState) -> np.ndarray:
     """Returns the status of each robot in a FleetState, (n,) uint8.
 
     BLOCKED itself lasts only a moment; it shows until the robot's next command is accepted.
@@ -35,7 +41,7 @@ def shown_status(fleet: Any) -> np.ndarray:
     return status
 
 
-def wait_too_long(coordinator: Any) -> list[int]:
+def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
     """Returns the numbers of the robots that wait for TOO_LONG, by a CoordinatorState or None."""
     if coordinator is None:
         return []
@@ -44,7 +50,7 @@ def wait_too_long(coordinator: Any) -> list[int]:
     return [robot for robot, since in waits if now - since >= TOO_LONG]
 
 
-def activity(fleet: Any, waiting: Collection[int] = ()) -> np.ndarray:
+def activity(fleet: FleetState, waiting: Collection[int] = ()) -> np.ndarray:
     """Returns the Activity of each robot in a FleetState, (n,) uint8.
 
     `waiting` are the numbers of robots that wait for too long; see wait_too_long().
@@ -59,6 +65,6 @@ def activity(fleet: Any, waiting: Collection[int] = ()) -> np.ndarray:
     return out
 
 
-def _bytes(field: Any) -> np.ndarray:
+def _bytes(field: ArrayLike | bytes) -> np.ndarray:
     """(n,) uint8 of a message's uint8[]."""
     return np.frombuffer(bytes(field), np.uint8)

@@ -55,7 +55,7 @@ class Journal:
         return text.getvalue()
 
 
-def cell(value: Any) -> Any:
+def cell(value: object) -> object:
     """Returns what no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
     injection). Numbers stay numbers."""
     is_formula = isinstance(value, str) and value.startswith(FORMULA) and not NUMBER.match(value)

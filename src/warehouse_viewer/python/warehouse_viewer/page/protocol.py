@@ -18,14 +18,19 @@
     u32 n              rows of WAY below
     f32 x, y [m]       of the points of all in a row: released ones, planned ones, robot after robot
 
-web/js/protocol.js reads it.
+web/js/base/protocol.js reads it.
 """
+
+from __future__ import annotations
 
 import struct
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorPaths
 
 VERSION = 4
 UPDATE, SCAN, WAYS = 1, 2, 3
@@ -83,7 +88,7 @@ def scan(
     return head + np.asarray(ranges, "<f4").tobytes()
 
 
-def ways(message: Any, wanted: Collection[int] | None = None) -> bytes:
+def ways(message: CoordinatorPaths, wanted: Collection[int] | None = None) -> bytes:
     """Encodes a CoordinatorPaths of numpy arrays: all its robots, or those of the ids `wanted`."""
     ids = message.kiva_id
     kept = np.ones(len(ids), bool) if wanted is None else np.isin(ids, list(wanted))

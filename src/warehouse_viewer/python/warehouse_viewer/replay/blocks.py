@@ -38,7 +38,7 @@ class Block(NamedTuple):
     length: int
 
 
-def write_block(file: BinaryIO, what: bytes, about: Any, data: bytes = b"") -> Block:
+def write_block(file: BinaryIO, what: bytes, about: object, data: bytes = b"") -> Block:
     """Appends a block to a file; returns it. Raises OSError."""
     told = json.dumps(about, separators=(",", ":")).encode()
     crc = zlib.crc32(data, zlib.crc32(told))

@@ -62,7 +62,7 @@ class FileWriter:
             self._write(blocks.DONE, {})
             self._file.close()
 
-    def _write(self, what: bytes, about: Any, data: bytes = b"") -> None:
+    def _write(self, what: bytes, about: object, data: bytes = b"") -> None:
         try:
             blocks.write_block(self._file, what, about, data)
             self._file.flush()
@@ -184,7 +184,7 @@ def _mark(about: dict[str, Any]) -> Mark:
     return Mark(_finite(about["time"]), *texts)
 
 
-def _finite(number: Any) -> float:
+def _finite(number: float | None) -> float:
     """Returns a number as a float. Raises ValueError if it is none, or not finite."""
     if isinstance(number, bool) or not isinstance(number, int | float) or not math.isfinite(number):
         raise ValueError(f"a number was expected, not {number!r}")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Records a shift that is simulated in this process: --record of simulate."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_fleet.hosts.coordinator_messages import state_message
 from warehouse_fleet.transports.waiting import Waiting
@@ -13,6 +15,10 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.run import RunRecorder
+
+if TYPE_CHECKING:
+    from warehouse_fleet.hosts.fleet_driver import FleetDriver
+    from warehouse_operations.fleets.world_fleet import WorldFleet
 
 
 class ShiftRecorder:
@@ -54,7 +60,7 @@ class ShiftRecorder:
         return run
 
 
-def waiting(fleet: Any) -> list[int]:
+def waiting(fleet: FleetDriver) -> list[int]:
     """Returns the numbers of the robots of a FleetDriver that wait for too long."""
     traffic, robots = fleet.traffic, fleet.robots
     found = Waiting(traffic, fleet.transports).long()
@@ -78,7 +84,7 @@ def figures(ops: Operations) -> dict[str, Any]:
     }
 
 
-def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
+def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
     """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
     RunFeed.objects."""
     watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})

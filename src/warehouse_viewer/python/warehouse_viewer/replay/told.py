@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of a shift behind ROS, as a recording has them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.operations_json import plain, stations
+
+if TYPE_CHECKING:
+    from warehouse_viewer.ros.feed import Feed
+    from warehouse_viewer.ros.shift_feed import ShiftFeed
 
 SHOWN: dict[str, Callable[[Any], Any]] = {
     "kpis": plain,
@@ -23,7 +29,7 @@ def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
 class Told:
     """The newest of those messages. feed: a ros.feed.Feed; shift: a ros.shift_feed.ShiftFeed."""
 
-    def __init__(self, feed: Any, shift: Any) -> None:
+    def __init__(self, feed: Feed, shift: ShiftFeed) -> None:
         self._feed, self._shift = feed, shift
 
     def figures(self) -> dict[str, Any] | None:

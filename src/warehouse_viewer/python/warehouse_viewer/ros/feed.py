@@ -4,8 +4,11 @@
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
+from types import ModuleType
 from typing import Any
 
+import rospy
+from genpy import Message
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
@@ -48,7 +51,7 @@ class Feed:
 
     def __init__(
         self,
-        ros: Any,
+        ros: ModuleType,
         on_event: Callable[[Event], None],
         on_transport: Callable[[TransportEvent], None],
         on_message: Callable[[], None],
@@ -164,17 +167,17 @@ class Feed:
             for name in wanted.keys() - self._extras.keys():
                 self._extras[name] = self._subscribe(name, *wanted[name])
 
-    def _subscribe(self, name, topic, kind):
+    def _subscribe(self, name: str, topic: str, kind: type) -> rospy.Subscriber:
         return subscribe(self._ros, topic, kind, self._keep, name, queue_size=1)
 
-    def _keep(self, message, name):
+    def _keep(self, message: Message, name: str) -> None:
         self._messages[name] = message
         if name == "coordinator":
             self._coordinated = time.monotonic()
         self._on_message()
 
 
-def _names(objects):
+def _names(objects: WarehouseObjects) -> set[str]:
     """Returns the names of every model in a WarehouseObjects."""
     robots = (f"kiva{n}" for n in objects.kiva_id)
     return {*robots, *objects.storage_units, *objects.items, *objects.belts}

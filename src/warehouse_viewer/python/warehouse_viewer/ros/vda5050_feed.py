@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which robots are at a broker by VDA 5050, as the nodes there tell."""
 
-from typing import Any
+from types import ModuleType
 
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Vda5050
@@ -10,7 +10,7 @@ from warehouse_msgs.msg import Vda5050
 class Vda5050Feed:
     """The newest message of each direction; none once no node tells any more. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._told: dict[int, Vda5050] = {}
         self._subscriber = subscribe(ros, "warehouse/vda5050", Vda5050, self._keep, queue_size=10)
 

@@ -5,8 +5,8 @@ uvicorn bounds how long a connection may idle between two requests, but not how 
 the rest of one that was begun, may take to come; nor how many connections there are.
 """
 
+import asyncio
 import socket
-from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
@@ -17,7 +17,7 @@ class BoundedConnection(H11Protocol):
     MOST = 200  # WebSockets included; each costs a file
     PATIENCE = 15.0  # with a request that does not come, or not wholly [s, wall]
 
-    def connection_made(self, transport: Any) -> None:
+    def connection_made(self, transport: asyncio.Transport) -> None:
         """Starts to wait for a request (asyncio's hook)."""
         super().connection_made(transport)
         self._since = self.loop.time()  # it waits for a request
@@ -30,19 +30,19 @@ class BoundedConnection(H11Protocol):
         self._since = self.loop.time()
         super().on_response_complete()
 
-    def _waits(self):
+    def _waits(self) -> bool:
         """For its client, to ask or to go on with what it began to ask."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
-    def _make_room(self):
+    def _make_room(self) -> None:
         ours = (c for c in self.connections if isinstance(c, BoundedConnection))
         waiting = [c for c in ours if c is not self and c._waits()]
         min(waiting, key=lambda c: c._since, default=self).transport.abort()
 
-    def _look_later(self, delay):
+    def _look_later(self, delay: float) -> None:
         self._timer = self.loop.call_later(delay, self._look)
 
-    def _look(self):
+    def _look(self) -> None:
         if self.transport.is_closing() or self.transport.get_protocol() is not self:
             return  # it ended, or became a WebSocket
         left = self._since + self.PATIENCE - self.loop.time() if self._waits() else self.PATIENCE

@@ -4,11 +4,11 @@
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
+from starlette.types import Message, Receive, Scope, Send
 
 from warehouse_viewer.server.csp import csp_source
 from warehouse_viewer.server.static_files import FreshFiles
@@ -43,14 +43,14 @@ class Documentation:
     def __init__(self, folders: Sequence[Path]) -> None:
         self._folders = folders
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         found = next((one for one in self._folders if (one / "index.html").is_file()), None)
         if found is None:
             await HTMLResponse(MISSING, 404)(scope, receive, send)
             return
         policy = content_policy((found / "index.html").read_text()).encode()
 
-        async def headed(message: Any) -> None:
+        async def headed(message: Message) -> None:
             if message["type"] == "http.response.start":
                 own = (b"content-security-policy", policy)
                 message = message | {"headers": [*message.get("headers", []), own]}

@@ -50,7 +50,7 @@ class Site:
             Route("/fonts/inter.woff2", font.serve),
             Mount("/web", self._files),
             # Modules of three import this one; the page has the same as a script of half the size.
-            Route("/three/build/three.module.js", self._endpoint("js/three.js")),
+            Route("/three/build/three.module.js", self._endpoint("js/base/three.js")),
             Mount("/three", Files(directory=THREE, check_dir=False)),
             Mount("/chart", Files(directory=CHART, check_dir=False)),
         ]

@@ -7,8 +7,9 @@ What follows a # a browser keeps to itself, so that no log and no proxy sees it;
 import html
 import re
 from collections.abc import Mapping
-from typing import Any
 from urllib.parse import parse_qs
+
+from starlette.types import Scope
 
 from warehouse_viewer.server.csp import csp_source
 
@@ -57,7 +58,7 @@ def text(to: str = "/", wrong: bool = False) -> bytes:
     ).encode()
 
 
-def wanted(scope: Any, headers: Mapping[str, str]) -> bool:
+def wanted(scope: Scope, headers: Mapping[str, str]) -> bool:
     """Returns whether a browser asks for a page."""
     is_page = scope["method"] in ("GET", "HEAD") and "text/html" in headers.get("accept", "")
     return scope["type"] == "http" and is_page

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Notes twice a second what the warehouse does, whether or not a page is open."""
 
+from __future__ import annotations
+
 import asyncio
 import logging
-from collections.abc import Collection
-from typing import Any
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +19,11 @@ from warehouse_viewer.watch.figures import Figures
 from warehouse_viewer.watch.span_log import SpanLog
 from warehouse_viewer.watch.station_watch import StationWatch
 
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState, StationState
+    from warehouse_viewer.ros.feed import Feed
+    from warehouse_viewer.ros.shift_feed import ShiftFeed
+
 PERIOD = 0.5  # between two looks [s, wall]
 LOG = logging.getLogger(__name__)
 
@@ -28,7 +35,7 @@ class Monitor:
     `alarms` and `figures`.
     """
 
-    def __init__(self, feed: Any, shift: Any, journal: Journal, book: ChangeBook) -> None:
+    def __init__(self, feed: Feed, shift: ShiftFeed, journal: Journal, book: ChangeBook) -> None:
         self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
         self.spans, self.alarms = SpanLog(), AlarmBook()
         self.stations, self._figures = StationWatch(), Figures()
@@ -64,7 +71,7 @@ class Monitor:
         self._note_alarms(fleet, rows)
         self._note_figures()
 
-    def _note_spans(self, fleet: Any, stations: Collection[Any]) -> None:
+    def _note_spans(self, fleet: FleetState, stations: Collection[Any]) -> None:
         if fleet is not None:
             names = [f"kiva{number}" for number in fleet.kiva_id]
             waiting = wait_too_long(self._feed.coordinator)
@@ -75,14 +82,14 @@ class Monitor:
             names = [one.name for one in stations]
             self.spans.update(self.now, "station", names, self.stations.states(stations))
 
-    def _note_alarms(self, fleet: Any, stations: Collection[Any]) -> None:
+    def _note_alarms(self, fleet: FleetState, stations: Collection[Any]) -> None:
         for event in self._journal.since(self._event):
             self._event = event["id"]
             self._moments.take_event(event)
         self.alarms.update(self.now, self._troubles(fleet, stations))
         self._note("alarms", self.alarms.told())
 
-    def _troubles(self, fleet: Any, stations: Collection[Any]) -> list[Trouble]:
+    def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
         found: list[Trouble] = []
         state = self._feed.coordinator
         if fleet is not None:
@@ -113,7 +120,7 @@ class Monitor:
         self._figures.update(self.now, kpis, available)
         self._note("figures", self._figures.told(kpis, throughput, available, robots))
 
-    def _note(self, topic: str, told: Any) -> None:
+    def _note(self, topic: str, told: object) -> None:
         """Notes what a topic tells now, if it is something else than before."""
         if self._told.get(topic) != told:
             self._told[topic] = told
@@ -123,18 +130,18 @@ class Monitor:
         """Returns the four figures as JSON has them; None if no shift has told any."""
         return self._told.get("figures")
 
-    def station(self, station: Any) -> dict[str, Any]:
+    def station(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside its own fields."""
         return self.stations.told(station)
 
 
-def _available(does: np.ndarray, coordinator: Any) -> tuple[float, int]:
+def _available(does: np.ndarray, coordinator: CoordinatorState | None) -> tuple[float, int]:
     """Returns the share of robots that can work, and how many robots there are."""
     away = coordinator.out_of_service + coordinator.manual if coordinator else 0
     helpless = int((does == Activity.NEEDS_HELP).sum())
     return max(0.0, 1 - (helpless + away) / max(len(does), 1)), len(does)
 
 
-def _without(found: Any, has_stations: bool) -> list[Trouble]:
+def _without(found: Iterable[Trouble], has_stations: bool) -> list[Trouble]:
     """Leaves out what stations tell themselves, more exactly."""
     return [one for one in found if not (has_stations and one.kind == "STATION_UNATTENDED")]

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads what is wrong from what robots, coordinator, stations and shift tell."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warehouse_client.message_names import failures_of
 from warehouse_viewer.message_enums import EventKind
 from warehouse_viewer.watch.alarm_book import Trouble
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState
 
 UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
@@ -30,7 +35,7 @@ SENTENCES = (
 MOMENTS = {EventKind.COLLISION.name: "COLLISION", EventKind.TIPPED.name: "UNIT_TIPPED"}
 
 
-def of_coordinator(state: Any) -> Iterator[Trouble]:
+def of_coordinator(state: CoordinatorState) -> Iterator[Trouble]:
     """Yields what a CoordinatorState tells a person, and which robots wait for long."""
     for text in state.alarms:
         yield of_sentence(text)
@@ -49,7 +54,7 @@ def of_sentence(text: str) -> Trouble:
     return Trouble("COORDINATOR", text, text)
 
 
-def of_fleet(fleet: Any) -> Iterator[Trouble]:
+def of_fleet(fleet: FleetState) -> Iterator[Trouble]:
     """Yields the robots of a FleetState that need help."""
     failures = np.frombuffer(bytes(fleet.failures), np.uint8)
     for i in np.flatnonzero(failures):

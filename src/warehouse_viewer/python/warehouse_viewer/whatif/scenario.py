@@ -44,7 +44,7 @@ class Scenario:
     policies: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of_json(cls, told: Any) -> "Scenario":
+    def of_json(cls, told: object) -> "Scenario":
         """Returns the scenario that a page sends. Raises ScenarioError."""
         known = {one.name for one in fields(cls)}
         if not isinstance(told, dict) or not told.keys() <= known:
@@ -99,30 +99,30 @@ class Scenario:
             raise ScenarioError(f"{path}: {error}") from error
 
 
-def _is_csv(orders: Any) -> bool:
+def _is_csv(orders: object) -> bool:
     return isinstance(orders, str) and orders.endswith(".csv") and not orders.startswith("mix:")
 
 
 def _whole(least: int, most: int) -> tuple[Callable[[Any], bool], str]:
-    def is_right(value: Any) -> bool:
+    def is_right(value: object) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and least <= value <= most
 
     return is_right, f"a whole number from {least} to {most}"
 
 
-def _is_minutes(value: Any) -> bool:
+def _is_minutes(value: object) -> bool:
     if not isinstance(value, int | float) or isinstance(value, bool):
         return False
     return math.isfinite(value) and 0 < value <= MOST_MINUTES
 
 
-def _is_layout(value: Any) -> bool:
+def _is_layout(value: object) -> bool:
     return isinstance(value, str) and (
         (value in PRESETS and value != "empty") or is_file_name(value, SUFFIX)
     )
 
 
-def _is_orders(value: Any) -> bool:
+def _is_orders(value: object) -> bool:
     if not isinstance(value, str) or len(value) > 200:
         return False
     if value.endswith(".csv"):
@@ -130,7 +130,7 @@ def _is_orders(value: Any) -> bool:
     return value.partition(":")[0] in ("fill", "poisson", "mix")
 
 
-def _is_policies(value: Any) -> bool:
+def _is_policies(value: object) -> bool:
     """Only names that are known: a page names no code."""
     return isinstance(value, dict) and all(
         role in ROLES and isinstance(name, str) and name in ROLES[role]
@@ -144,7 +144,7 @@ def is_file_name(name: str, suffix: str) -> bool:
     return name != stem and bool(FILE_NAME.fullmatch(stem)) and ".." not in name
 
 
-def checked_name(name: Any) -> str:
+def checked_name(name: object) -> str:
     """Returns a scenario's name, which is that of its folder. Raises ScenarioError."""
     text = name.strip() if isinstance(name, str) else ""
     if not NAME.fullmatch(text) or text.endswith(".") or text in (LAYOUTS, ORDERS):

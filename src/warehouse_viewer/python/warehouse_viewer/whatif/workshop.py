@@ -124,7 +124,7 @@ class Workshop:
             "summary": figures.summary(found) if found else None,
         }
 
-    def estimate(self, settings: Any) -> Told:
+    def estimate(self, settings: object) -> Told:
         """Returns how long a scenario would take on this machine [s, wall]."""
         scenario = Scenario.of_json(settings)
         description = check(scenario, self.folder.path)
@@ -164,12 +164,12 @@ class Workshop:
         return found
 
     # --- what is asked for
-    def create(self, name: Any, settings: Any) -> Told:
+    def create(self, name: str, settings: object) -> Told:
         """Makes a scenario."""
         with self._lock:
             return {"name": self.folder.create(name, Scenario.of_json(settings))}
 
-    def change(self, name: str, settings: Any) -> Told:
+    def change(self, name: str, settings: object) -> Told:
         """Changes a scenario. Runs that are of another one now are removed."""
         self._check_quiet(name)
         with self._lock:
@@ -191,7 +191,7 @@ class Workshop:
         with self._lock:
             return {"name": self.folder.duplicate(name)}
 
-    def rename(self, name: str, to: Any) -> Told:
+    def rename(self, name: str, to: str) -> Told:
         """Gives a scenario another name."""
         self._check_quiet(name)
         with self._lock:

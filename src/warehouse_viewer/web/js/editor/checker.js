@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Has the server check the drawing soon after each change, also amid a stroke, and lists what is wrong with it.
 
-import { $, make } from '../dom.js';
+import { $, make } from '../base/dom.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -42,7 +42,7 @@ export class Checker {
       return;
     }
     const { text, origin: [left, bottom] } = textOf(drawing);
-    const { faults, lanes } = await ask('/check', { text });
+    const { faults, lanes } = await ask('POST', '/check', { text });
     const moved = (cells) => cells.map(([column, row]) => [column + left, row + bottom]);
     this.show(faults.map((f) => ({ text: f.text, cells: moved(f.cells) })),
       Object.fromEntries(Object.entries(lanes).map(([key, cells]) => [key, moved(cells)])));

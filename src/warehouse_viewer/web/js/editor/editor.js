@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layout editor: one drawing, one tool, one brush; what changes is told to listeners.
 
-import { $ } from '../dom.js';
+import { $ } from '../base/dom.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';
-import { FLOOR, isLetter, NEXT_STATION } from './characters.js';
+import { FLOOR } from './characters.js';
 import { Drawing } from './drawing.js';
 import { History } from './history.js';
 import { Overlay } from './overlay.js';
@@ -289,5 +289,3 @@ export class Editor {
     if (this.frames.length > 1000) this.frames.shift();
   }
 }
-
-export const wordOf = (brush) => (isLetter(brush) ? `station ${brush}` : brush === NEXT_STATION ? 'station' : brush);

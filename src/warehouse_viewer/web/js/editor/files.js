@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens, saves and downloads files, and generates new ones.
 
-import { $, make, on } from '../dom.js';
-import { ask as question, confirmed } from '../question.js';
-import { ask as send } from '../whatif/server.js';
+import { $, make, on } from '../base/dom.js';
+import { ask as question, confirmed } from '../base/question.js';
+import { ask as request } from '../base/request.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -50,7 +50,7 @@ export class Files {
     await this.attempt(async () => {
       if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
-      const { drawing, told } = await ask('/read', { files: Object.fromEntries(contents) });
+      const { drawing, told } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
       this.editor.open(drawing);
       tellLost(told);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
@@ -63,7 +63,7 @@ export class Files {
       this.download(text);
       return;
     }
-    await this.attempt(async () => this.editor.say((await ask('/file', { text }, 'PUT')).message, 'done'));
+    await this.attempt(async () => this.editor.say((await ask('PUT', '/file', { text })).message, 'done'));
   }
 
   download(text) {
@@ -79,7 +79,7 @@ export class Files {
     if (answer === 'empty') this.editor.open(null);
     else if (answer === 'yes') {
       const counts = Object.fromEntries(COUNTS.map((what) => [what, $(`new-${what}`).valueAsNumber || 0]));
-      await this.attempt(async () => this.editor.open(await ask('/new', counts)));
+      await this.attempt(async () => this.editor.open(await ask('POST', '/new', counts)));
     }
   }
 
@@ -117,7 +117,7 @@ export async function build(editor, post) {
 export async function compare(editor) {
   try {
     const name = fileNameOf(editor.drawing);
-    const { name: kept } = await send('POST', '/layouts', { name, text: textOf(editor.drawing).text });
+    const { name: kept } = await request('POST', '/whatif/layouts', { name, text: textOf(editor.drawing).text });
     location.assign(`/whatif?layout=${encodeURIComponent(kept)}`);
   } catch (error) {
     editor.say(error.message, 'refused');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One key a character, one a tool; the arrow keys move a cursor that draws as a pointer does.
 
-import { $, on } from '../dom.js';
+import { $, on } from '../base/dom.js';
 import { isCharacter } from './characters.js';
 import { rectOf } from './shapes.js';
 import { TOOLS } from './tools.js';

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page /layout.
 
-import { post, reloadIfLockedOut } from '../api.js';
-import { $, enable, make, on } from '../dom.js';
+import { post, reloadIfLockedOut } from '../base/api.js';
+import { $, enable, make, on } from '../base/dom.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
 import { build, compare, Files, tellLost } from './files.js';
@@ -27,7 +27,7 @@ function say(text, kind = '') {
 
 async function aboutServer() {
   try {
-    return await ask('/about');
+    return await ask('GET', '/about');
   } catch (error) {
     reloadIfLockedOut();
     say(error.message, 'refused');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The brushes: a swatch, a word and a key each; and the tools.
 
-import { $, make, on, press } from '../dom.js';
+import { $, make, on, press } from '../base/dom.js';
 import { CHARACTERS, isLetter, NEXT_STATION } from './characters.js';
 import { TOOLS } from './tools.js';
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Name, spacing, counts and sizes beside the drawing; and what is under the pointer below it.
 
-import { $, on } from '../dom.js';
+import { $, on } from '../base/dom.js';
 import { CHARACTERS, isLetter } from './characters.js';
 import { metres } from './rulers.js';
 

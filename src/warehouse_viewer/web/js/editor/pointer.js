@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mouse, pen and fingers on the paper: one draws, two move it and zoom.
 
-import { on } from '../dom.js';
+import { on } from '../base/dom.js';
 import { Hand } from './tools.js';
 
 const WHEEL = 0.0015; // of the zoom, a pixel

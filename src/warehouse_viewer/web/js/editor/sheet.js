@@ -5,7 +5,7 @@ import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
 
 const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
 const BLANK = new Set(['.', NOTHING, '#', '=']);
-export const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
+const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
 
 /** Colours by the names of the style sheet's --cell-…, --editor-…. */
 export function coloursOf(root = document.documentElement) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stations: which there are, and the chosen one's name, kind and lane.
 
-import { $, make, on } from '../dom.js';
+import { $, make, on } from '../base/dom.js';
 
 export class StationPanel {
   constructor(editor) {

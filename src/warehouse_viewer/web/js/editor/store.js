@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeps what is drawn in the browser, so that a closed tab loses nothing.
 
-import { on } from '../dom.js';
+import { on } from '../base/dom.js';
 import { drawingOf, jsonOf, textOf } from './text.js';
 
 const SOON = 300; // after a change [ms]

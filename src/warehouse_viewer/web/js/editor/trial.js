@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Try: ideal robots work in the drawing for ten simulated minutes; what they did is shown on it.
 
-import { $, make, on, press } from '../dom.js';
-import { swatches, topOf } from '../heat_scale.js';
+import { $, make, on, press } from '../base/dom.js';
+import { swatches, topOf } from '../base/heat_scale.js';
 import { send } from './server.js';
 import { textOf } from './text.js';
 
@@ -26,7 +26,7 @@ export class Trial {
     Object.assign(this, { abort, before: this.result?.pieces_per_hour });
     this.phase('running', 'robots come in …');
     try {
-      const answer = await send('/try', text, 'POST', abort.signal);
+      const answer = await send('POST', '/try', text, abort.signal);
       await linesOf(answer, (line) => this.take(line, origin));
     } catch (error) {
       if (this.abort === abort) this.phase('failed', error.name === 'AbortError' ? 'cancelled' : error.message);

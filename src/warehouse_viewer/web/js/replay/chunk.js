@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a chunk of a recording, as replay/chunk.py writes it.
 
-import { decode } from '../protocol.js';
+import { decode } from '../base/protocol.js';
 
 const UPDATE = 1, TEXT = 4, HEAD = 16;
 

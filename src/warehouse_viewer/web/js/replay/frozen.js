@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // While a page shows what is past nothing can be commanded, and each button says why.
 
-import { forbid } from '../api.js';
-import { $, enable, withhold } from '../dom.js';
+import { forbid } from '../base/api.js';
+import { $, enable, withhold } from '../base/dom.js';
 
 const COMMANDS = ['left', 'right', 'add', 'add-person', 'build', 'fetch', 'pick-up'];
 const MODES = '#modes button';

@@ -3,7 +3,7 @@
 
 import { State } from './state.js';
 
-export const TICK = 100; // between two pictures [ms]
+const TICK = 100; // between two pictures [ms]
 const AHEAD = 0.9; // of a chunk, after which the next one is fetched
 const FRESH = 2000; // between two looks for what a running warehouse has recorded since [ms]
 

@@ -2,7 +2,7 @@
 // A recording as the server has it: what there is, and its chunks and scenes, the last ones of which
 // are kept.
 
-import { reasonOf } from '../api.js';
+import { reasonOf } from '../base/request.js';
 import { read } from './chunk.js';
 
 const KEPT = 12; // chunks

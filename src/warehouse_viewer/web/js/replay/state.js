@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where everything was at a moment: robots are drawn on their way between two updates.
 
-import { BODY_WORDS, ROBOT_WORDS } from '../protocol.js';
-import { wrapped } from '../world.js';
+import { BODY_WORDS, ROBOT_WORDS } from '../base/protocol.js';
+import { wrapped } from '../base/world.js';
 
 const FAR = 6; // [m]; a robot that moves so far between two updates was put there
 const BODIES = ['units', 'loose', 'scenery'];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The time line at the bottom of the floor: the last hour of a running warehouse, or a recording.
 
-import { $, on, press, setIcon } from '../dom.js';
+import { $, on, press, setIcon } from '../base/dom.js';
 import { hms, wallClock } from './clock.js';
 import { freeze } from './frozen.js';
 import { linkTo, momentOf, timeOf, wallAt } from './link.js';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The track of the time line: a slider for pointer and keyboard, with marks where something was wrong.
 
-import { make, on } from '../dom.js';
+import { make, on } from '../base/dom.js';
 
 const STEPS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -60, PageUp: 60 }; // [s]
 const COARSE = 10; // times a step, with the shift key

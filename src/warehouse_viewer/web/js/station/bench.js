@@ -2,7 +2,7 @@
 // What a person at a station has to do: what the server told last, less what was reported since. It
 // goes on without a network, as far as what is to be done with the unit that is there was told.
 
-import { PickOutcome, StationMode } from '../message_enums.js';
+import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { meaningOf } from './codes.js';
 import { newId } from './outbox.js';
 

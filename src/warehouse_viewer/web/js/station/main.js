@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The screen of a person at a station, for a scanner, fingers in gloves, or a keyboard.
 
-import { get, put } from '../api.js';
-import { $, on, press } from '../dom.js';
-import { PickOutcome, StationMode } from '../message_enums.js';
-import { confirmed } from '../question.js';
+import { get, put } from '../base/api.js';
+import { $, on, press } from '../base/dom.js';
+import { PickOutcome, StationMode } from '../base/message_enums.js';
+import { confirmed } from '../base/question.js';
 import { stayAwake } from './awake.js';
 import { Bench } from './bench.js';
 import { meaningOf } from './codes.js';

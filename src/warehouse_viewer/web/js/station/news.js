@@ -2,7 +2,7 @@
 // How the stations are, as they change; and whether the server is reached, told soon: a network that
 // is gone closes no socket.
 
-import { Changes } from '../changes.js';
+import { Changes } from '../base/changes.js';
 
 const QUIET = 4000; // without a word the server is asked [ms]
 const PATIENCE = 3500; // for its answer [ms]

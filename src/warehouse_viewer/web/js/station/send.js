@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends what an Outbox keeps.
 
-import { reasonOf, reloadIfLockedOut } from '../api.js';
+import { reloadIfLockedOut } from '../base/api.js';
+import { reasonOf } from '../base/request.js';
 import { Refused } from './outbox.js';
 
 const PATIENCE = 6000; // for an answer [ms]

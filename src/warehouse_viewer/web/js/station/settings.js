@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is set for this device: the scanner's prefix; a code typed by hand; and how far a reload works.
 
-import { $, on } from '../dom.js';
-import { ask } from '../question.js';
+import { $, on } from '../base/dom.js';
+import { ask } from '../base/question.js';
 import { Shelf } from './shelf.js';
 
 const WORKER = '/station-worker.js';

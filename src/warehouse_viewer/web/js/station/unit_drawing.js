@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A storage unit's front, with the bin in which a person works lit.
 
-import { get } from '../api.js';
-import { within } from '../world.js';
+import { get } from '../base/api.js';
+import { within } from '../base/world.js';
 
 const SIDE = 0.8, TOP = 1.8; // of a storage unit [m]
 const SCALE = 250; // of its drawing [px/m]

@@ -2,8 +2,8 @@
 // Draws what a person at a station has to do. Its elements stay: the focus and a finger on its way find
 // what they aimed at.
 
-import { $ } from '../dom.js';
-import { StationMode } from '../message_enums.js';
+import { $ } from '../base/dom.js';
+import { StationMode } from '../base/message_enums.js';
 import { UnitDrawing } from './unit_drawing.js';
 import { Wall } from './wall.js';
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wall of totes: the one that gets the pieces is lit, a complete one asks to be taken away.
 
-import { make } from '../dom.js';
+import { make } from '../base/dom.js';
 
 export class Wall {
   constructor(list) {

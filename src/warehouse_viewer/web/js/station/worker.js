@@ -2,14 +2,17 @@
 // Keeps the files of a station's screen, so that a reload works while the network is gone. What the
 // server has is taken first, always; nothing of /api is ever kept.
 
-const NAME = 'station-1';
+const NAME = 'station-2';
 const PATIENCE = 2500; // for the server, before what is kept is taken [ms]
-const MODULES = ['api', 'changes', 'dom', 'message_enums', 'question', 'world', ...[
-  'awake', 'bench', 'codes', 'main', 'news', 'outbox', 'scanner', 'send', 'settings', 'shelf', 'sounds', 'unit_drawing', 'view', 'wall',
-].map((name) => `station/${name}`)];
+const MODULES = {
+  base: ['api', 'changes', 'dom', 'message_enums', 'question', 'request', 'world'],
+  station: [
+    'awake', 'bench', 'codes', 'main', 'news', 'outbox', 'scanner', 'send', 'settings', 'shelf', 'sounds', 'unit_drawing', 'view', 'wall',
+  ],
+};
 const PAGE = '/web/station.html';
-const FILES = [PAGE, '/web/design.css', '/web/station.css', '/web/icon.svg', '/web/js/theme.js', '/fonts/inter.woff2',
-  ...MODULES.map((name) => `/web/js/${name}.js`)];
+const FILES = [PAGE, '/web/design.css', '/web/station.css', '/web/icon.svg', '/web/js/base/theme.js', '/fonts/inter.woff2',
+  ...Object.entries(MODULES).flatMap(([room, names]) => names.map((name) => `/web/js/${room}/${name}.js`))];
 
 self.addEventListener('install', (event) => {
   event.waitUntil(caches.open(NAME).then((cache) => cache.addAll(FILES)).then(() => self.skipWaiting()));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario in the list. Its elements stay while what they say changes, and so does the focus.
 
-import { make } from '../dom.js';
+import { make } from '../base/dom.js';
 import { pathOf } from './server.js';
 import { BADGES, describe, duration, interval, limitOf, plural } from './words.js';
 

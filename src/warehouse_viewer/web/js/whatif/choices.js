@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the fields of the page offer, and the settings that they say.
 
-import { $, make } from '../dom.js';
+import { $, make } from '../base/dom.js';
 import { DAYS, layoutOf, plural, ROLES } from './words.js';
 
 export const option = (value, textContent = value) => make('option', { value, textContent });

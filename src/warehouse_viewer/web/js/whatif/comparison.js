@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios side by side: a chart with intervals, what differs, and a table of figures.
 
-import { $, make, on } from '../dom.js';
+import { $, make, on } from '../base/dom.js';
 import { queryOf } from './server.js';
 import { chartOf, draw, unitOf } from './whiskers.js';
 import { differences, interval, limitOf, number, plural } from './words.js';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dialog in which a scenario is made and changed.
 
-import { $, on } from '../dom.js';
+import { $, on } from '../base/dom.js';
 import { choose, fillDays, fillLayouts, fillPolicies, freeName, hintCounts, option, ordersText, partsOf, policiesOf } from './choices.js';
 import { ask } from './server.js';
 import { dayOf, duration, layoutOf, plural } from './words.js';

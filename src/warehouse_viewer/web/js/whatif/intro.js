@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two layouts against each other, in one go: what a first visitor sees.
 
-import { $, on } from '../dom.js';
+import { $, on } from '../base/dom.js';
 import { fillLayouts, freeName, hintCounts } from './choices.js';
 import { ask } from './server.js';
 import { duration, layoutOf } from './words.js';

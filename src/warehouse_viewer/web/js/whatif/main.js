@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page /whatif: scenarios, their runs, and how they compare.
 
-import { reloadIfLockedOut } from '../api.js';
-import { $, make, on } from '../dom.js';
-import { ask as asked, confirmed } from '../question.js';
+import { reloadIfLockedOut } from '../base/api.js';
+import { $, make, on } from '../base/dom.js';
+import { ask as asked, confirmed } from '../base/question.js';
 import { Told } from './told.js';
 import { Card } from './card.js';
 import { Comparison } from './comparison.js';

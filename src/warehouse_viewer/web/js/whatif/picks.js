@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which scenarios are compared, the reference first: kept in the address, which can be sent.
 
-import { on } from '../dom.js';
+import { on } from '../base/dom.js';
 
 const KEY = '#compare=';
 

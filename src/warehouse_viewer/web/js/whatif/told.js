@@ -2,7 +2,7 @@
 // A line that tells what became of something, and offers for a while to take it back. It
 // stays when what is around it is drawn again.
 
-import { make } from '../dom.js';
+import { make } from '../base/dom.js';
 
 const OFFERED = 10; // [s]
 const SHOWN = 15; // a refusal [s]

@@ -51,7 +51,7 @@ async def get_orders(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Orders, the newest first."""
     which = ANY if state is None else STATES.index(state)
     found = await backend.call(
@@ -97,13 +97,13 @@ async def export_xlsx(orders: list[Any] = EXPORTED) -> Any:
     return _file("orders.xlsx", sheet, SPREADSHEET)
 
 
-def _file(name, content, kind):
+def _file(name: str, content: str | bytes, kind: str) -> Response:
     headers = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(content, media_type=kind, headers=headers)
 
 
 @router.post("/orders/table", response_model=TableAnswer, responses=problems(*SENT))
-async def submit_orders(wanted: OrderTable, backend: ApiBackend = BACKEND) -> Any:
+async def submit_orders(wanted: OrderTable, backend: ApiBackend = BACKEND) -> object:
     """New orders as a table in CSV: all of them, or none. `faults` says what is wrong where."""
     fields = wanted.table, wanted.check_only
     answer = await backend.call(
@@ -125,7 +125,7 @@ async def get_skus(
     search: str = Query("", max_length=80, description="a part of the name"),
     limit: int = LIMIT,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """SKUs by name, with their pieces in stock: those that begin with the text first."""
     fields = "find_skus", srv.FindSkus, search, limit
     found = await backend.call(backend.operations.request, *fields)
@@ -134,7 +134,7 @@ async def get_skus(
 
 
 @router.get("/orders/{number}", response_model=Order, responses=problems(404))
-async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> Any:
+async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
     """One order."""
     found = await backend.call(backend.operations.find_orders, number)
     if not found.orders:
@@ -143,7 +143,7 @@ async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.post("/orders", status_code=201, response_model=Accepted, responses=problems(*SENT))
-async def submit_order(wanted: NewOrder, backend: ApiBackend = BACKEND) -> Any:
+async def submit_order(wanted: NewOrder, backend: ApiBackend = BACKEND) -> object:
     """A new order; kept when this answers."""
     lines = [msg.OrderLine(line.sku, line.quantity) for line in wanted.lines]
     fields = wanted.reference, lines, backend.operations.time(wanted.due), wanted.priority
@@ -152,7 +152,7 @@ async def submit_order(wanted: NewOrder, backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.delete("/orders/{number}", response_model=Done, responses=problems(409))
-async def cancel_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> Any:
+async def cancel_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
     """Cancels an order that is not complete."""
     answer = await backend.call(backend.operations.call, "cancel_order", srv.CancelOrder, number)
     return {"message": answer.message}
@@ -164,7 +164,7 @@ async def get_stock(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Where pieces of a SKU lie, the most first."""
     return plain(
         await backend.call(backend.operations.call, "find_stock", srv.FindStock, sku, limit, offset)

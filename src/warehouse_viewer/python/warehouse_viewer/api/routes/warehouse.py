@@ -18,7 +18,7 @@ router = APIRouter()
 
 
 @router.get("/warehouse", response_model=Warehouse, responses=problems())
-async def get_warehouse(backend: ApiBackend = BACKEND) -> Any:
+async def get_warehouse(backend: ApiBackend = BACKEND) -> object:
     """What stands there, and how time passes."""
     await backend.wait_for_positions()
     objects, performance = backend.feed["objects"], backend.feed["performance"]
@@ -39,7 +39,7 @@ async def get_warehouse(backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.get("/warehouse/sizes", response_model=Sizes, responses=problems())
-async def get_sizes(backend: ApiBackend = BACKEND) -> Any:
+async def get_sizes(backend: ApiBackend = BACKEND) -> object:
     """Presets, and the limits of counts of one's own."""
     presets = {name: vars(counts) for name, counts in PRESETS.items()}
     return {"presets": presets, "limits": LIMITS}
@@ -58,7 +58,7 @@ async def _build_layout(wanted: NewWarehouse, backend: ApiBackend) -> Any:
 
 
 @router.post("/warehouse", response_model=Done, responses=problems(*SENT))
-async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> Any:
+async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> object:
     """Builds a warehouse in place of the one that stands."""
     if wanted.layout:
         return {"message": await _build_layout(wanted, backend)}

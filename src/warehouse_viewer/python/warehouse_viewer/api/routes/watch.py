@@ -21,7 +21,7 @@ BYTES: dict[int | str, dict[str, Any]] = {
 
 
 @router.get("/alarms", response_model=Alarms, responses=problems())
-async def get_alarms(backend: ApiBackend = BACKEND) -> Any:
+async def get_alarms(backend: ApiBackend = BACKEND) -> object:
     """The alarms: since when each holds, its cause, what to do, and the person that saw it."""
     alarms = backend.monitor.alarms.told()
     kinds = {name: kind._asdict() for name, kind in KINDS.items()}
@@ -29,7 +29,7 @@ async def get_alarms(backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.post("/alarms/{number}/seen", response_model=Alarm, responses=problems(404, *SENT))
-async def see_alarm(seen: Seen, number: int = ALARM, backend: ApiBackend = BACKEND) -> Any:
+async def see_alarm(seen: Seen, number: int = ALARM, backend: ApiBackend = BACKEND) -> object:
     """A person has seen an alarm; all clients show who it was for as long as the alarm lasts."""
     alarm = backend.monitor.see(number, seen.by.strip())
     if alarm is None:
@@ -38,7 +38,7 @@ async def see_alarm(seen: Seen, number: int = ALARM, backend: ApiBackend = BACKE
 
 
 @router.get("/figures", response_model=LeadingFigures, responses=problems())
-async def get_figures(backend: ApiBackend = BACKEND) -> Any:
+async def get_figures(backend: ApiBackend = BACKEND) -> object:
     """Pieces and orders an hour, late orders, available robots: now, their last hour, targets."""
     figures = backend.monitor.figures()
     if figures is None:

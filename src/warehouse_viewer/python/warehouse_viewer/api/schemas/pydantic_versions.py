@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the API takes from pydantic, of which Debian 12 has version 1 and Debian 13 version 2."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any
 
 import pydantic
@@ -80,7 +80,7 @@ if IS_1:
         allow_inf_nan = False
 
         @classmethod
-        def __get_validators__(cls):
+        def __get_validators__(cls) -> Iterator[Callable[..., Any]]:
             yield _finite
             yield from super().__get_validators__()
 
@@ -91,7 +91,7 @@ if IS_1:
     def check_all(check: Callable[[Mapping[str, Any]], None]) -> Any:
         """Returns what, as a class attribute, calls check(values) for each model that is valid."""
 
-        def validate(cls, values):
+        def validate(cls: type, values: dict[str, Any]) -> Any:
             check(values)
             return values
 
@@ -117,7 +117,7 @@ else:
     def check_all(check: Callable[[Mapping[str, Any]], None]) -> Any:
         """Returns what, as a class attribute, calls check(values) for each model that is valid."""
 
-        def validate(model):
+        def validate(model: BaseModel) -> BaseModel:
             check(vars(model))
             return model
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btDiscreteCollisionDetectorInterface.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "core/physics/collision/contact_algorithm.h"
+
+namespace kiva {
+
+/// Contacts of two boxes, foreseen while they are still apart.
+///
+/// Bullet offers two ways, and alone each lets fast boxes sink into each other: its box-box
+/// detector sees overlapping boxes only, and GJK loses the contact once a corner is in. So GJK
+/// finds the distance while there is one, its normal gives the whole patch of the faces that
+/// oppose, and the detector takes over where boxes overlap.
+class BoxBoxContacts : public ContactAlgorithm {
+ public:
+  BoxBoxContacts(const btCollisionAlgorithmConstructionInfo& info,
+                 const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b);
+  ~BoxBoxContacts() override;
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  void getAllContactManifolds(btManifoldArray& manifolds) override;
+
+  /// What a dispatcher is told to use for two boxes.
+  struct Creator : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+  };
+
+ private:
+  void foresee(const btBoxShape* a, const btBoxShape* b,
+               const btDiscreteCollisionDetectorInterface::ClosestPointInput& input,
+               btManifoldResult* result);
+
+  btPersistentManifold* manifold_;
+  btAlignedObjectArray<btVector3> scratch_[2];  // of the clipping
+};
+
+}  // namespace kiva

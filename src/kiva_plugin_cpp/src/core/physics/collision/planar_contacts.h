@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <vector>
+
+#include "core/geometry/rectangle_contacts.h"
+#include "core/physics/collision/contact_algorithm.h"
+
+namespace kiva {
+
+/// Returns whether the body can do nothing but slide on the floor and turn on it.
+bool isPlanar(const btRigidBody& body);
+
+/// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points
+/// wherever outlines come near.
+class PlanarContacts : public ContactAlgorithm {
+ public:
+  /// Two parts that share heights, and where they touch.
+  struct Pair {
+    int a = 0, b = 0;                          ///< Children of the compounds.
+    double z_min = 0, z_max = 0;               ///< That they share, in world [m].
+    btPersistentManifold* manifold = nullptr;  ///< Once they have come near.
+    OutlineContacts contacts;                  ///< The last look's.
+  };
+
+  PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
+                 const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                 std::vector<Pair> pairs, const Rectangle& hull_a, const Rectangle& hull_b);
+  ~PlanarContacts() override;
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  void getAllContactManifolds(btManifoldArray& manifolds) override;
+
+  /// What a dispatcher is told to use for two compounds: this, or Bullet's own where one of them
+  /// may tip, or has parts that are no upright boxes.
+  struct Creator : btCompoundCompoundCollisionAlgorithm::CreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+  };
+
+ private:
+  void forget();
+  /// Returns whether the pair may touch soon; it has a manifold then.
+  bool findPairContacts(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        double reach, Pair* pair);
+  double heightOfPush(double centre) const;
+
+  std::vector<Pair> pairs_;
+  Rectangle hull_a_, hull_b_;  ///< The hulls of all their parts, in the bodies' frames.
+};
+
+}  // namespace kiva

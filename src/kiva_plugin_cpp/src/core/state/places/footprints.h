@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models among the obstacles: what their collision shapes cover of the floor, and how that follows
+// where they are.
+#pragma once
+
+#include "core/geometry/footprint.h"
+#include "core/state/views/motion_view.h"
+
+namespace kiva {
+
+/// Gives a model the geometry of its collision shapes, without footprints so far.
+void addCollisionGeometry(const FloorState& floor, Model& model);
+/// Renews the geometry of a static model after it or the floor has moved.
+void refitGeometry(MotionView& world, Model& model);
+/// Updates the footprints of a model, or of a robot with its load, that was moved or reshaped, and
+/// counts up World::unitsRevision for units and items. Every move of a model calls this, and needs
+/// nothing else.
+void moved(MotionView& world, Model& model);
+/// Updates the footprints of a robot that drove by itself in this step.
+void followRobot(MotionView& world, int robot);
+/// Raises the footprints of a robot's load, if it has one, by that much [m].
+void raiseLoad(MotionView& world, int robot, double by);
+/// Takes the footprints away; the model keeps its geometry.
+void hideFootprints(Obstacles& obstacles, Model& model);
+/// Discards what robots know of how long their ways are free, since something came or was moved
+/// from outside: robots look around before they go on.
+void invalidateClearance(FleetState& fleet);
+
+/// Calls visit(footprint) for each of the model's footprints in world.
+template <typename Visit>
+void forFootprints(const Scene& world, int slot, Visit visit) {
+  const Model& model = *world.models[slot];
+  const int mover = model.owner->robot(world, model);
+  if (mover < 0) {
+    for (const CollisionGeometry& g : model.geometries) visit(world.obstacles[g.handle]);
+    return;
+  }
+  for (const Footprint& footprint : world.obstacles.footprints(mover)) {
+    if (footprint.model == slot) visit(footprint);
+  }
+}
+
+/// Returns whether two footprints span a height in common.
+inline bool shareHeight(const Footprint& a, const Footprint& b) {
+  return a.z_min <= b.z_max && b.z_min <= a.z_max;
+}
+
+/// Returns half the length and width of a robot with its load, along its axes [m].
+inline double halfLength(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
+inline double halfWidth(const Robot& r) { return std::max(r.half_width, r.load_half_width); }
+/// Returns the distance from its centre to the farthest corner of both [m].
+inline double cornerRadius(const Robot& r) { return std::hypot(halfLength(r), halfWidth(r)); }
+/// Returns the height above the floor up to which robot `i` reaches; a loaded one takes all [m].
+inline double heightOf(const Fleet& f, int i) {
+  return f.unit[i] < 0 ? f.robots[i].height + f.tower[i] : 1e9;
+}
+
+}  // namespace kiva

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+
+#include <string>
+
+#include "ros/gazebo_plugins/base/gazebo_plugin.h"
+
+namespace kiva_ros {
+
+/// Base of the plugins that drive a model by cmd_vel and publish its odometry.
+class Drive : public GazeboPlugin {
+ public:
+  using GazeboPlugin::GazeboPlugin;
+
+ protected:
+  static constexpr double kMost = 1e6;  ///< Of speeds and lengths, in SI units.
+
+  struct Command {
+    double speed = 0;  ///< Ahead [m/s].
+    double aside = 0;  ///< To the left [m/s].
+    double turn = 0;   ///< [rad/s]
+  };
+  struct Covariance {
+    double x = 1e-5, y = 1e-5, yaw = 1e-3;
+  };
+
+  /// Reads commandTopic, odometryTopic, odometryFrame and robotBaseFrame.
+  void openTopics(const kiva::Parameters& parameters);
+  void setCovariance(const Covariance& covariance) { covariance_ = covariance; }
+  /// Takes the newest message on the command topic. Returns whether there was one.
+  bool takeCommand();
+  void setCommand(const Command& command) { command_ = command; }
+  const Command& command() const { return command_; }
+  /// Returns the model's pose in world, and its planar velocity in its own frame.
+  kiva::EntityState trueOdometry(const kiva::World& world) const;
+  void publishOdometry(const kiva::World& world, const kiva::EntityState& state);
+  void publishOdometryTransform(const kiva::World& world, const kiva::EntityState& state);
+  ros::Publisher& transforms() { return transforms_; }
+
+ private:
+  Command command_;
+  Covariance covariance_;
+  std::string odometry_frame_, base_frame_;
+  PluginInput<geometry_msgs::Twist> commands_;
+  ros::Publisher odometry_, transforms_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "world_file/files/xml.h"
+
+namespace kiva {
+
+/// Takes out of a link what is wrong with its `<inertial>`, with a warning: a mass that is not
+/// positive, an inertia that no body can have. SDF's defaults of 1 kg and 1 kg m² are left.
+void repairInertial(XmlElement* link, Faults* warnings);
+
+/// Reads an `<inertial>` into mass, principal moments and axes of `link`; null: the defaults.
+void setInertia(const XmlElement* inertial, Link* link);
+
+}  // namespace kiva

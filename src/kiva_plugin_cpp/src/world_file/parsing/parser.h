@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "world_file/files/document.h"
+
+namespace kiva {
+
+/// Faulty parts are left out, with a warning each. Throws SdfError where nothing would be left.
+/// Thread-safe.
+SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths);
+
+}  // namespace kiva

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Takes in what robots report, and admits them to the fleet.
+#include "warehouse_fleet/execution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/execution/execution_limits.h"
+
+namespace fleet {
+namespace {
+
+constexpr int kInsists = 3;        // refusals after which a path can't begin where it does
+constexpr double kSettled = 1;     // after which nothing that was sent is on its way any more [s]
+constexpr double kBlockedFor = 1;  // after which a robot is sent another way [s]
+constexpr double kNoWay = 0.001;   // between two reports of a robot that stands [m]
+constexpr double kStalledFor = 5;  // after which a robot is taken to be broken [s]
+
+}  // namespace
+
+Execution::Execution(const Floor& floor, const Motion& motion)
+    : floor_(floor),
+      motion_(motion),
+      frame_(floor, motion),
+      holders_(floor),
+      order_(floor.size()) {}
+
+void Execution::update(double time, std::vector<Report> reports) {
+  const double elapsed = std::max(0.0, time - now_);
+  now_ = time;
+  const int robots = static_cast<int>(reports.size());
+  if (reports.size() != courses_.size()) {
+    holders_.clear();
+    courses_.assign(reports.size(), {});
+    order_.clear();
+    members_.clear();
+    reports_.resize(reports.size());
+  }
+  const std::vector<Report> before = std::exchange(reports_, std::move(reports));
+  // Members of the fleet come first: obstacles get only the cells that members do not hold.
+  for (int robot = 0; robot < robots; ++robot) {
+    Course& course = courses_[robot];
+    if (rests(robot, before[robot])) {
+      course.still_since = course.moved = now_;
+      continue;
+    }
+    if (course.isMember() && !reports_[robot].is_controlled && isOver(robot)) dismiss(robot);
+    if (!course.isMember()) continue;
+    follow(robot);
+    if (course.isMember()) keepAround(robot);
+    measure(robot, elapsed, before[robot]);
+  }
+  for (int robot = 0; robot < robots; ++robot) {
+    if (courses_[robot].isMember()) continue;
+    courses_[robot].still_since = now_;
+    vacate(robot);
+    if (reports_[robot].is_controlled) {
+      admit(robot);
+    } else {
+      courses_[robot].recovery = {};
+    }
+    courses_[robot].isMember() ? keepAround(robot) : occupy(robot);
+  }
+  findTight();
+}
+
+/// Returns whether a robot of the fleet stands where it stood with nothing ahead: only time passes.
+bool Execution::rests(int robot, const Report& before) const {
+  const Course& course = courses_[robot];
+  const Report& now = reports_[robot];
+  const bool waits = course.isMember() && !course.isActive() && !course.travels &&
+                     !course.is_astray && course.turning == kNowhere && course.occupied.empty();
+  return waits && now.is_controlled && now.status == RobotStatus::kIdle &&
+         before.status == RobotStatus::kIdle && now.x == before.x && now.y == before.y &&
+         now.yaw == before.yaw && speedOf(robot) < kStandstill;
+}
+
+void Execution::setWork(const std::vector<std::uint8_t>& busy,
+                        const std::vector<std::uint8_t>& loaded) {
+  for (int robot = 0; robot < robots(); ++robot) {
+    reports_[robot].is_busy = busy.at(robot);
+    reports_[robot].is_loaded = loaded.at(robot);
+  }
+}
+
+/// Makes a robot a member of the fleet, if it stands in a cell that no other robot holds.
+void Execution::admit(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  if (report.status != RobotStatus::kIdle) return;
+  Cell at = frame_.cellAt(report.x, report.y);
+  if (at == kNowhere || !floor_.isPassable(at)) {
+    if (course.recovery.since < 0) course.recovery.since = now_;
+    at = refuge(robot);
+  }
+  if (at == kNowhere || holders_.holder(at) != kNobody) return;
+  vacate(robot);
+  renew(robot);
+  course.id = std::max(course.id, report.path_id);
+  course.admit(at, now_, headingOf(robot));
+  holders_.hold(at, robot);
+}
+
+/// Returns whether nothing that a robot was released is driven any more.
+bool Execution::isOver(int robot) const {
+  const Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  if (!course.isActive()) return true;
+  if (report.status != RobotStatus::kIdle && report.path_id == course.id) return false;
+  return course.isAccepted() || now_ - course.sent > kSettled;
+}
+
+void Execution::dismiss(int robot) {
+  Course& course = courses_[robot];
+  vacate(robot);
+  for (const Cell cell : course.cells) holders_.free(cell, robot);
+  renew(robot);
+}
+
+/// Resets a course but for its number and, while the robot is controlled, its recovery.
+void Execution::renew(int robot) {
+  Course next;
+  next.id = courses_[robot].id;
+  if (reports_[robot].is_controlled) next.recovery = std::move(courses_[robot].recovery);
+  courses_[robot] = std::move(next);
+}
+
+/// Updates how far a member has come on its path.
+void Execution::follow(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  if (course.turning != kNowhere && hasTurned(robot)) course.turning = kNowhere;
+  if (!course.isActive()) {
+    // It was moved by others.
+    const Cell at = frame_.cellAt(report.x, report.y);
+    if (at != course.at && !course.is_astray) {
+      dismiss(robot);
+      admit(robot);
+    }
+    return;
+  }
+  const bool is_reported = report.path_id == course.id;
+  if (report.status == RobotStatus::kIdle) {
+    // A refused release may have been sent twice; the duplicate can still be accepted. A robot
+    // whose reports are lost may have accepted it already.
+    const bool is_settled = now_ - course.sent > kSettled && !isBroken(robot);
+    const bool is_dead = course.isRefused() && is_settled;
+    if (course.isAccepted() || is_reported || is_dead) finish(robot);
+    return;
+  }
+  if (!is_reported) return;
+  course.accept();
+  pass(robot, static_cast<int>(report.reached), static_cast<int>(report.left));
+  if (report.state == RobotState::kBlocked) {
+    if (course.blocked_since < 0) {
+      course.blocked_since = now_;
+      ++blocked_;
+    }
+    if (now_ - course.blocked_since >= kBlockedFor) withdraw(robot);
+  } else {
+    course.blocked_since = -1;
+    if (course.isWithdrawn()) withdraw(robot);
+  }
+}
+
+void Execution::pass(int robot, int reached, int left) {
+  Course& course = courses_[robot];
+  const int points = course.points();
+  // A robot that has left a cell wholly is in the next one, before it comes to its middle.
+  course.is_short = left >= reached;
+  reached = std::clamp(std::max(reached, left + 1), course.reached, points);
+  for (int point = course.reached; point < reached; ++point) {
+    const int heading = frame_.headingTo(course.cells[point - 1], course.cells[point]);
+    if (heading != course.run_heading) {
+      const int quarters = (heading - course.run_heading) & 3;
+      endRun(course);
+      course.journey.alone += motion_.quarter * (quarters == 3 ? 1 : quarters);
+      course.run_heading = heading;
+    }
+    ++course.run;
+    ++course.journey.cells;
+  }
+  course.reached = reached;
+  course.at = course.cells[reached - 1];
+  left = std::clamp(left, course.left, reached - 1);
+  for (int point = course.left; point < left; ++point) {
+    const auto rest = course.cells.begin() + left;
+    if (std::find(rest, course.cells.end(), course.cells[point]) == course.cells.end()) {
+      holders_.free(course.cells[point], robot);
+    }
+  }
+  course.left = left;
+}
+
+/// Ends a path, wherever the robot stands: it holds only that cell.
+void Execution::finish(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  const Cell at = frame_.cellAt(report.x, report.y);
+  if (course.isRefused() && (course.is_astray || ++course.refusals >= kInsists)) {
+    course.recovery.refused.push_back(course.cells.front());
+  } else if (course.isAccepted()) {
+    course.recovery.refused.clear();
+  }
+  if (course.is_astray && !course.isRefused()) course.recovery.ended = now_;
+  if (at == course.cells.back()) pass(robot, course.points(), 0);
+  const bool was_withdrawn = course.isWithdrawn();
+  vacate(robot);
+  for (const Cell cell : course.cells) holders_.free(cell, robot);
+  if (at == kNowhere || !holders_.isFreeFor(at, robot) || !floor_.isPassable(at)) {
+    return dismiss(robot);
+  }
+  if (at != course.cells.back() || was_withdrawn) {
+    course.plan_is_stale = true;
+    course.plan.clear();
+  }
+  holders_.hold(at, robot);
+  course.finish(at);
+}
+
+void Execution::measure(int robot, double elapsed, const Report& before) {
+  Course& course = courses_[robot];
+  if (!course.isMember()) return;
+  const bool is_still =
+      speedOf(robot) < kStandstill && reports_[robot].state != RobotState::kRotating;
+  if (!course.travels || !is_still) course.still_since = now_;
+  // One that is elsewhere tells no speed, but other places.
+  const double way = std::hypot(reports_[robot].x - before.x, reports_[robot].y - before.y);
+  if (!is_still || way > kNoWay || course.reached == course.points()) course.moved = now_;
+  if (!course.travels) return;
+  course.journey.driven += elapsed;
+  if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;
+  course.journey.planned += elapsed;
+  endRun(course);
+}
+
+/// Returns whether a robot stands because the plan lets it wait, or behind one that stands as well.
+bool Execution::waitsAsPlanned(int robot) const {
+  const Course& course = courses_[robot];
+  if (course.waits_by_plan || course.waits_for == kNobody) return course.waits_by_plan;
+  return speedOf(course.waits_for) < kStandstill;
+}
+
+/// Adds the time of the cells driven straight on to the journey.
+void Execution::endRun(Course& course) const {
+  if (course.run > 0) course.journey.alone += runTime(course.run * motion_.spacing, motion_);
+  course.run = 0;
+}
+
+Journey Execution::takeJourney(int robot) {
+  Course& course = courses_.at(robot);
+  endRun(course);
+  course.run_heading = headingOf(robot);
+  Journey journey = course.journey;
+  journey.planned += journey.alone;
+  course.journey = {};
+  return journey;
+}
+
+bool Execution::isForeign(int robot) const {
+  const Course& course = courses_.at(robot);
+  const Report& report = reports_[robot];
+  if (report.status == RobotStatus::kIdle) return false;
+  // A robot that lifts, or is served, does not drive.
+  if (report.is_busy && report.state != RobotState::kMovingX &&
+      report.state != RobotState::kMovingY)
+    return false;
+  // A late copy of a path that was given up is its own still.
+  if (!course.isActive()) return report.path_id == 0 || report.path_id != course.id;
+  return (course.isAccepted() || course.isRefused()) && report.path_id != course.id;
+}
+
+bool Execution::isStalled(int robot) const {
+  const Course& course = courses_.at(robot);
+  return isBroken(robot) || (course.isActive() && now_ - course.moved > kStalledFor);
+}
+
+bool Execution::stands(int robot) const {
+  const Course& course = courses_.at(robot);
+  return course.isMember() && !course.isActive() && !course.is_astray;
+}
+
+Heading Execution::headingOf(int robot) const {
+  return turned(static_cast<int>(std::lround(reports_[robot].yaw / kQuarter)), 0);
+}
+
+double Execution::speedOf(int robot) const {
+  return std::hypot(reports_[robot].vx, reports_[robot].vy);
+}
+
+bool Execution::isCentred(int robot, double within) const {
+  const Report& report = reports_[robot];
+  const Cell at = courses_[robot].at;
+  return std::hypot(frame_.xOf(at) - report.x, frame_.yOf(at) - report.y) < within;
+}
+
+bool Execution::isSquare(int robot) const {
+  return std::abs(std::remainder(reports_[robot].yaw, kQuarter)) < kAligned;
+}
+
+}  // namespace fleet

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/floor/closures.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleet {
+namespace {
+
+constexpr int kLasting = 15;  // ticks: robots wait for what is in the way for less
+
+void sort(std::vector<Cell>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+/// Returns the cell before one of a lane, in the lane; kNowhere.
+Cell before(const Floor& floor, Cell cell) {
+  if (!floor.isLane(cell)) return kNowhere;
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    const Cell from = floor.beside(cell, heading + 2);
+    if (from == kNowhere || !floor.isLane(from)) continue;
+    if (floor.next(Deck::kUnder, from, heading) == cell) return from;
+  }
+  return kNowhere;
+}
+
+}  // namespace
+
+Closures::Closures(const Floor& floor, const std::vector<std::uint8_t>& costs) : floor_(floor) {
+  edges_.next[0] = floor.edges(Deck::kUnder);
+  edges_.next[1] = floor.edges(Deck::kAisles);
+  edges_.costs = &costs;
+}
+
+void Closures::update(const Fleet& fleet) {
+  Closed closed = now(fleet);
+  Closed lasting = this->lasting(closed);
+  ++tick_;
+  if (!(closed == closed_) || !(lasting == lasting_)) {
+    open();
+    closed_ = std::move(closed);
+    lasting_ = std::move(lasting);
+    close();
+    ++version_;
+  }
+  tighten(fleet.tight);
+}
+
+Closures::Closed Closures::now(const Fleet& fleet) const {
+  Closed closed{fleet.closed, fleet.units, {}};
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    if (fleet.isStopped(robot)) closed.cells.push_back(fleet.cell[robot]);
+  }
+  sort(closed.cells);
+  sort(closed.units);
+  for (const Cell unit : closed.units) {
+    if (isWaitedFor(unit, fleet)) closed.waiting.push_back(unit);
+  }
+  return closed;
+}
+
+/// Returns whether the nearest robot behind a unit in a lane carries one.
+bool Closures::isWaitedFor(Cell unit, const Fleet& fleet) const {
+  for (Cell cell = before(floor_, unit); cell != kNowhere; cell = before(floor_, cell)) {
+    const auto found = std::find(fleet.cell.begin(), fleet.cell.end(), cell);
+    if (found != fleet.cell.end()) return fleet.isLoaded(found - fleet.cell.begin());
+  }
+  return false;
+}
+
+/// Returns the cells whose closure has lasted long enough for robots to turn back.
+Closures::Closed Closures::lasting(const Closed& now) {
+  std::map<Cell, int> since;
+  const auto chosen = [&](const std::vector<Cell>& cells) {
+    std::vector<Cell> lasting;
+    for (const Cell cell : cells) {
+      const auto known = since_.find(cell);
+      const int begin = known == since_.end() ? tick_ : known->second;
+      since.emplace(cell, begin);
+      if (tick_ - begin >= kLasting) lasting.push_back(cell);
+    }
+    return lasting;
+  };
+  Closed lasting{chosen(now.cells), chosen(now.units), {}};
+  since_ = std::move(since);
+  return lasting;
+}
+
+/// Restores the edges of the floor.
+void Closures::open() {
+  for (const Deck deck : {Deck::kUnder, Deck::kAisles}) {
+    auto& next = edges_.next[static_cast<int>(deck)];
+    auto& against = edges_.against[static_cast<int>(deck)];
+    for (const int edge : against) next[edge] = kNowhere;
+    against.clear();
+    set(deck, closed_.cells, true);
+  }
+  set(Deck::kAisles, closed_.units, true);
+  set(Deck::kUnder, closed_.waiting, true);
+}
+
+void Closures::close() {
+  std::vector<Cell> cut = lasting_.cells;
+  cut.insert(cut.end(), lasting_.units.begin(), lasting_.units.end());
+  sort(cut);
+  const std::vector<BackEdge> back = waysBack(floor_, cut);
+  leadBack(Deck::kUnder, back);
+  leadBack(Deck::kAisles, back);
+  std::vector<Cell> units = lasting_.units;
+  units.insert(units.end(), closed_.waiting.begin(), closed_.waiting.end());
+  leadBack(Deck::kUnder, waysToUnits(floor_, lasting_.cells, units));
+  for (const Cell unit : closed_.waiting) comeFromBeyond(unit);
+  for (const Deck deck : {Deck::kUnder, Deck::kAisles}) set(deck, closed_.cells, false);
+  set(Deck::kAisles, closed_.units, false);
+}
+
+/// Opens or closes the edges of the floor that lead into cells.
+void Closures::set(Deck deck, const std::vector<Cell>& cells, bool is_open) {
+  auto& next = edges_.next[static_cast<int>(deck)];
+  for (const Cell cell : cells) {
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell from = floor_.beside(cell, heading + 2);
+      if (from == kNowhere) continue;
+      next[from * kHeadings + heading] = is_open ? floor_.next(deck, from, heading) : kNowhere;
+    }
+  }
+}
+
+/// Closes the way along its lane to a unit: those that wait behind it fill the lane.
+void Closures::comeFromBeyond(Cell unit) {
+  const Cell from = before(floor_, unit);
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    if (floor_.beside(from, heading) != unit) continue;
+    edges_.next[static_cast<int>(Deck::kUnder)][from * kHeadings + heading] = kNowhere;
+  }
+}
+
+/// Opens edges against one-way streets.
+void Closures::leadBack(Deck deck, const std::vector<BackEdge>& edges) {
+  auto& next = edges_.next[static_cast<int>(deck)];
+  for (const BackEdge& back : edges) {
+    const int edge = back.from * kHeadings + back.heading;
+    if (next[edge] != kNowhere) continue;
+    next[edge] = floor_.beside(back.from, back.heading);
+    edges_.against[static_cast<int>(deck)].push_back(edge);
+  }
+}
+
+void Closures::tighten(const std::vector<Cell>& cells) {
+  if (cells == tight_) return;
+  edges_.is_tight.assign(cells.empty() ? 0 : floor_.size(), 0);
+  for (const Cell cell : cells) edges_.is_tight[cell] = 1;
+  tight_ = cells;
+  ++version_;
+}
+
+}  // namespace fleet

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/floor/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace fleet {
+
+namespace {
+
+/// Streets no further than so many cells from a lane.
+constexpr int kAtLanes = 3;
+
+std::vector<std::uint8_t> cellsAtLanes(const Floor& floor) {
+  std::vector<std::uint8_t> is_near(floor.size());
+  for (Cell cell = 0; cell < floor.size(); ++cell) {
+    if (!floor.isLane(cell)) continue;
+    for (int dy = -kAtLanes; dy <= kAtLanes; ++dy) {
+      for (int dx = std::abs(dy) - kAtLanes; dx <= kAtLanes - std::abs(dy); ++dx) {
+        const int x = floor.x(cell) + dx, y = floor.y(cell) + dy;
+        if (x < 0 || y < 0 || x >= floor.width() || y >= floor.height()) continue;
+        const Cell near = y * floor.width() + x;
+        is_near[near] = !floor.isLane(near);
+      }
+    }
+  }
+  return is_near;
+}
+
+}  // namespace
+
+Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
+    : floor_(floor),
+      options_(options),
+      drove_(floor.size() * kHeadings),
+      waited_(floor.size()),
+      is_at_lanes_(cellsAtLanes(floor)),
+      costs_(floor.size() * kHeadings, kTickCost) {}
+
+void Guidance::tick() {
+  resting_.clear();
+  constexpr double kLargestGain = 1e6;
+  gain_ *= std::exp(1 / options_.memory);
+  if (gain_ < kLargestGain) return;
+  for (float& sum : drove_) sum /= gain_;
+  for (float& sum : waited_) sum /= gain_;
+  gain_ = 1;
+}
+
+void Guidance::refresh() {
+  // Sums of what fades like this are `memory` times the mean.
+  const double per_tick = 1 / (gain_ * options_.memory);
+  std::vector<std::uint8_t> rests(floor_.size());
+  for (const Cell cell : resting_) rests[cell] = 1;
+  for (Cell cell = 0; cell < floor_.size(); ++cell) {
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell to = floor_.next(Deck::kUnder, cell, heading);
+      if (to == kNowhere) continue;
+      const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
+      const double ticks = 1 + options_.against * met + options_.crowd * waited_[to] * per_tick +
+                           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to];
+      costs_[cell * kHeadings + heading] =
+          std::min<double>(kMaxEdgeCost, std::lround(ticks * kTickCost));
+    }
+  }
+}
+
+}  // namespace fleet

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/planner/measuring.h"
+
+#include <algorithm>
+
+namespace fleet {
+namespace {
+
+bool isOnTheWay(const Wish& wish) { return wish.goal != kNowhere && !wish.stopped; }
+
+}  // namespace
+
+void Measuring::measure(int now, int version, const MakingWay& way, std::vector<Wish>& wishes) {
+  tables_.begin(now, version, work(options_.table_work, wishes.size()));
+  need(wishes);
+  tables_.make();
+  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
+  for (int robot = 0; robot < static_cast<int>(wishes.size()); ++robot) {
+    Wish& wish = wishes[robot];
+    const bool waits = way.still(robot) >= kImpatient && !floor_.isLane(wish.state.cell);
+    if (isOnTheWay(wish)) find(waits, wish);
+  }
+  tables_.renew(options_.renewal_age, work(options_.renewal_work, wishes.size()));
+}
+
+/// Those near their goals first: from afar a region's table will do.
+void Measuring::need(const std::vector<Wish>& wishes) {
+  for (const bool is_near : {true, false}) {
+    for (const Wish& wish : wishes) {
+      if (isOnTheWay(wish) && tables_.areNear(wish.state.cell, wish.goal) == is_near) {
+        tables_.need(wish.deck, wish.goal);
+      }
+    }
+  }
+}
+
+void Measuring::find(bool waits, Wish& wish) {
+  wish.table = tables_.find(wish.deck, wish.state.cell, wish.goal, waits);
+  if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) return;
+  // Perhaps there is a way by now.
+  tables_.find(wish.deck, wish.state.cell, wish.goal, true);
+  wish.goal = kNowhere;
+}
+
+/// Returns how many states tables that are made in one step may have.
+std::int64_t Measuring::work(std::int64_t a_robot, std::size_t robots) const {
+  constexpr std::int64_t kLeast = 60000;
+  // On large floors most of a table is shared, so that less does: with 400 no more robots arrive,
+  // and the slowest steps take a fifth longer.
+  constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 140;
+  if (tables_.hasRegions()) a_robot = std::min(a_robot, kMostARobot);
+  const auto work = std::max(kLeast, a_robot * static_cast<std::int64_t>(robots));
+  return tables_.hasRegions() ? std::min(kMostAtOnce, work) : work;
+}
+
+}  // namespace fleet

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/making_way.h"
+
+#include <algorithm>
+
+namespace fleet {
+namespace {
+
+constexpr int kStalled = 120;  // ticks without having come nearer after which a robot presses
+constexpr int kToldFor = 12;   // ticks in which to reach the next cell, and for each in its way
+constexpr int kToldForEach = 3;
+constexpr int kEffort = 2000;  // cells that are tried for one robot
+constexpr int kPressing = 16;  // robots a step
+
+/// Whether it is committed to leave the cell where it is.
+bool drivesOn(const Wish& wish) {
+  const auto end = wish.commitment.begin() + wish.committed;
+  return std::find(wish.commitment.begin(), end, Action::kForward) != end;
+}
+
+}  // namespace
+
+void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidates,
+                       std::vector<Wish>& wishes) {
+  watch(candidates, wishes);
+  if (may_press) {
+    for (const int robot : pressing()) {
+      if (progress_[robot].told == kNowhere) press(robot, candidates, wishes);
+    }
+  }
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Cell told = progress_[robot].told;
+    if (told == kNowhere) continue;
+    wishes[robot].goal = told;
+    wishes[robot].table = nullptr;
+    candidates.keep(told);
+  }
+}
+
+/// Returns the robots that press in this step, those first that have come no nearer for longest.
+std::vector<int> MakingWay::pressing() const {
+  std::vector<int> pressing;
+  for (int robot = 0; robot < static_cast<int>(progress_.size()); ++robot) {
+    const Progress& progress = progress_[robot];
+    const bool presses = progress.still > patience_ || progress.stalled > kStalled;
+    if (presses && progress.told == kNowhere) pressing.push_back(robot);
+  }
+  std::sort(pressing.begin(), pressing.end(), [&](int one, int other) {
+    const int ours = progress_[one].stalled, theirs = progress_[other].stalled;
+    return ours != theirs ? ours > theirs : one < other;
+  });
+  if (pressing.size() > kPressing) pressing.resize(kPressing);
+  return pressing;
+}
+
+/// Who stands, and whose next cell is still to be reached.
+void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wishes) {
+  if (progress_.size() > wishes.size()) progress_.clear();
+  progress_.resize(wishes.size());
+  to_.resize(wishes.size());
+  standing_.assign(floor_.size(), -1);
+  entering_.assign(floor_.size(), -1);
+  for (int robot = 0; robot < static_cast<int>(wishes.size()); ++robot) {
+    const Wish& wish = wishes[robot];
+    Progress& progress = progress_[robot];
+    standing_[wish.state.cell] = robot;
+    const bool can_move = !wish.stopped && wish.committed == 0;
+    const bool is_under_way =
+        can_move && wish.goal != kNowhere && !wish.yields && wish.goal != wish.state.cell;
+    progress.still = progress.cell == wish.state.cell && is_under_way ? progress.still + 1 : 0;
+    progress.cell = wish.state.cell;
+    measure(candidates, wish, progress);
+    if (progress.cell == progress.told || --progress.patience < 0 || !can_move) {
+      progress.told = kNowhere;
+    }
+    if (progress.told != kNowhere) entering_[progress.told] = robot;
+  }
+}
+
+void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress& progress) const {
+  const int distance =
+      wish.goal == kNowhere || wish.yields ? 0 : candidates.distance(wish, wish.state);
+  const bool is_new = progress.goal != wish.goal;
+  if (is_new || distance == 0 || distance < progress.nearest) {
+    progress.goal = wish.goal;
+    progress.nearest = distance;
+    progress.stalled = 0;
+  } else {
+    ++progress.stalled;
+  }
+}
+
+/// One step of priority inheritance, from this robot on.
+void MakingWay::press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes) {
+  chain_.clear();
+  is_asked_.assign(wishes.size(), 0);
+  int effort = kEffort;
+  if (!move(robot, candidates, wishes, effort)) return;
+  for (const int told : chain_) {
+    progress_[told].told = to_[told];
+    progress_[told].patience = kToldFor + kToldForEach * static_cast<int>(chain_.size());
+  }
+}
+
+bool MakingWay::move(int robot, const Candidates& candidates, const std::vector<Wish>& wishes,
+                     int& effort) {
+  is_asked_[robot] = 1;
+  for (const Cell cell : ways(candidates, wishes[robot])) {
+    if (--effort < 0) return false;
+    if (entering_[cell] >= 0) continue;
+    const int other = standing_[cell];
+    if (other >= 0) {
+      const bool is_leaving = progress_[other].told != kNowhere || drivesOn(wishes[other]);
+      const bool can_leave =
+          !is_asked_[other] && !wishes[other].stopped && wishes[other].committed == 0;
+      if (!is_leaving && !can_leave) continue;
+      entering_[cell] = robot;
+      if (!is_leaving && !move(other, candidates, wishes, effort)) {
+        entering_[cell] = -1;
+        continue;
+      }
+    }
+    entering_[cell] = robot;
+    to_[robot] = cell;
+    chain_.push_back(robot);
+    return true;
+  }
+  return false;
+}
+
+/// Cells beside it, those nearest to its goal first.
+std::vector<Cell> MakingWay::ways(const Candidates& candidates, const Wish& wish) const {
+  std::vector<std::pair<int, Cell>> ways;
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    const Cell cell = candidates.next(wish, wish.state.cell, heading);
+    if (cell == kNowhere) continue;
+    const int distance = wish.goal == kNowhere
+                             ? 0
+                             : candidates.distance(wish, {cell, static_cast<Heading>(heading)});
+    ways.emplace_back(distance, cell);
+  }
+  std::sort(ways.begin(), ways.end());
+  std::vector<Cell> cells;
+  for (const auto& [distance, cell] : ways) cells.push_back(cell);
+  return cells;
+}
+
+}  // namespace fleet

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests to the server of a page, in JSON.
+
+/** The response, if it is a good one; throws an Error with the reason, and with the `status`
+ *  where there is an answer. A text is sent as it is. */
+export async function send(method, path, body = undefined, signal = undefined) {
+  let answer;
+  try {
+    const text = typeof body === 'string' ? body : JSON.stringify(body);
+    const sent = body === undefined ? {} : { body: text, headers: { 'content-type': 'application/json' } };
+    answer = await fetch(path, { method, signal, ...sent });
+  } catch (error) {
+    if (error.name === 'AbortError') throw error;
+    throw new Error('the server does not answer', { cause: error });
+  }
+  const { ok, status, statusText } = answer;
+  if (ok) return answer;
+  const { detail } = await answer.json().catch(() => ({}));
+  throw Object.assign(new Error(reasonOf(detail) || `the server failed: ${status} ${statusText}`.trim()), { status });
+}
+
+/** The body of the answer; throws as `send` does. */
+export async function ask(method, path, body = undefined) {
+  const answer = await send(method, path, body);
+  return await answer.json().catch(() => ({}));
+}
+
+/** The reason in a refusal's body: a text, or a list of what is wrong with which field. */
+export function reasonOf(detail) {
+  return Array.isArray(detail) ? detail.map((d) => `${d.loc.at(-1)}: ${d.msg}`).join('; ') : detail;
+}

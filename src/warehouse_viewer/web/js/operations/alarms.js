@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The alarms, the worst first: since when each holds, its cause, what to do, and the person that saw it.
+
+import { post } from '../base/api.js';
+import { $, make, on } from '../base/dom.js';
+import { personOf } from '../base/person.js';
+import { lasting } from '../base/time.js';
+
+const TITLE = document.title;
+/** The classes that give the severities their colours. */
+const LOOKS = { critical: 'needs-help', warning: 'waiting', note: 'resting' };
+/** What only the page itself can tell. */
+const AWAY = { id: 0, kind: 'CONNECTION', severity: 'critical', title: 'No connection', subject: 'server', text: '',
+  to_do: 'What is shown is old. The page comes back by itself; if not, look whether the node `viewer` runs.', since: 0, seen_by: '', seen_at: 0 };
+
+export class Alarms {
+  /** `fail(error)` where the server refuses. */
+  constructor(fail) {
+    Object.assign(this, { fail, alarms: [], away: null, now: 0, rows: new Map() });
+    on($('person'), 'click', () => this.ask());
+    this.showPerson();
+  }
+
+  /** All alarms of the server. */
+  take(alarms) {
+    const known = new Set(this.alarms.map(({ id }) => id));
+    const [fresh] = alarms.filter(({ id }) => !known.has(id));
+    this.alarms = alarms;
+    if (fresh) $('alarm-told').textContent = `Alarm: ${fresh.title}. ${fresh.text}. ${fresh.to_do}`;
+    this.draw();
+  }
+
+  /** The server is away, and why; '': it answers. */
+  setAway(text) {
+    this.away = text ? { ...AWAY, text, since: this.now } : null;
+    this.draw();
+  }
+
+  /** It is `now` [s], simulated. */
+  tick(now) {
+    this.now = now;
+    for (const row of this.rows.values()) row.tick(now);
+  }
+
+  draw() {
+    const all = [...this.away ? [this.away] : [], ...this.alarms];
+    const kept = this.rows;
+    this.rows = new Map(all.map((alarm) => [alarm.id, kept.get(alarm.id) ?? new Row((one, by) => this.see(one, by))]));
+    all.forEach((alarm) => this.rows.get(alarm.id).show(alarm, this.now));
+    const elements = [...this.rows.values()].map(({ element }) => element);
+    if (elements.some((element, i) => $('alarms').children[i] !== element) || $('alarms').children.length !== elements.length) {
+      $('alarms').replaceChildren(...elements);
+    }
+    const unseen = all.filter(({ seen_by: by }) => !by).length;
+    $('no-alarms').hidden = all.length > 0;
+    $('alarm-count').textContent = all.length ? `${all.length}, ${unseen} not seen` : '';
+    dispatchEvent(new CustomEvent('count', { detail: all.length })); // for the page's link
+    document.title = all.length ? `(${all.length}) ${TITLE}` : TITLE;
+  }
+
+  /** Tells all pages that a person has seen an alarm, or takes that back. */
+  async see(alarm, seen) {
+    const by = seen ? await personOf() : '';
+    if (seen && !by) return;
+    this.showPerson();
+    try {
+      const told = await post(`/alarms/${alarm.id}/seen`, { by });
+      this.take(this.alarms.map((one) => (one.id === told.id ? told : one)));
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  async ask() {
+    await personOf(true);
+    this.showPerson();
+  }
+
+  showPerson() {
+    const name = localStorage.getItem('person');
+    $('person').textContent = name ? `You are ${name}` : 'Who are you?';
+  }
+}
+
+/** One that stays where it is: a finger may be on its way to the button. */
+class Row {
+  constructor(see) {
+    this.title = make('strong');
+    this.since = make('span', { className: 'since dim' });
+    this.text = make('p');
+    this.toDo = make('p', { className: 'to-do dim' });
+    this.seen = make('span', { className: 'seen dim' });
+    this.button = make('button', { className: 'edged', click: () => see(this.alarm, !this.alarm.seen_by) });
+    this.element = make('li', {}, make('header', {}, this.title, this.since), this.text, this.toDo, make('footer', {}, this.seen, this.button));
+  }
+
+  show(alarm, now) {
+    this.alarm = alarm;
+    const { severity, title, subject, text, seen_by: by, id } = alarm;
+    const name = text.startsWith(subject) || text === subject ? title : `${title}: ${subject}`;
+    const key = JSON.stringify([alarm.text, severity, by]);
+    this.tick(now);
+    if (key === this.key) return;
+    this.key = key;
+    this.element.className = `alarm ${LOOKS[severity]}${by ? ' is-seen' : ''}`;
+    this.element.dataset.alarm = alarm.kind;
+    this.title.textContent = name;
+    this.text.textContent = text;
+    this.toDo.textContent = alarm.to_do;
+    this.button.textContent = by ? 'Not mine' : 'Seen';
+    this.button.ariaLabel = by ? `Take back that ${by} has seen: ${name}` : `I have seen: ${name}`;
+    this.button.hidden = !id;
+    this.tick(now);
+  }
+
+  tick(now) {
+    const { since, seen_by: by, seen_at: at } = this.alarm;
+    this.since.textContent = since ? `for ${lasting(now - since)}` : '';
+    this.seen.textContent = by ? `seen by ${by}, ${lasting(now - at)} ago` : 'seen by no one yet';
+  }
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of a shift: four large ones with their last hour and their target, the rest small.
+
+import { sparkline } from '../base/charts.js';
+import { $, make } from '../base/dom.js';
+
+export const count = (value) => Math.round(value).toLocaleString('en');
+const percent = (value) => `${Math.round(100 * value)} %`;
+const exact = (value) => `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %`;
+
+/** What the server calls each; `most`: less is better. */
+const LEADING = [
+  { name: 'pieces', title: 'Pieces per hour', told: count, aim: ({ target, of }) => `target ${count(target)}: 90 % of what stations can, ${count(of)}` },
+  { name: 'orders', title: 'Orders done per hour', told: count, aim: ({ target }) => (target ? `target ${count(target)}: as many arrive` : 'target: as many as come in') },
+  { name: 'late', title: 'Late orders', told: exact, most: true, aim: ({ target }) => `target ${percent(target)} at most` },
+  { name: 'available', title: 'Robots available', told: percent, aim: ({ target, of, value }) => `${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
+];
+const SMALL = [
+  ['orders_completed', 'orders completed', count],
+  ['orders_waiting', 'orders waiting', count],
+  ['orders_at_stations', 'orders at stations', count],
+  ['orders_late', 'orders late now', count],
+  ['pile_on', 'pieces per unit visit', (v) => v.toFixed(1)],
+  ['station_idle_fraction', 'picking stations idle', percent],
+  ['stock_level', 'stock', percent],
+  ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
+  ['collisions', 'collisions', count],
+];
+const EXACT = 0.02; // of the target: as good as met
+const NEAR = 0.1; // the same: missed by little
+
+/** 'good', 'near' or 'missed', and the word for it; '' where there is no target. */
+export function verdict({ value, target }, most = false) {
+  if (!target) return ['', ''];
+  const miss = most ? value - target : (target - value) / target;
+  if (miss <= (most ? 0 : EXACT)) return ['good', 'on target'];
+  return miss <= (most ? target : NEAR) ? ['near', most ? 'just above target' : 'just below target'] : ['missed', most ? 'above target' : 'below target'];
+}
+
+const COLOURS = { good: 'working', near: 'waiting', missed: 'needs-help', '': 'moving' };
+
+class Card {
+  constructor(about) {
+    this.about = about;
+    this.value = make('b', { className: 'value' });
+    this.badge = make('span', { className: 'badge' });
+    this.aim = make('p', { className: 'aim dim' });
+    const canvas = make('canvas');
+    canvas.setAttribute('role', 'img');
+    canvas.ariaLabel = `${about.title}, over the last hour`;
+    this.canvas = canvas;
+    this.line = sparkline(canvas, () => COLOURS[this.state ?? '']);
+    this.element = make('article', { className: 'card figure' }, make('header', {}, make('h2', { textContent: about.title }), this.badge),
+      this.value, make('div', { className: 'spark' }, canvas), this.aim);
+    this.element.dataset.figure = about.name;
+  }
+
+  show(figure) {
+    const { about } = this, { times, values, target } = figure;
+    const [state, word] = verdict(figure, about.most);
+    this.value.textContent = about.told(figure.value);
+    this.badge.className = `badge ${COLOURS[state]}`;
+    Object.assign(this.badge, { textContent: word, hidden: !word });
+    this.aim.textContent = about.aim(figure);
+    const points = times.map((x, i) => ({ x, y: values[i] }));
+    const ends = times.length > 1 && target ? [{ x: times[0], y: target }, { x: times.at(-1), y: target }] : [];
+    if (values.length) this.canvas.ariaLabel = `${about.title}, over the last hour: from ${about.told(Math.min(...values))} to ${about.told(Math.max(...values))}`;
+    this.line.show(points, ends);
+    if (state !== this.state) {
+      this.state = state;
+      this.line.restyle();
+    }
+  }
+}
+
+export class Figures {
+  constructor() {
+    this.cards = LEADING.map((about) => new Card(about));
+    $('leading').replaceChildren(...this.cards.map(({ element }) => element));
+  }
+
+  showLeading(figures) {
+    for (const card of this.cards) card.show(figures[card.about.name]);
+  }
+
+  showSmall(kpis) {
+    $('figures').replaceChildren(...SMALL.map(([name, text, told]) => (
+      make('div', {}, make('dt', { textContent: text }), make('dd', { textContent: told(kpis[name]) })))));
+  }
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many robots do what at a glance, what work that is, and which of them wait.
+
+import { $, make } from '../base/dom.js';
+import { lasting } from '../base/time.js';
+import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from '../base/words.js';
+
+const MOST_WAITS = 6;
+
+/** [{text, look, count}] of the activities that some robots have, what needs a person first. */
+export function sharesOf(activities) {
+  return ACTIVITY_NAMES.map((name, i) => (
+    { text: ACTIVITY[i], look: ACTIVITY_CLASS[i], count: activities[name.toLowerCase()] })).filter(({ count }) => count).reverse();
+}
+
+export class RobotShares {
+  /** `fleet` as the server tells it; null without a coordinator. */
+  show(fleet) {
+    $('fleet').textContent = fleet ? '' : 'no coordinator runs';
+    if (!fleet) return;
+    const shares = sharesOf(fleet.activities ?? {});
+    $('robots').replaceChildren(...shares.map(({ text, look, count }) => {
+      const bar = make('div', { className: look, title: `${count} ${text}` });
+      bar.style.flex = count;
+      return bar;
+    }));
+    $('robots-legend').replaceChildren(...shares.map(({ text, look, count }) => (
+      make('li', {}, make('i', { className: `key ${look}` }), make('b', { textContent: count }), ` ${text}`))));
+    const { work, robots: { manual, out_of_service: out }, transports } = fleet;
+    $('work').textContent = [countedWork(work), counted({ manual, out_of_service: out }, '')].filter(Boolean).join(', ');
+    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; a plan takes ${fleet.plan_p50.toFixed(1)} ms`;
+    this.showWaits(fleet);
+  }
+
+  showWaits({ waiting, time }) {
+    const more = waiting.length - MOST_WAITS;
+    const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
+    $('waiting').replaceChildren(...longest.map(({ robot, since, text: why }) => (
+      make('li', {}, make('a', { href: `/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${why}`))),
+    ...more > 0 ? [make('li', { className: 'dim', textContent: `and ${more} more` })] : []);
+  }
+}

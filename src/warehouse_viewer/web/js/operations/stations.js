@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stations as rows: what each does, what it waits for and for how long; open or closed, by
+// themselves or by hand.
+
+import { put } from '../base/api.js';
+import { $, make } from '../base/dom.js';
+import { StationMode } from '../base/message_enums.js';
+import { lasting } from '../base/time.js';
+import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
+
+const UNATTENDED = 60; // [s], simulated
+const CHIPS = 8; // of a queue that are shown
+const HOLDS = 5000; // [ms] in which the server surely tells of what was set
+
+export class Stations {
+  /** `act(promise)` waits for what was asked of the server. */
+  constructor(act) {
+    Object.assign(this, { act, rows: new Map(), now: 0 });
+  }
+
+  take(stations) {
+    const names = stations.map(({ name }) => name);
+    if (String(names) !== String([...this.rows.keys()])) {
+      this.rows = new Map(names.map((name) => [name, new Row(this.act)]));
+      $('stations').replaceChildren(...[...this.rows.values()].map(({ element }) => element));
+    }
+    for (const station of stations) this.rows.get(station.name).show(station, this.now);
+    const open = stations.filter((one) => one.open).length;
+    $('stations-sum').textContent = `${open} of ${stations.length} open`;
+  }
+
+  /** It is `now` [s], simulated. */
+  tick(now) {
+    this.now = now;
+    for (const row of this.rows.values()) row.tick(now);
+  }
+}
+
+/** What was set last. It counts until the server tells of it: a state that comes before may be older. */
+export class Wanted {
+  /** `wanted` is {open, mode}; it was set at `now` [ms]. */
+  note(wanted, now) {
+    Object.assign(this, { wanted, until: now + HOLDS });
+  }
+
+  /** A station as the server tells of it at `now` [ms], with what was set. */
+  upon(station, now) {
+    const { open, mode } = this.wanted ?? station;
+    if (now >= this.until || (station.open === open && station.mode === mode)) this.wanted = undefined;
+    return { ...station, ...this.wanted };
+  }
+}
+
+/** One that stays where it is: a finger may be on its way to a button. */
+class Row {
+  constructor(act) {
+    this.wanted = new Wanted();
+    this.name = make('strong');
+    this.kind = make('span', { className: 'dim' });
+    this.state = make('span', { className: 'badge' });
+    this.waits = make('div', { className: 'waits-text' });
+    this.queue = make('div', { className: 'queue' });
+    [this.orders, this.rate, this.busy] = ['orders', 'pieces/h', 'busy'].map((label) => cell('number right', label));
+    this.gate = make('button', { className: 'edged', click: () => act(this.set(!this.station.open, this.station.mode)) });
+    this.hand = make('button', { className: 'edged', click: () => act(this.set(this.station.open,
+      this.isByHand ? StationMode.AUTOMATIC : StationMode.MANUAL)) });
+    this.screen = make('a', { className: 'button edged', textContent: 'Screen' });
+    const title = make('th', { scope: 'row' }, this.name, this.kind);
+    const does = make('td', { className: 'does' }, this.state);
+    this.element = make('tr', {}, title, does, make('td', { className: 'who' }, this.waits, this.queue),
+      this.orders, this.rate, this.busy, make('td', { className: 'acts' }, this.gate, this.hand, this.screen));
+  }
+
+  get isByHand() {
+    return this.station.mode === StationMode.MANUAL;
+  }
+
+  /** Each button sends both: until the server has one, the other waits. */
+  async set(open, mode) {
+    for (const button of [this.gate, this.hand]) button.disabled = true;
+    try {
+      const answer = await put(`/stations/${this.station.name}`, { open, mode });
+      this.wanted.note({ open, mode }, performance.now());
+      this.show(this.station, this.now);
+      return answer;
+    } finally {
+      for (const button of [this.gate, this.hand]) button.disabled = false;
+    }
+  }
+
+  show(told, now) {
+    const before = this.station, station = this.wanted.upon(told, performance.now());
+    this.station = station;
+    this.tick(now);
+    if (JSON.stringify(before) === JSON.stringify(station)) return;
+    const { name, kind, open, activity } = station, picks = kind === 'PICK';
+    this.name.textContent = name;
+    this.kind.textContent = picks ? 'picking' : 'replenishing';
+    this.element.className = open ? 'station' : 'station shut';
+    this.element.dataset.station = name;
+    this.state.className = `badge ${ACTIVITY_CLASS[ACTIVITY_NAMES.indexOf(activity)] ?? ''}`;
+    this.state.textContent = !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity];
+    this.orders.lastChild.textContent = picks ? `${station.orders.length} of ${station.slots}` : '–';
+    this.rate.lastChild.textContent = Math.round(station.pieces_per_hour).toLocaleString('en');
+    this.busy.lastChild.textContent = `${Math.round(100 * station.busy_fraction)} %`;
+    this.gate.textContent = open ? 'Close' : 'Open';
+    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
+    for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
+    this.screen.href = `/station/${encodeURIComponent(name)}`;
+    this.screen.ariaLabel = `Screen of ${name}, for a person there`;
+    this.showQueue(station.queue);
+  }
+
+  showQueue(queue) {
+    const more = queue.length - CHIPS;
+    this.queue.replaceChildren(...queue.slice(0, CHIPS).map(chip), ...more > 0 ? [make('span', { className: 'dim', textContent: `and ${more} more` })] : []);
+  }
+
+  tick(now) {
+    this.now = now;
+    const [text, look] = waitsOf(this.station, now);
+    this.waits.textContent = text;
+    this.waits.className = `waits-text ${look}`;
+  }
+}
+
+/** A cell that a narrow page shows with its label. */
+function cell(className, label) {
+  return make('td', { className }, make('span', { className: 'label dim', textContent: label }), make('span'));
+}
+
+function chip({ unit, robot, stands, is_long: isLong }) {
+  const waits = robot && stands >= 10;
+  const title = robot ? `storage unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `storage unit ${unit}: a robot is on its way to it`;
+  const out = make('span', { className: isLong ? 'chip is-long' : robot ? 'chip' : 'chip is-far', title, textContent: waits ? `${unit} · ${lasting(stands)}` : `${unit}` });
+  return out;
+}
+
+/** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
+export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders }, now) {
+  const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));
+  if (waiting) return [`unit ${unit} has waited for a person for ${lasting(waiting)}`, waiting >= UNATTENDED ? 'is-bad' : ''];
+  if (unit) return [`unit ${unit} is there, for ${span}`, ''];
+  if (next) return [`waits for unit ${next}, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
+  if (open && orders?.length) return [`waits for a unit, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
+  return ['', ''];
+}

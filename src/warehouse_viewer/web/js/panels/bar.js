@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bar at the top: which warehouse, its time, and what can be done to the simulation.
+
+import { post } from '../base/api.js';
+import { $, enable, on, setIcon, tell } from '../base/dom.js';
+import { confirmed } from '../base/question.js';
+
+const STEP = 0.1, UNDO = 5; // [s], simulated
+const SAVED_EVERY = 1; // [s], simulated: what undo goes back to
+const CHECKPOINT = 'viewer', BEFORE_RESET = 'before-reset'; // names of the page's own
+// The action each control needs; what the engine lacks is disabled, with the reason.
+const NEEDS = { pause: 'pause', step: 'step', speed: 'speed', checkpoint: 'checkpoint',
+  restore: 'restore', undo: 'undo', reset: 'reset' };
+
+export class Bar {
+  /** `say(text, kind)` tells the person at the page; `offer(text, label, act)` adds a button. */
+  constructor(say, offer) {
+    Object.assign(this, { say, offer, paused: false, live: false, lacks: {} });
+    this.stepSize = 0.001; // [s]
+    this.latest = 0; // simulated time that was reached [s]
+    on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
+    on($('step'), 'click', () => this.step());
+    on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, `${UNDO} s undone`));
+    on($('reset'), 'click', () => this.reset());
+    on($('checkpoint'), 'click', () => this.keep());
+    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'checkpoint restored'));
+    on($('speed'), 'change', () => this.act('speed', { factor: Number($('speed').value) }));
+  }
+
+  /** Time that runs is paused first. */
+  step() {
+    if (!this.paused) return this.act('pause');
+    return this.act('step', { steps: Math.max(1, Math.round(STEP / this.stepSize)) });
+  }
+
+  async keep() {
+    if (!await this.act('checkpoint', { name: CHECKPOINT }, 'checkpoint saved')) return;
+    sessionStorage.setItem('checkpoint', 'kept');
+    this.enable();
+  }
+
+  /** Asks first, and can be undone where checkpoints can be taken. */
+  async reset() {
+    const lack = this.lacks.checkpoint;
+    const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
+    const text = 'Robots, storage units and items go back to where they started, and the time to 0:00. '
+      + `Running commands are cancelled; commands sent while the simulation is paused are carried out afterwards. ${undone}`;
+    if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
+    const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
+    if (!lack && !kept) return;
+    if (!await this.act('reset', { time_too: true })) return;
+    const done = 'everything is back at its start';
+    if (!kept) this.say(done, 'done');
+    else this.offer(done, 'Undo', () => this.act('restore', { name: BEFORE_RESET }, 'the reset is undone'));
+  }
+
+  /** True if it was done. */
+  async act(path, body, done) {
+    try {
+      await post(`/simulation/${path}`, body);
+      if (path === 'pause' || path === 'resume') this.showPaused(path === 'pause');
+      if (done) this.say(done, 'done');
+      return true;
+    } catch (error) {
+      this.say(error.message, 'refused');
+      return false;
+    }
+  }
+
+  showTime(stamp) {
+    const reached = this.latest >= UNDO + SAVED_EVERY;
+    this.latest = Math.max(this.latest, stamp);
+    if (!reached && this.latest >= UNDO + SAVED_EVERY) this.enable();
+    tell($('time'), clock(stamp));
+  }
+
+  showLink(live, reason) {
+    this.live = live;
+    this.link(live ? 'live' : 'away', live ? 'live' : `${reason}; trying again`);
+    this.enable();
+  }
+
+  link(state, text) {
+    $('link').dataset.state = state;
+    tell($('link'), text);
+  }
+
+  showStatus(status) {
+    this.lacks = status.lacks;
+    if (status.away) {
+      this.link('away', 'the simulation does not answer');
+      this.enable();
+      return;
+    }
+    tell($('warehouse'), status.warehouse || 'Warehouse');
+    this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
+    tell($('factor'), status.paused ? '' : `×${status.factor.toFixed(2)}`);
+    this.stepSize = status.step_size;
+    this.showPaused(status.paused);
+    this.showSpeed(status.target_factor);
+    this.enable();
+  }
+
+  showPaused(paused) {
+    if (paused === this.paused) return;
+    this.paused = paused;
+    setIcon($('pause'), paused ? 'play' : 'pause');
+    $('pause').querySelector('span').textContent = paused ? 'Resume' : 'Pause';
+  }
+
+  showSpeed(factor) {
+    const select = $('speed');
+    if (document.activeElement === select) return;
+    const value = String(Math.round(factor * 100) / 100);
+    if (![...select.options].some((option) => option.value === value)) {
+      select.add(new Option(`${value}×`, value));
+    }
+    select.value = value;
+  }
+
+  enable() {
+    const early = {
+      restore: !sessionStorage.getItem('checkpoint') && 'no checkpoint was saved on this page',
+      undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
+    };
+    for (const [id, action] of Object.entries(NEEDS)) {
+      const lack = this.live ? this.lacks[action] || early[id] : 'no connection';
+      enable($(id), lack, id === 'speed' ? $(id).parentElement : $(id));
+    }
+  }
+}
+
+/** Simulated time [s] as 2:05.3, from an hour on as 1:02:05.3. */
+export function clock(stamp) {
+  const tenths = Math.round(10 * stamp), hours = Math.floor(tenths / 36_000);
+  const minutes = String(Math.floor(tenths / 600) % 60), seconds = ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
+  return hours ? `${hours}:${minutes.padStart(2, '0')}:${seconds}` : `${minutes}:${seconds}`;
+}

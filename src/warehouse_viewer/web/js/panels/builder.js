@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds a warehouse, adds robots and takes them away.
+
+import { get, post, remove } from '../base/api.js';
+import { $, on } from '../base/dom.js';
+import { Placer } from './placer.js';
+import { confirmed } from '../base/question.js';
+
+const COUNTS = ['robots', 'shelves', 'items'];
+
+export class Builder extends Placer {
+  /** `say(text, kind, at)` tells the person at the page. */
+  constructor(say) {
+    super('add', { what: 'a robot', hint: 'click a cell for the new robot' }, say);
+    this.sizes = { presets: {}, limits: {} };
+    on($('build'), 'click', () => this.open());
+    on($('size'), 'change', () => this.showCounts());
+    on($('plan'), 'submit', (event) => event.submitter.value && this.build(event));
+    for (const what of COUNTS) {
+      // Other numbers than a size's are one's own.
+      on($(`own-${what}`), 'input', () => {
+        $('size').value = '';
+        this.showCounts();
+      });
+    }
+  }
+
+  async open() {
+    this.answer('');
+    $('builder').showModal();
+    try {
+      this.sizes = await get('/warehouse/sizes');
+    } catch (error) {
+      this.answer(error.message);
+    }
+    for (const what of COUNTS) {
+      const field = $(`own-${what}`), limit = this.sizes.limits[what];
+      if (!limit) continue;
+      field.max = limit;
+      field.parentElement.querySelector('span').textContent = `at most ${limit.toLocaleString('en')}`;
+    }
+    this.showCounts();
+  }
+
+  /** A size has counts of its own; with others it is one that has a name of its own. */
+  showCounts() {
+    const preset = this.sizes.presets[$('size').value];
+    for (const what of COUNTS) if (preset) $(`own-${what}`).value = preset[what];
+    $('own-name-label').hidden = $('own-name').disabled = $('size').value !== '';
+  }
+
+  /** Builds the warehouse; if the server refuses, the dialog stays open and shows why. */
+  async build(event) {
+    event.preventDefault();
+    this.answer('building …', 'sent');
+    const [, yes] = $('plan').querySelectorAll('.answers button');
+    yes.disabled = true;
+    try {
+      const { message } = await post('/warehouse', planOf($('size').value, {
+        name: $('own-name').value,
+        ...Object.fromEntries(COUNTS.map((what) => [what, $(`own-${what}`).valueAsNumber])),
+      }));
+      $('builder').close();
+      this.say(message || 'built', 'done');
+    } catch (error) {
+      this.answer(error.message);
+    }
+    yes.disabled = false;
+  }
+
+  answer(text, kind = 'refused') {
+    Object.assign($('plan-answer'), { hidden: !text, textContent: text });
+    $('plan-answer').dataset.kind = kind;
+  }
+
+  /** A robot at the grid point [x, y]. */
+  async place([x, y], at) {
+    await this.put(() => post('/robots', { x, y }), [x, y], at);
+  }
+
+  async remove(name) {
+    if (!await confirmed(`Remove ${name}?`, 'Its present command is cancelled.', 'Remove')) return;
+    await this.attempt(() => remove(`/robots/${name.match(/\d+$/)[0]}`));
+  }
+}
+
+/** The body of a request for a warehouse: a preset by its name, or counts of one's own. */
+export function planOf(size, { name, robots, shelves, items }) {
+  return size ? { name: size } : { name, robots, shelves, items };
+}

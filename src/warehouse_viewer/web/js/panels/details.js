@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel of the selection: its facts, and the commands for it.
+
+import { command, post } from '../base/api.js';
+import { $, enable, make, on, press } from '../base/dom.js';
+import { LiftStatus, RobotMode, Turn } from '../base/message_enums.js';
+import { vda5050Of } from './vda5050.js';
+import { ACTIVITY, ACTIVITY_CLASS, FAILURE, STATE } from '../base/words.js';
+
+const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
+const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
+const MODE = {
+  [RobotMode.AUTOMATIC]: 'the coordinator commands it',
+  [RobotMode.MANUAL]: 'you command it; other robots drive around it',
+  [RobotMode.OUT_OF_SERVICE]: 'it takes no commands; other robots drive around it',
+};
+const WAITS = 'sent; the simulation is paused: the robot starts when it resumes, even after a reset';
+
+export class Details {
+  /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
+   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, `fallen` the
+   *  FallenItems, and `wayOf(id)` what the coordinator plans for a robot. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf }) {
+    Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, name: null, robot: null });
+    for (const button of $('modes').children) {
+      on(button, 'click', () => this.setMode(button.dataset.mode));
+    }
+    on($('left'), 'click', () => this.turn(Turn.COUNTERCLOCKWISE));
+    on($('right'), 'click', () => this.turn(Turn.CLOCKWISE));
+    on($('carry'), 'click', () => this.lift('carry'));
+    on($('drop'), 'click', () => this.lift('drop'));
+    on($('fetch'), 'click', () => this.sendRobotHere());
+    on($('close'), 'click', () => select(null));
+  }
+
+  get thing() {
+    return this.name && this.world.indexOf.get(this.name);
+  }
+
+  /** Index of the selected robot, or -1. */
+  get selectedRobot() {
+    return this.thing?.kind === 'robot' ? this.thing.index : -1;
+  }
+
+  show(name) {
+    this.name = name;
+    if (this.selectedRobot >= 0) this.robot = name; // the last one, to be sent elsewhere
+    $('details-panel').hidden = !name;
+    $('answer').hidden = true;
+    this.shownFacts = null;
+    this.refresh();
+  }
+
+  refresh() {
+    const { thing } = this;
+    if (!this.name) return;
+    $('name').textContent = this.name;
+    const isRobot = thing?.kind === 'robot';
+    $('orders').hidden = !isRobot;
+    for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
+    $('badge').hidden = !isRobot;
+    $('modes').hidden = !isRobot || !this.fleet.runs;
+    if (isRobot) this.refreshRobot(thing.index);
+    $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
+    $('fetch').textContent = `Send ${this.robot} beneath it`;
+    $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
+    this.facts(thing ? this.factsOf(thing) : [['', 'no longer exists']]);
+  }
+
+  refreshRobot(i) {
+    const does = this.world.activity[i];
+    $('badge').className = `badge ${ACTIVITY_CLASS[does]}`;
+    $('badge').textContent = ACTIVITY[does];
+    const load = this.world.shelf[i], over = this.world.unitOver(i);
+    enable($('carry'), load ? 'it carries a storage unit' : over < 0 ? 'no storage unit stands over it' : '');
+    enable($('drop'), load ? '' : 'it carries no storage unit');
+    enable($('remove'), load ? 'it carries a storage unit' : '');
+    const mode = this.fleet.modeOf(this.world.scene.robots[i]);
+    for (const button of $('modes').children) press(button, button.dataset.mode === mode);
+  }
+
+  factsOf(thing) {
+    const [x, y, z, yaw] = this.world.placeOf(thing);
+    const { index } = thing;
+    const out = [['position', `${metres(x)}, ${metres(y)} m`]];
+    if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
+    out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
+    return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
+      item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
+  }
+
+  factsOfRobot(index) {
+    const { world } = this, { scene } = world;
+    const out = [['activity', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
+    if (broken.length) out.push(['broken', broken.join(', ')]);
+    if (world.charge.some((c) => c < 100)) out.push(['battery', `${world.charge[index]} %`]);
+    const load = world.loadOf(index), limit = world.loadLimit[index];
+    out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+    if (limit > 0) out.push(['deceleration', `${limit.toFixed(1)} m/s² at most, so that the load does not tip`]);
+    if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
+    return [...out, ...vda5050Of(scene.robots[index])];
+  }
+
+  factsOfUnit(index) {
+    const carrier = this.world.carrier[index];
+    const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
+    return [['carried by', carrier ? link(`kiva${carrier}`) : 'no robot'], ['items', items.join(', ') || 'none']];
+  }
+
+  factsOfItem(index) {
+    const { scene } = this.world, unit = scene.item_unit[index], home = this.fallen.unitOf(index);
+    if (home >= 0) return [['fell off', link(scene.units[home])]];
+    return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
+  }
+
+  /** Where the coordinator sends a robot, and for whom it waits. */
+  planOf(id) {
+    const way = this.wayOf(id), out = [];
+    if (way?.goal) {
+      const [x, y] = way.goal;
+      const station = this.world.scene.stations.find((s) => Math.hypot(s.x - x, s.y - y) < 0.1);
+      out.push(['goes to', station ? station.name : `${metres(x)}, ${metres(y)} m`]);
+    }
+    if (way?.waitsFor) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
+    return out;
+  }
+
+  facts(facts) {
+    const text = JSON.stringify(facts);
+    if (text === this.shownFacts) return;
+    this.shownFacts = text;
+    $('facts').replaceChildren(...facts.flatMap(([what, value]) => [
+      make('dt', { textContent: what }), make('dd', {}, typeof value === 'object' ? make('button',
+        { textContent: value.link, click: () => this.select(value.link) }) : value)]));
+  }
+
+  // --- commands; `at` is where in the window the answer belongs
+  go(x, y, at) {
+    return this.order(this.name, 'mov', { x, y }, at);
+  }
+
+  turn(direction) {
+    return this.order(this.name, 'rot', { direction });
+  }
+
+  lift(what) {
+    const i = this.selectedRobot;
+    if (i < 0 || $(what).disabled) return null;
+    const over = this.world.unitOver(i);
+    const shelf = what === 'drop' ? this.world.shelf[i] : numberOf(this.world.scene.units[over]);
+    return this.order(this.name, 'lift', { status: LIFT[what], shelf_id: shelf });
+  }
+
+  /** Sets whether the coordinator commands the selected robot, a person does, or it is out of service. */
+  async setMode(mode) {
+    const robot = this.name;
+    const answer = (text, kind) => {
+      if (this.name !== robot) return;
+      Object.assign($('answer'), { hidden: false, textContent: text });
+      $('answer').dataset.kind = kind;
+    };
+    try {
+      await post(`/robots/${numberOf(robot)}/mode`, { mode });
+      answer(MODE[mode], 'done');
+    } catch (error) {
+      answer(`${error.refused ? 'refused: ' : ''}${error.message}`, 'refused');
+    }
+  }
+
+  sendRobotHere() {
+    const [x, y] = this.world.placeOf(this.thing);
+    return this.order(this.robot, 'mov', { x: Math.round(x), y: Math.round(y) });
+  }
+
+  async order(robot, name, fields, at) {
+    const answer = (text, kind) => {
+      if (kind === 'refused' || kind === 'blocked') this.say(`${robot}: ${text}`, kind, at);
+      if (![this.name, this.robot].includes(robot)) return;
+      Object.assign($('answer'), { hidden: false, textContent: `${name}: ${text}` });
+      $('answer').dataset.kind = kind;
+    };
+    answer(this.isPaused() ? WAITS : 'sent', 'sent');
+    try {
+      const { outcome, events } = await command(numberOf(robot), name, fields);
+      const told = LATE.includes(outcome) ? 'not yet done' : outcome;
+      answer([told, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
+    } catch (error) {
+      answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
+    }
+  }
+}
+
+const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
+const link = (name) => ({ link: name });
+const numberOf = (name) => Number(name.match(/\d+$/)[0]);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of robots, those that need help first, of which only the rows in sight exist; and the search.
+
+import { $, make, on, press, tell } from '../base/dom.js';
+import { found, rowsOf, wanted } from '../base/search.js';
+import { ACTIVITY, ACTIVITY_CLASS, STATE } from '../base/words.js';
+
+const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
+
+export class RobotList {
+  /** `select(name)` is called for what was clicked, `find(name)` for what was searched, `unknown(text)` for what is the name of nothing
+   *  ('': nothing is searched that way). */
+  constructor(world, select, find, unknown) {
+    Object.assign(this, { world, select, find, unknown, filter: '', text: '', chosen: null, rows: [] });
+    this.box = $('robots');
+    this.inside = make('div');
+    this.box.append(this.inside);
+    on(this.box, 'scroll', () => this.draw());
+    on(this.box, 'keydown', (event) => this.onKey(event));
+    new ResizeObserver(() => this.refresh()).observe(this.box);
+    for (const button of $('filters').children) {
+      on(button, 'click', () => this.setFilter(button.dataset.filter));
+    }
+    on($('search'), 'input', () => this.search($('search').value));
+    on($('search'), 'keydown', ({ key }) => key === 'Enter' && this.takeFirst());
+  }
+
+  /** Height of a row [px]. */
+  get rowHeight() {
+    return BIG.matches ? 44 : 30;
+  }
+
+  setFilter(filter) {
+    this.filter = filter;
+    for (const button of $('filters').children) press(button, button.dataset.filter === filter);
+    this.box.scrollTop = 0;
+    this.refresh();
+  }
+
+  search(text) {
+    this.text = wanted(text);
+    const { units, items, scenery } = this.world.scene;
+    const names = found([...units, ...items, ...scenery], this.text);
+    $('found').replaceChildren(...names.map((name) => (
+      make('button', { textContent: name, click: () => this.find(name) }))));
+    $('found').hidden = names.length === 0;
+    this.refresh();
+    this.unknown(names.length || this.rows.length ? '' : text);
+  }
+
+  /** Searches for what an address asks for; '': for what is typed. */
+  ask(encoded) {
+    if (encoded) $('search').value = decoded(encoded);
+    this.search($('search').value);
+  }
+
+  /** Pieces of a SKU by the number of the unit on which they lie, in place of what was found. */
+  showPieces(sku, units) {
+    if (!sku) return;
+    const all = [...units.values()].reduce((sum, pieces) => sum + pieces, 0);
+    $('found').replaceChildren(make('p', { className: 'dim', textContent: all
+      ? `${sku}: ${all} pieces on ${units.size} units` : `no pieces of ${sku}` }),
+    ...[...units].map(([number, pieces]) => make('button', {
+      textContent: `unit ${number}: ${pieces}`, click: () => this.find(`storage_unit${number}`) })));
+    $('found').hidden = false;
+    this.refresh();
+  }
+
+  takeFirst() {
+    const exact = this.world.indexOf.has(this.text) ? this.text : null;
+    const first = this.rows.length ? this.nameOf(this.rows[0]) : $('found').firstChild?.textContent;
+    if (exact ?? first) this.find(exact ?? first);
+  }
+
+  nameOf(i) {
+    return `kiva${this.world.scene.robots[i]}`;
+  }
+
+  choose(name) {
+    this.chosen = name;
+    this.refresh();
+  }
+
+  /** Counts and sorts the robots, and draws the rows. */
+  refresh() {
+    const { activity } = this.world;
+    const counts = ACTIVITY.map(() => 0);
+    for (const a of activity) counts[a] += 1;
+    for (const button of $('filters').children) {
+      const { filter } = button.dataset;
+      tell(button.querySelector('b'), String(filter === '' ? activity.length : counts[filter]));
+    }
+    this.rows = rowsOf(this.world, this.text, this.filter);
+    this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
+    this.inside.style.height = `${this.rowHeight * this.rows.length}px`;
+    this.draw();
+  }
+
+  draw() {
+    const first = Math.floor(this.box.scrollTop / this.rowHeight);
+    const count = Math.ceil(this.box.clientHeight / this.rowHeight) + 1;
+    const rows = this.rows.slice(first, first + count), { children } = this.inside;
+    rows.forEach((i, k) => this.drawRow(children[k], i, first + k));
+    while (children.length > rows.length) this.inside.lastChild.remove();
+  }
+
+  /** A row that says the same already stays. */
+  drawRow(old, i, at) {
+    const { activity, state, shelf } = this.world;
+    const shows = [i, at, activity[i], state[i], shelf[i], this.nameOf(i) === this.chosen].join();
+    if (old?.shows === shows) return;
+    const row = Object.assign(this.row(i, at), { shows });
+    if (old) old.replaceWith(row);
+    else this.inside.append(row);
+  }
+
+  row(i, at) {
+    const { activity, state, shelf } = this.world;
+    const name = this.nameOf(i);
+    const does = activity[i];
+    const load = shelf[i] ? `carries ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
+    const out = make('div', { className: 'row', click: () => this.select(name) },
+      make('span', { className: `badge ${ACTIVITY_CLASS[does]}`, textContent: ACTIVITY[does] }), name,
+      make('span', { className: 'load', textContent: load }));
+    Object.assign(out.style, { top: `${this.rowHeight * at}px`, height: `${this.rowHeight}px` });
+    out.dataset.name = name;
+    out.setAttribute('role', 'option');
+    out.setAttribute('aria-selected', String(name === this.chosen));
+    return out;
+  }
+
+  onKey(event) {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step || !this.rows.length) return;
+    event.preventDefault();
+    const at = this.rows.findIndex((i) => this.nameOf(i) === this.chosen);
+    const next = Math.max(0, Math.min(this.rows.length - 1, at + step));
+    this.select(this.nameOf(this.rows[next]));
+    this.box.scrollTop = Math.max(Math.min(this.box.scrollTop, next * this.rowHeight),
+      (next + 1) * this.rowHeight - this.box.clientHeight);
+  }
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch { // a lone %
+    return text;
+  }
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The running log of events, and those of one model.
+
+import { $, make, on } from '../base/dom.js';
+import { TROUBLE } from '../base/words.js';
+
+const KEPT = 1000, SHOWN = 150, OWN = 20;
+
+export class EventLog {
+  /** `select(name)` is called for the model of an event that was clicked. */
+  constructor(select) {
+    this.select = select;
+    this.events = [];
+    this.lastId = 0;
+    on($('trouble'), 'change', () => this.drawAll());
+  }
+
+  /** Adds new events; a server that was restarted counts from 1 again. */
+  add(events) {
+    if (events[0].id <= this.lastId) this.events = this.events.filter((e) => e.id < events[0].id);
+    this.lastId = events[events.length - 1].id;
+    this.events = [...this.events, ...events].slice(-KEPT);
+    const box = $('events');
+    for (const event of events.filter(wanted)) box.prepend(this.line(event));
+    while (box.children.length > SHOWN) box.lastChild.remove();
+  }
+
+  /** Shows these events and no other. */
+  replace(events) {
+    Object.assign(this, { events: events.slice(-KEPT), lastId: events.at(-1)?.id ?? 0 });
+    this.drawAll();
+  }
+
+  drawAll() {
+    const shown = this.events.filter(wanted).slice(-SHOWN);
+    $('events').replaceChildren(...shown.map((event) => this.line(event)).reverse());
+  }
+
+  /** The last events of a model into the panel of the selection. */
+  drawOwn(name) {
+    const own = this.events.filter((e) => e.model === name || e.other === name).slice(-OWN);
+    const lines = own.map((event) => this.line(event)).reverse();
+    if (!lines.length) lines.push(make('li', { className: 'dim', textContent: 'none' }));
+    $('own-events').replaceChildren(...lines);
+  }
+
+  line({ time, kind, model, other, text }) {
+    const out = make('li', { click: () => this.select(model), title: text },
+      make('span', { textContent: time.toFixed(1) }), make('span', { textContent: kind }),
+      make('span', { textContent: model }),
+      make('span', { textContent: text.includes(other) ? text : [other, text].filter(Boolean).join(': ') }));
+    if (TROUBLE.includes(kind)) out.dataset.trouble = '';
+    return out;
+  }
+}
+
+function wanted({ kind }) {
+  return !$('trouble').checked || TROUBLE.includes(kind);
+}

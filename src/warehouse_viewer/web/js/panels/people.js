@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// People: they come to the cell that is clicked, and the chosen one walks where one clicks next.
+
+import { post } from '../base/api.js';
+import { Placer } from './placer.js';
+
+/** Whether a name is that of a person. */
+export const isPerson = (name) => /^person\d+$/.test(name ?? '');
+
+export class People extends Placer {
+  /** `say(text, kind, at)` tells the person at the page. */
+  constructor(say) {
+    super('add-person', { what: 'a person', hint: 'click where to put the person' }, say);
+  }
+
+  /** Adds a person at [x, y] [m]. */
+  async place([x, y], at) {
+    await this.put(() => post('/people', { x: [x], y: [y] }), [x, y], at);
+  }
+
+  async go(name, [x, y], at) {
+    await this.attempt(async () => {
+      await post('/people', { name, x: [x], y: [y] });
+      return { message: `${name} walks to ${x}, ${y}` };
+    }, at);
+  }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots at a broker by VDA 5050, as the panel of the selection tells them.
+
+import { get } from '../base/api.js';
+
+const PERIOD = 2000; // between two questions, while a robot is selected [ms]
+const CONNECTION = { ONLINE: 'online', OFFLINE: 'offline', CONNECTIONBROKEN: 'connection broken' };
+
+/** Facts of one robot, as [what, text]; none of a robot at no broker. */
+export function factsOf(robot) {
+  if (!robot) return [];
+  const outside = robot.driven_by === 'OUTSIDE_MASTER';
+  const by = outside ? (robot.driven ? 'an outside master' : 'no outside master now') : 'this warehouse';
+  const out = [
+    ['VDA 5050', `${robot.manufacturer}/${robot.serial} at ${robot.broker}: ${CONNECTION[robot.connection]}`],
+    ['driven by', by],
+  ];
+  if (robot.order) out.push(['order', robot.order]);
+  for (const error of robot.errors) out.push(['error', error]);
+  return out;
+}
+
+const robots = new Map();
+let asked = -Infinity;
+
+/** Facts of the robot of that id; asks the server again every PERIOD, for the next call. */
+export function vda5050Of(id, now = performance.now()) {
+  if (now - asked > PERIOD) {
+    asked = now;
+    get('/vda5050').then((told) => {
+      robots.clear();
+      for (const robot of told) robots.set(robot.id, robot);
+    }, () => robots.clear());
+  }
+  return factsOf(robots.get(id));
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Distance tables: made when they are asked for, and renewed as the traffic changes what edges
+// cost.
+#include <vector>
+
+#include "core/floor/distance_tables.h"
+#include "planner_shift.h"
+
+namespace fleet::test {
+namespace {
+
+constexpr int kGoals = 10, kAge = 3, kWidth = 20, kStates = kWidth * kHeadings;
+
+class Tables : public testing::Test {
+ protected:
+  /// Has each edge cost so many ticks.
+  void price(int ticks) {
+    costs_.assign(costs_.size(), static_cast<std::uint8_t>(ticks * kTickCost));
+    tables_.reprice();
+  }
+
+  /// A step in which all are asked for: how far each is from the far end, in ticks.
+  std::vector<int> step(int urgent = -1) {
+    tables_.begin(++now_, 0, kGoals * kStates);
+    for (int goal = 0; goal < kGoals; ++goal) tables_.need(Deck::kUnder, goal);
+    tables_.make();
+    std::vector<int> ticks;
+    for (int goal = 0; goal < kGoals; ++goal) {
+      const DistanceTable* table = tables_.find(Deck::kUnder, 0, goal, goal == urgent);
+      ticks.push_back(table->at(kWidth - 1, 2) / kTickCost);
+    }
+    tables_.renew(kAge, kStates);
+    return ticks;
+  }
+
+  const Floor floor_{drawn({std::string(kWidth, '.')})};
+  std::vector<std::uint8_t> costs_ = std::vector<std::uint8_t>(kWidth * kHeadings, kTickCost);
+  const std::vector<Cell>& next_ = floor_.edges(Deck::kUnder);
+  Edges edges_{{next_, next_}, &costs_, {}};
+  const Threads threads_{1};
+  DistanceTables tables_{floor_, edges_, {1, std::size_t{1} << 20, kWidth}, threads_};
+  int now_ = 0;
+};
+
+TEST_F(Tables, AllAreMadeAnewInTurn) {
+  step();
+  price(2);
+  for (int tick = 0; tick < kAge + kGoals; ++tick) step();
+  const std::vector<int> ticks = step();
+  for (int goal = 0; goal < kGoals; ++goal) EXPECT_EQ(ticks[goal], 2 * (kWidth - 1 - goal));
+}
+
+TEST_F(Tables, WhoDoesNotGetOnComesFirst) {
+  for (int tick = 0; tick < kAge; ++tick) step();
+  price(2);
+  step(7);
+  const std::vector<int> ticks = step();
+  for (int goal = 0; goal < kGoals; ++goal) {
+    EXPECT_EQ(ticks[goal], (goal == 7 ? 2 : 1) * (kWidth - 1 - goal));
+  }
+}
+
+}  // namespace
+}  // namespace fleet::test

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who follows the work of the warehouse gets what has changed, once; Prometheus all figures."""
+
+import asyncio
+import json
+import re
+from types import SimpleNamespace
+
+import pytest
+import rospy
+from fake_hub import Socket
+from fake_ros import FakeRos
+from fastapi import FastAPI
+from paths import ROOT
+from prometheus_client.parser import text_string_to_metric_families
+from sample_messages import coordinator_state, fleet
+from std_msgs.msg import Header
+
+from gazebo_msgs.msg import PerformanceMetrics
+from warehouse_msgs import msg, srv
+from warehouse_viewer.api import changes, description, operations_json
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.api.schemas.pydantic_versions import as_json
+from warehouse_viewer.ros.operations_client import OperationsClient
+from warehouse_viewer.ros.shift_feed import ShiftFeed
+from warehouse_viewer.ros.simulation import AwayError
+from warehouse_viewer.watch.station_watch import StationWatch
+
+DASHBOARD = ROOT / "doc" / "how-to" / "grafana.json"
+
+
+def test_a_reader_gets_the_newest_of_each_key_once():
+    book = ChangeBook()
+    for key, row in ((1, "a"), (2, "b"), (1, "c")):
+        book.note("orders", key, row)
+    assert book.since("orders", 0) == (["b", "c"], False)
+    assert book.since("orders", 2) == (["c"], False)
+    assert book.since("orders", book.last) == ([], False)
+    assert book.since("stock", 0) == ([], False)
+
+
+def test_who_reads_too_late_is_told_so():
+    book = ChangeBook(kept=2)
+    for key in range(4):
+        book.note("orders", key, key)
+    assert book.since("orders", 0) == ([2, 3], True)
+    assert book.since("orders", 2) == ([2, 3], False)
+    book.miss("orders")
+    assert book.since("orders", 4) == ([], True)
+
+
+class Ros(FakeRos):
+    """As long as a shift is connected."""
+
+    shifts = 1
+
+    def Subscriber(self, topic, *args, **options):  # noqa: N802 (rospy's name)
+        super().Subscriber(topic, *args, **options)
+        return SimpleNamespace(get_num_connections=lambda: self.shifts)
+
+
+class Shift:
+    """A shift's messages, and a Work that hears them."""
+
+    def __init__(self):
+        self.ros, self.book, self.seq, self.watch = Ros(), ChangeBook(), {}, StationWatch()
+        self.work = OperationsClient(self.ros, ShiftFeed(self.ros, self.book))
+        self.work.call = lambda *_: srv.FindOrdersResponse(total=7)
+
+    def tell(self, topic, kind, **fields):
+        self.seq[topic] = self.seq.get(topic, 0) + 1
+        header = Header(seq=self.seq[topic], stamp=rospy.Time(60))
+        self.ros.callbacks[f"warehouse/{topic}"](kind(header=header, **fields))
+
+    def orders(self, *numbers, **fields):
+        rows = [msg.OrderStatus(order_id=number, **fields) for number in numbers]
+        self.tell("order_changes", msg.OrderStatuses, orders=rows)
+
+    def stations(self, *names):
+        rows = [msg.StationState(name=name, kind="PICK", shelf_id=3, inbound=[4]) for name in names]
+        self.tell("stations", msg.StationStates, stations=rows)
+
+    def backend(self, **feed):
+        feed = SimpleNamespace(subscribe=lambda names: None, coordinator=None, **feed)
+        parts = {"operations": self.work, "changes": self.book, "feed": feed}
+        return SimpleNamespace(**parts, stations=self.told_stations)
+
+    def told_stations(self, message):
+        self.watch.update(60.0, message.stations, None)
+        told = operations_json.stations(message)
+        return [row | self.watch.told(one) for row, one in zip(told, message.stations)]
+
+
+def test_a_follower_gets_what_stands_first_and_then_what_changes():
+    async def scenario():
+        shift, socket = Shift(), Socket()
+        shift.stations("pick1")
+        shift.orders(1)
+        reader = changes._Reader(socket, shift.backend(), ["orders", "stock", "stations"])
+        for _ in range(2):
+            await reader.send_news()
+        assert [text["type"] for text in socket.texts] == ["shift", "stations"]
+        lines = [msg.OrderLine("sku-1", 2)]
+        shift.orders(1, 2, state=1, lines=lines, picked=[1])
+        shift.orders(2, state=2, lines=lines, picked=[2])
+        place = msg.StockPlace("item1", 3, "sku-1", 4, 1, 24)
+        shift.tell("stock_changes", msg.StockPlaces, places=[place])
+        await reader.send_news()
+        orders, stock = socket.texts[2:]
+        assert [(o["order_id"], o["state"]) for o in orders["orders"]] == [
+            (1, "ASSIGNED"),
+            (2, "COMPLETED"),
+        ]
+        assert orders["orders"][1]["lines"] == [{"sku": "sku-1", "quantity": 2, "picked": 2}]
+        assert stock["stock"][0]["quantity"] == 4 and not stock["missed"]
+        # What OpenAPI says of it is so.
+        for kind, told in ((changes.OrdersChanged, orders), (changes.StockChanged, stock)):
+            assert json.loads(as_json(kind(**told))) == told
+        changes.StationsNow(**socket.texts[1])
+
+    asyncio.run(scenario())
+
+
+def test_a_follower_is_told_when_the_shift_ends_and_of_what_it_missed():
+    async def scenario():
+        shift, socket = Shift(), Socket()
+        shift.orders(1)
+        reader = changes._Reader(socket, shift.backend(), ["orders"])
+        await reader.send_news()
+        shift.ros.shifts = 0
+        await reader.send_news()
+        shift.ros.shifts, shift.seq = 1, {}  # another one counts from 1
+        shift.orders(5)
+        await reader.send_news()
+        assert [t.get("runs") for t in socket.texts] == [True, False, True, None]
+        assert socket.texts[-1]["missed"] is True
+
+    asyncio.run(scenario())
+
+
+def test_what_is_followed_is_one_of_those_that_there_are():
+    assert "heat" not in changes.topics("") and "orders" in changes.topics("")
+    assert changes.topics("heat,orders") == ["heat", "orders"]
+    with pytest.raises(ValueError, match="no moon, sun to follow; there are orders, stock"):
+        changes.topics("sun,orders,moon")
+
+
+class Heard(dict):
+    """Stands in for a Feed."""
+
+    coordinator = None
+
+    def __missing__(self, name):
+        return None
+
+
+def test_prometheus_gets_every_figure_that_the_dashboard_shows():
+    shift = Shift()
+    shift.stations("pick1", "pick2")
+    shift.tell("kpis", msg.Kpis, items_picked=42, orders_late=3)
+    feed = Heard(performance=PerformanceMetrics(real_time_factor=0.9), fleet=fleet(stamp=60.0))
+    feed.coordinator = coordinator_state(60.0, bringing=5, plan_p99=20.0, alarms=["a", "b"])
+    text, kind = Metrics(feed, shift.work).text()
+    assert kind.startswith("text/plain")
+    families = list(text_string_to_metric_families(text.decode()))
+    told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
+    assert told["warehouse_items_picked_total",] == 42
+    assert told["warehouse_orders", "open"] == 7
+    assert told["warehouse_orders_late",] == 3
+    assert told["warehouse_robots", "bringing"] == 5
+    assert told["warehouse_plan_seconds", "99"] == pytest.approx(0.02)
+    assert told["warehouse_alarms",] == 2 and told["warehouse_real_time_factor",] == 0.9
+    assert told["warehouse_station_queue", "PICK", "pick2"] == 2
+    panels = json.loads(DASHBOARD.read_text())["panels"]
+    asked = {name for p in panels for t in p["targets"] for name in names_in(t["expr"])}
+    assert asked == {name for name, *_ in told}
+
+
+def names_in(expression):
+    return re.findall(r"\bwarehouse_\w+", expression)
+
+
+def test_prometheus_is_answered_where_no_shift_and_no_coordinator_run():
+    shift = Shift()
+    shift.tell("kpis", msg.Kpis)
+    shift.ros.shifts = 0
+    text, _ = Metrics(Heard(), shift.work).text()
+    rows = [row for row in text.decode().splitlines() if row and not row.startswith("#")]
+    assert rows == ["warehouse_shift_up 0.0", "warehouse_coordinator_up 0.0"]
+
+
+def test_a_shift_that_ends_meanwhile_costs_its_own_figures_alone():
+    def away(*_):
+        raise AwayError("gone")
+
+    shift = Shift()
+    shift.work.call = away
+    text, _ = Metrics(Heard(), shift.work).text()
+    assert b"warehouse_shift_up 1.0" in text and b"warehouse_orders{" not in text
+
+
+def test_the_description_has_the_web_sockets_with_their_messages():
+    told = description.described(FastAPI(title="x", version="1"))
+    kinds = told["components"]["schemas"]
+    messages = told["x-websockets"]["/api/v1/changes"]["messages"]
+    types = [kinds[m["$ref"].rsplit("/", 1)[-1]]["properties"]["type"] for m in messages]
+    # pydantic 2 tells a single value as a constant.
+    named = [told["const"] if "const" in told else told["enum"][0] for told in types]
+    assert sorted(named) == sorted(["shift", *changes.TOPICS])

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Its presence lets pytest find the helpers in this folder from the folders below it, which are the
+packages of warehouse_viewer."""

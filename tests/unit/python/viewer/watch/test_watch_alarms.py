@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is wrong becomes alarms: since when, the cause, what to do, the person that saw it."""
+
+import pytest
+from sample_messages import fleet
+
+from warehouse_msgs.msg import CoordinatorState, StationState
+from warehouse_viewer.message_enums import EventKind
+from warehouse_viewer.watch import troubles
+from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
+from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
+
+BROKEN = Trouble("ROBOT_BROKEN", "kiva3", "kiva3: drive")
+NOTICE = Trouble("NOTICE", "order 7 is refused", "order 7 is refused")
+
+
+def test_an_alarm_keeps_its_number_and_its_beginning_while_it_lasts():
+    book = AlarmBook()
+    book.update(10, [BROKEN])
+    (first,) = book.told()
+    book.update(50, [BROKEN._replace(text="kiva3: drive, lift stuck")])
+    (now,) = book.told()
+    assert (now["id"], now["since"]) == (first["id"], 10)
+    assert now["text"] == "kiva3: drive, lift stuck" and now["to_do"]
+    book.update(60, [])
+    assert book.told() == []
+    book.update(70, [BROKEN])
+    assert book.told()[0]["id"] != first["id"]
+
+
+def test_all_see_who_has_seen_it():
+    book = AlarmBook()
+    book.update(10, [BROKEN])
+    number = book.told()[0]["id"]
+    assert book.see(number, "Anna")["seen_by"] == "Anna"
+    book.update(30, [BROKEN])
+    assert (book.told()[0]["seen_by"], book.told()[0]["seen_at"]) == ("Anna", 10)
+    assert book.see(number, "")["seen_by"] == ""
+    assert book.see(number + 1000, "Anna") is None
+
+
+def test_the_worst_comes_first_and_of_those_the_oldest():
+    book = AlarmBook()
+    book.update(10, [NOTICE])
+    book.update(20, [NOTICE, BROKEN])
+    book.update(30, [NOTICE, BROKEN, BROKEN._replace(subject="kiva1", since=15.0)])
+    assert [(one["kind"], one["subject"]) for one in book.told()][:2] == [
+        ("ROBOT_BROKEN", "kiva1"),
+        ("ROBOT_BROKEN", "kiva3"),
+    ]
+
+
+def test_what_ends_by_itself_at_once_is_no_alarm():
+    book, blocked = AlarmBook(), Trouble("ROBOT_BLOCKED", "kiva1", "…")
+    book.update(10, [blocked])
+    assert book.told() == []
+    book.update(10 + KINDS["ROBOT_BLOCKED"].after, [blocked])
+    assert len(book.told()) == 1
+
+
+def test_every_kind_says_what_to_do():
+    for name, kind in KINDS.items():
+        assert kind.severity in SEVERITIES and kind.title and kind.to_do.endswith("."), name
+    kinds = {kind for _, kind in troubles.SENTENCES} | set(troubles.MOMENTS.values())
+    assert kinds < set(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "subject"),
+    [
+        ("kiva3: drive, lift stuck", "ROBOT_BROKEN", "kiva3"),
+        ("kiva7 does not move", "ROBOT_STALLED", "kiva7"),
+        ("kiva7 was pushed and does not find back: put it straight", "ROBOT_LOST", "kiva7"),
+        ("pick1 has waited for a person for 40 s", "STATION_UNATTENDED", "pick1"),
+        ("item4 lies on the floor, off storage_unit1", "ITEM_FALLEN", "item4"),
+        (
+            "storage_unit7 stands across cells at (3.0, 1.4): put it straight",
+            "OBSTACLE",
+            "storage_unit7",
+        ),
+        (
+            "storage_unit7 stands in a street at (3.0, 1.0): bring it to a storage place",
+            "OBSTACLE",
+            "storage_unit7",
+        ),
+        ("a plan was refused: two robots in a cell", "PLAN_REFUSED", "a plan was refused"),
+        ("the floor has no way out", "COORDINATOR", "the floor has no way out"),
+    ],
+)
+def test_the_coordinators_sentences_are_understood(text, kind, subject):
+    assert troubles.of_sentence(text)[:2] == (kind, subject)
+
+
+def test_a_robot_that_waits_for_long_is_told_with_its_reason():
+    state = CoordinatorState(
+        waiting_kiva=[1, 2, 3],
+        waiting_since=[0.0, 190.0, 0.0],
+        waiting_text=["behind kiva9", "…", "in the queue of pick1 behind kiva4"],
+    )
+    state.header.stamp.secs = 200
+    assert list(troubles.of_coordinator(state)) == [
+        Trouble("ROBOT_WAITS", "kiva1", "kiva1 waits behind kiva9", 0.0)
+    ]
+
+
+def test_robots_that_need_help_are_told():
+    message = fleet()
+    message.failures, message.last_end = bytes([0, 2]), bytes([EventKind.BLOCKED] * 2)
+    kinds = [(one.kind, one.subject) for one in troubles.of_fleet(message)]
+    assert kinds == [("ROBOT_BROKEN", "kiva2"), ("ROBOT_BLOCKED", "kiva1")]
+
+
+def test_a_station_that_waits_says_for_whom():
+    manual = StationState(name="pick1", kind="PICK", shelf_id=4, waiting=80.0)
+    empty = StationState(name="pick2", kind="PICK", orders=[1, 2], inbound=[7])
+    found = list(troubles.of_stations([manual, empty], 300.0, {"pick2": 10.0}))
+    assert [(one.kind, one.since) for one in found] == [
+        ("STATION_UNATTENDED", 220.0),
+        ("STATION_STARVED", 10.0),
+    ]
+    assert "unit 4" in found[0].text and "1 on their way" in found[1].text
+
+
+def test_what_happened_in_a_moment_is_told_for_a_while_and_counted():
+    moments = troubles.Moments()
+    event = {"kind": "COLLISION", "model": "kiva1", "text": "touched wall", "time": 100.0}
+    moments.take_event(event)
+    moments.take_event(event | {"time": 150.0})
+    moments.take_event(event | {"kind": "DONE"})
+    (one,) = moments.lasting(200.0)
+    assert (one.kind, one.text) == ("COLLISION", "kiva1: touched wall (2 times)")
+    assert moments.lasting(150.0 + troubles.LASTING) == []
+
+
+def test_the_watchdog_is_told_when_it_acts_again():
+    moments = troubles.Moments()
+    moments.take_watchdog(4, 10.0)
+    assert moments.lasting(11.0) == []
+    moments.take_watchdog(5, 20.0)
+    assert [one.kind for one in moments.lasting(21.0)] == ["WATCHDOG"]
