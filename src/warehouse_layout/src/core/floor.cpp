@@ -95,7 +95,7 @@ int alongAxes(const Floor& floor, Cell a, Cell b) {
   return std::abs(floor.x(a) - floor.x(b)) + std::abs(floor.y(a) - floor.y(b));
 }
 
-struct Reached {
+struct Step {
   Cell cell;
   int steps;
 };
@@ -108,7 +108,7 @@ int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
   thread_local Distances distances;
   distances.begin(floor.size());
   distances.set(from, 0);
-  std::vector<Reached> now{{from, 0}}, later;
+  std::vector<Step> now{{from, 0}}, later;
   for (; !now.empty(); std::swap(now, later)) {
     while (!now.empty()) {
       const auto [cell, steps] = now.back();

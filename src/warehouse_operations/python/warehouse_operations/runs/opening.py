@@ -9,7 +9,7 @@ import numpy as np
 
 from warehouse_operations.policies import Policies
 from warehouse_operations.shift.shift import Shift
-from warehouse_operations.stock import order_mix
+from warehouse_operations.stock import days, orders_text
 from warehouse_operations.stock.assortment import Assortment, stocked, told
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.stock.order_file import DemandError, lines_by_sku
@@ -115,15 +115,16 @@ def _own_skus(orders: str, site: Site) -> Assortment | None:
 
     Raises DemandError.
     """
-    file = order_mix.file_of(orders)
+    file = orders_text.file_of(orders)
     if not file:
         return None
-    lines = lines_by_sku(file)
-    if all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in lines):
+    day = orders_text.day_of(orders)
+    own = days.assortment_of(day) if day else Assortment.of_lines(lines_by_sku(file))
+    if not day and all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in own.skus):
         return None  # those that are drawn
-    if len(lines) > len(site.items):
+    if len(own.skus) > len(site.items):
         raise DemandError(
-            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items),"
+            f"{file}: {len(own.skus)} SKUs are asked for; there are {len(site.items)} bins (items),"
             " one of each SKU at least was expected"
         )
-    return Assortment.of_lines(lines)
+    return own

@@ -29,7 +29,7 @@ class Operations:
     """Runs one shift with its orders, stock and fleet.
 
     world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
-    warehouse; None: the world's own. orders: fill, fill:N, poisson:PER_HOUR, FILE.csv or none.
+    warehouse; None: the world's own. orders: see orders_text.EXPECTED.
     policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
     SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
     PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.

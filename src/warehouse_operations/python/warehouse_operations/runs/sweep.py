@@ -7,7 +7,7 @@ robots: 30                    # instead of as many as the layout or size has; al
 minutes: 60
 physics: false
 seeds: 10                     # 1 to 10, or a list
-orders: fill
+orders: fill                  # or day:FILE.csv, demand:FILE.demand.yaml, either with *1.3, …
 policies: {storage: nearest}  # what all have
 grid:                         # each key is an axis
   policies.orders: [random, pile-on]
@@ -38,6 +38,8 @@ from warehouse_operations.runs.simulation import (
     simulate,
     with_settings,
 )
+from warehouse_operations.stock import orders_text
+from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 from warehouse_operations.store.locks import FileLock, InUseError
 
@@ -52,7 +54,7 @@ KINDS: dict[str, tuple[Any, str]] = {
     "minutes": ((int, float), "a number above 0"),
     "physics": (bool, "true or false"),
     "realism": (str, "ideal, typical, bad_day or a file"),
-    "orders": (str, "fill, fill:N, poisson:PER_HOUR, FILE.csv or none"),
+    "orders": (str, orders_text.EXPECTED),
     "policies": ((dict, type(None)), "roles with a policy each"),
 }
 KEYS = {*KINDS, "seeds"}
@@ -195,6 +197,18 @@ def _beside(path: Path, given: str) -> str:
     return os.path.abspath(path.parent / given)
 
 
+def _orders_beside(path: Path, orders: str) -> str:
+    """Returns an orders text with its file, if it names one that is beside a sweep."""
+
+    def beside(file: str) -> str:
+        return _beside(path, file) if os.path.exists(_beside(path, file)) else file
+
+    try:
+        return orders_text.with_file(orders, beside)
+    except DemandError as error:
+        raise SweepError(f"{path}: {error}") from error
+
+
 def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
     merged = data | {k: v for k, v in point.items() if not k.startswith("policies.")}
     policies = dict(data.get("policies") or {})
@@ -206,9 +220,8 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
     for key in ("layout", "instance", "settings"):
         if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
             given[key] = _beside(path, given[key])
-    orders = given.get("orders", "")
-    if orders.endswith(".csv") and os.path.exists(_beside(path, orders)):
-        given["orders"] = _beside(path, orders)
+    if "orders" in given:
+        given["orders"] = _orders_beside(path, given["orders"])
     sites = [key for key in ("size", "layout", "instance") if key in given]
     if len(sites) > 1:
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")

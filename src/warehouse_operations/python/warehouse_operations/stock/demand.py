@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
-order_file), `mix:…` (see order_mix), or `none`."""
+order_file), `day:…`, `demand:…` or `mix:…` (see orders_text), or `none`."""
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_operations.stock import order_mix
+from warehouse_operations.stock import days, order_mix, orders_text
 from warehouse_operations.stock.acceptance import MOST_WAITING
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import ROOMY
 from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
 from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.stock.orders import Backlog
+from warehouse_operations.stock.orders_text import DAY
 
 FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: so many, or those of all stations
 POISSON = 160.0  # orders a picking station and hour
@@ -169,11 +170,14 @@ def make_demand(
     if name == "mix":
         per_hour, mixed = order_mix.make(str(text), assortment, rng, capacity)
         return Poisson(mixed, per_hour, BUNDLES * stations[1], rng, now)
+    if day := orders_text.day_of(str(text)):
+        skus = assortment.skus if assortment else None
+        if day.kind == DAY:
+            return FromFile(days.orders_of(day, skus, rng, capacity))
+        return days.drawn(day, skus, rng, now)
     if str(text).endswith(".csv"):
         return FromFile(read_csv(text, set(assortment.skus) if assortment else None, capacity))
-    raise DemandError(
-        f"orders are '{text}'; fill, fill:N, poisson:PER_HOUR, FILE.csv or none was expected"
-    )
+    raise DemandError(f"orders are '{text}'; {orders_text.EXPECTED} was expected")
 
 
 def _number(text: str, value: str, default: float, most: float, whole: bool = False) -> float:

@@ -8,15 +8,17 @@ The first line has names of columns, each further one is an order line:
     A-17,sku-9,1,0,1800,0
 
 Rows of one reference are one order. `at` [s of the shift] is when it comes (0), `due` when it is to
-be complete (0: at any time), `priority` 0 to 255; these three may be left out. Fields end at
-commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
+be complete (0: at any time), `priority` 0 to 255; these three may be left out. Instead of seconds
+`at` and `due` may be dates, `2025-03-01 08:15:00`: the shift begins at the first midnight then.
+Fields end at commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
 """
 
 import os
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
 from warehouse_layout.file.csv_table import CsvTable, fields, shown
@@ -24,6 +26,7 @@ from warehouse_operations.stock import acceptance
 
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
 MOST_FAULTS = 20
+MOST_SECONDS, DAY = 1e9, 86_400.0  # of a time of the shift [s]
 TEXT = "orders"  # what a text in place of a file is called in messages
 
 
@@ -116,6 +119,7 @@ class _Orders:
         self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
         self._pieces: Counter[str] = Counter()
         self._unknown: set[str] = set()  # SKUs, each of which is named once
+        self._dated = False  # whether times are dates
 
     def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
         """Adds a row. Raises ValueError, which says what is wrong with it."""
@@ -136,8 +140,8 @@ class _Orders:
         if decimal_comma:
             row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}
         rest = (
-            _field(row, "at", float, 0, 1e9),
-            _field(row, "due", float, 0, 1e9),
+            self._time(row, "at"),
+            self._time(row, "due"),
             _field(row, "priority", int, 0, 255),
         )
         lines, first = self._rows.setdefault(reference, ({}, rest))
@@ -150,12 +154,46 @@ class _Orders:
         if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
             raise _FieldError("quantity", f"{reference}: {fault}")
 
+    def _time(self, row: Mapping[str, str], name: str) -> float:
+        """Returns a time [s]: of the shift, or of a date, since 1970."""
+        text = row.get(name, "")
+        date = _date(text)
+        if text and date is None and not self._dated:
+            return float(_field(row, name, float, 0, MOST_SECONDS))
+        if not text and (name == "due" or not self._dated):
+            return 0.0
+        if date is None or (self._rows and not self._dated):
+            raise _FieldError(
+                name, f"{name} is '{shown(text)}'; dates in all rows, or in none, were expected"
+            )
+        self._dated = True
+        return date
+
     def wanted(self) -> list[Wanted]:
         """Returns the orders, in the order of their first rows."""
-        return [
+        orders = [
             Wanted(tuple(lines.items()), *rest, reference)
             for reference, (lines, rest) in self._rows.items()
         ]
+        if not self._dated or not orders:
+            return orders
+        begin = DAY * (min(order.at for order in orders) // DAY)
+        return [
+            replace(order, at=order.at - begin, due=max(order.due - begin, 1.0) if order.due else 0)
+            for order in orders
+        ]
+
+
+def _date(text: str) -> float | None:
+    """Returns the seconds since 1970 of a date as people write it; None if it is none."""
+    if not re.match(r"\d{4}-\d\d-\d\d", text):
+        return None
+    try:
+        date = datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    # Local times: the offset to UTC would move orders into other hours of the day.
+    return date.replace(tzinfo=UTC).timestamp()
 
 
 def _field(

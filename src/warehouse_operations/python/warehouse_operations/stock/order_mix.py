@@ -73,13 +73,6 @@ def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str
     return f"mix:{per_hour!r}:" + (file or f"{lines!r}x{pieces!r}")
 
 
-def file_of(orders: str) -> str:
-    """Returns the CSV file that an orders text names, by itself or in a mix; "" if none."""
-    if orders.startswith("mix:"):
-        orders = orders.removeprefix("mix:").partition(":")[2]
-    return orders if orders.endswith(".csv") else ""
-
-
 def make(
     text: str, assortment: Assortment, rng: np.random.Generator, capacity: float = float("inf")
 ) -> tuple[float, Mixed | Alike]:

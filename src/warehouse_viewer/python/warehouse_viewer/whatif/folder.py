@@ -17,10 +17,12 @@ from warehouse_layout.file.request import LIMITS
 from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
 from warehouse_operations.runs.simulation import ERRORS, Description
+from warehouse_operations.stock import demand_file, orders_text
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.stock.order_file import DemandError, read_csv
 from warehouse_viewer.whatif.scenario import (
+    DEMAND,
     FILE,
     LAYOUTS,
     ORDERS,
@@ -115,7 +117,8 @@ class Folder:
 
     def orders(self) -> list[str]:
         """Returns the names of files of orders."""
-        return sorted(one.name for one in (self.path / ORDERS).glob("*.csv"))
+        folder = self.path / ORDERS
+        return sorted(one.name for end in (".csv", DEMAND) for one in folder.glob(f"*{end}"))
 
     def add_layout(self, name: str, text: str) -> str:
         """Keeps the text of a layout file; returns its name here. Raises LayoutFileError."""
@@ -146,15 +149,17 @@ class Folder:
         return self._add(LAYOUTS, name, ".csv", text)
 
     def add_orders(self, name: str, text: str) -> str:
-        """Keeps the text of a file of orders; returns its name here. Raises DemandError."""
+        """Keeps the text of a file of orders, or of a description of demand; returns its name
+        here. Raises DemandError."""
+        suffix = DEMAND if name.endswith(DEMAND) else ".csv"
         with tempfile.TemporaryDirectory() as made:
-            file = Path(made, "orders.csv")
+            file = Path(made, f"orders{suffix}")
             file.write_text(text, "utf-8")
             try:
-                read_csv(file)
+                demand_file.read(file) if suffix == DEMAND else read_csv(file)
             except DemandError as error:
                 raise DemandError(str(error).replace(str(file), name)) from error
-        return self._add(ORDERS, name, ".csv", text)
+        return self._add(ORDERS, name, suffix, text)
 
     def _add(self, below: str, name: str, suffix: str, text: str) -> str:
         """Writes a file. One of that name that says something else stays, under its own name."""
@@ -183,9 +188,10 @@ def check(scenario: Scenario, path: Path) -> Description:
         layout = told["layout"]
         if layout.endswith(SUFFIX):
             layout = os.path.normpath(beside / layout)
-        orders = told["orders"]
-        if orders.endswith(".csv"):
-            orders = os.path.normpath(beside / orders)
+        orders = orders_text.with_file(
+            told["orders"],
+            lambda file: os.path.normpath(beside / file) if file.startswith("../") else file,
+        )
         description = Description(
             layout=layout,
             robots=scenario.robots,
@@ -207,7 +213,7 @@ def check(scenario: Scenario, path: Path) -> Description:
 def _check_orders(orders: str) -> None:
     """Only the shift can tell whether the SKUs of a file are in stock: any are taken."""
     rng = np.random.default_rng(1)
-    assortment = None if orders.endswith(".csv") else Assortment.draw(2, rng)
+    assortment = None if orders_text.file_of(orders) else Assortment.draw(2, rng)
     make_demand(orders, assortment, (1, 1), rng)
 
 

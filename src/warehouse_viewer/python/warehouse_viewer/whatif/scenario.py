@@ -13,9 +13,12 @@ import yaml
 from warehouse_layout.file.layout_file import SUFFIX
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import ROLES
+from warehouse_operations.stock import orders_text
+from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 
 FILE = "scenario.yaml"
+DEMAND = ".demand.yaml"  # a description of demand, as `demand` writes it
 LAYOUTS, ORDERS = "layouts", "orders"  # folders beside the scenarios, of files that they share
 REALISM = ("ideal", "typical", "bad_day")
 MOST_MINUTES, MOST_SEEDS = 24 * 60.0, 50
@@ -31,7 +34,7 @@ class ScenarioError(ValueError):
 class Scenario:
     """What is simulated, `seeds` times. layout: a preset, or a file in LAYOUTS; robots, stations:
     0 for as many as the layout has; realism: with physics, one of REALISM; orders: as simulate
-    takes them, or a CSV file in ORDERS; policies: names by role."""
+    takes them, with files in ORDERS; policies: names by role."""
 
     layout: str = "medium"
     robots: int = 0
@@ -68,7 +71,7 @@ class Scenario:
         out = self.to_json() | {
             "out": ".",
             "layout": f"../{LAYOUTS}/{self.layout}" if has_file else self.layout,
-            "orders": f"../{ORDERS}/{self.orders}" if _is_csv(self.orders) else self.orders,
+            "orders": orders_text.with_file(self.orders, _in_orders),
             "policies": dict(self.policies),
         }
         return {
@@ -92,15 +95,21 @@ class Scenario:
         data.setdefault("physics", True)
         for key, below in (("layout", LAYOUTS), ("orders", ORDERS)):
             given = str(data.get(key, ""))
-            data[key] = given.removeprefix(f"../{below}/") or getattr(cls, key)
+            data[key] = given.replace(f"../{below}/", "", 1) or getattr(cls, key)
         try:
             return cls.of_json(data)
         except ScenarioError as error:
             raise ScenarioError(f"{path}: {error}") from error
 
 
-def _is_csv(orders: object) -> bool:
-    return isinstance(orders, str) and orders.endswith(".csv") and not orders.startswith("mix:")
+def _in_orders(file: str) -> str:
+    """Returns a file of orders as it is seen from a scenario's folder."""
+    return f"../{ORDERS}/{file}" if is_orders_file(file) else file
+
+
+def is_orders_file(name: str) -> bool:
+    """Returns whether it is a name of a file in ORDERS."""
+    return any(is_file_name(name, suffix) for suffix in (".csv", DEMAND))
 
 
 def _whole(least: int, most: int) -> tuple[Callable[[Any], bool], str]:
@@ -125,8 +134,12 @@ def _is_layout(value: object) -> bool:
 def _is_orders(value: object) -> bool:
     if not isinstance(value, str) or len(value) > 200:
         return False
-    if value.endswith(".csv"):
-        return is_file_name(value, ".csv")
+    try:
+        file = orders_text.file_of(value)
+    except DemandError:
+        return False
+    if file:
+        return is_orders_file(file) and not value.startswith("mix:")
     return value.partition(":")[0] in ("fill", "poisson", "mix")
 
 
@@ -159,7 +172,11 @@ EXPECTED: dict[str, tuple[Callable[[Any], Any], str]] = {
     "layout": (_is_layout, f"a preset, or the name of a {SUFFIX} file"),
     "robots": _whole(0, LIMITS["robots"]),
     "stations": _whole(0, MOST_STATIONS),
-    "orders": (_is_orders, "fill, poisson:PER_HOUR, mix:PER_HOUR:LINESxPIECES or FILE.csv"),
+    "orders": (
+        _is_orders,
+        "fill, poisson:PER_HOUR, mix:PER_HOUR:LINESxPIECES, FILE.csv, day:FILE.csv or"
+        " demand:FILE.demand.yaml, either of these with *1.3",
+    ),
     "minutes": (_is_minutes, f"a number above 0, up to {MOST_MINUTES:g},"),
     "seeds": _whole(1, MOST_SEEDS),
     "physics": (lambda value: isinstance(value, bool), "true or false"),
