@@ -6,11 +6,12 @@ import pytest
 from operations_site import site
 
 from warehouse_fleet.hosts.controller import FleetController, Observation
-from warehouse_fleet.robots.message_enums import FailureKind, Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout.message_enums import FailureKind, Status
+from warehouse_layout.message_enums import RobotMode as Mode
 
 STATION = "pick1"
 WHERE = site(robots=2)

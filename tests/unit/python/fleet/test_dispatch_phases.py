@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from warehouse_fleet.robots.failures import STANDS
-from warehouse_fleet.robots.message_enums import Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.traffic.station_ways import StationWays
 from warehouse_fleet.transports.charging import Charging, Threshold
@@ -28,6 +27,8 @@ from warehouse_fleet.transports.transport_book import STAY, Kind, Leave, Step, T
 from warehouse_fleet.transports.unit_map import UnitMap
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, Station
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 
 WIDTH = 10  # cells: row 0 is a street, row 1 has storage places, row 2 is the lane of a station
 PICK1, SERVICE = "pick1", 22

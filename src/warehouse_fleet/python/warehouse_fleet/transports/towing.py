@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.robots.failures import EMPTY
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.traffic.traffic import Traffic
 from warehouse_fleet.transports.distances import Distances
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
 
 
 class TowOrder(NamedTuple):

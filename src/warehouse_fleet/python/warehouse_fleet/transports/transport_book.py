@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Then, TransportEventKind
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.transports.contracts import Clock
+from warehouse_layout.message_enums import Then, TransportEventKind
 
 STORE, STAY = Then.STORE, Then.STAY  # what becomes of the unit afterwards
 Kind = TransportEventKind

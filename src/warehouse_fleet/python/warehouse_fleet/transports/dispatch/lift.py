@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Watches lifts: what has been lifted is brought on, what has been dropped is stored."""
 
-from warehouse_fleet.robots.message_enums import Status
 from warehouse_fleet.robots.robot_table import Reports, RobotTable
 from warehouse_fleet.transports.completion import Completion
 from warehouse_fleet.transports.journeys import Journeys
@@ -18,6 +17,7 @@ from warehouse_fleet.transports.transport_book import (
     Transport,
     TransportBook,
 )
+from warehouse_layout.message_enums import Status
 
 IDLE = int(Status.IDLE)
 LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]

@@ -3,13 +3,14 @@
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.transports.completion import Completion
 from warehouse_fleet.transports.contracts import Roads
 from warehouse_fleet.transports.storing import Storing
 from warehouse_fleet.transports.transport_book import READY, STORING, Kind, Leave, TransportBook
 from warehouse_fleet.transports.unit_map import UnitMap
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 
 IDLE = int(Status.IDLE)
 DEAD = 30.0  # after which a robot that does not move loses its transport [s]
