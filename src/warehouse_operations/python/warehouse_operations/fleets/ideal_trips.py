@@ -26,7 +26,7 @@ from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
 
-RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
+RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
 
 
 @dataclass(eq=False)
