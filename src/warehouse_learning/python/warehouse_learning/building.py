@@ -44,10 +44,10 @@ def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]
 
 def _part(element: ElementTree.Element, tag: str) -> ElementTree.Element:
     """The first child of that tag. Raises ValueError."""
-    found = element.find(tag)
-    if found is None:
+    child = element.find(tag)
+    if child is None:
         raise ValueError(f"<{element.tag}> has no <{tag}>")
-    return found
+    return child
 
 
 def write_kiva(folder: Path, acceleration: float, lift_time: float, lasers: bool) -> None:

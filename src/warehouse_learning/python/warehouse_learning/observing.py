@@ -8,7 +8,7 @@ from warehouse_learning.warehouses import Warehouses
 
 
 class Observer:
-    """Of `warehouses`. Each call makes new arrays."""
+    """Observes `warehouses`. Each call makes new arrays."""
 
     def __init__(self, warehouses: Warehouses) -> None:
         self._of = warehouses

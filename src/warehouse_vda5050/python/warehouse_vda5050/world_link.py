@@ -115,23 +115,23 @@ class WorldLink:
         )
         return {one: self._sighting(one, *parts) for one, *parts in columns}
 
-    def _sighting(self, one: int, motion: Any, work: Any, health: Any) -> Sighting:
+    def _sighting(self, kiva_id: int, motion: Any, work: Any, health: Any) -> Sighting:
         x, y = motion[0], motion[1]
         at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
-        lost = one in self._lost and not self._was_moved(one, x, y, work[0] == 0)
-        told = [*motion, *work, *health, one in self._people, at_charger, lost]
+        lost = kiva_id in self._lost and not self._was_moved(kiva_id, x, y, work[0] == 0)
+        told = [*motion, *work, *health, kiva_id in self._people, at_charger, lost]
         return Sighting(*told)
 
-    def _was_moved(self, one: int, x: float, y: float, idle: bool) -> bool:
+    def _was_moved(self, kiva_id: int, x: float, y: float, idle: bool) -> bool:
         """Returns whether a lost robot was moved by others, and knows its place since then."""
         with self._lock:
-            where = self._lost.get(one)
+            where = self._lost.get(kiva_id)
             if where is None or not idle:
-                self._lost[one] = (x, y)
+                self._lost[kiva_id] = (x, y)
                 return False
             moved = max(abs(where[0] - x), abs(where[1] - y)) > TOWED
             if moved:
-                del self._lost[one]
+                del self._lost[kiva_id]
             return moved
 
     def unit_at(self, x: float, y: float) -> int:
@@ -212,11 +212,11 @@ class WorldLink:
         return self._taken.get(f"kiva{kiva_id}")
 
 
-def _chargers(told: Any) -> frozenset[tuple[int, int]]:
+def _chargers(message: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
         scenery = wait_for(rospy, "warehouse/scenery", Scenery, WAIT)
-        plan = FloorPlan.of_messages(told, scenery)
+        plan = FloorPlan.of_messages(message, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()
     return frozenset((int(cell) % plan.width, int(cell) // plan.width) for cell in plan.charging)

@@ -39,8 +39,10 @@ class VehicleLink:
         self._now = -math.inf
         self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
-        wanted = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
-        self.link = Link(name, broker, wanted, self._on_message, self._on_connect, self._make_will)
+        subscriptions = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
+        self.link = Link(
+            name, broker, subscriptions, self._on_message, self._on_connect, self._make_will
+        )
 
     def rests(self, now: float) -> bool:
         """Whether a tick would change nothing, as long as the robot reports the same."""
