@@ -32,8 +32,8 @@ def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
 def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]:
     """Returns a Layout without items, which nothing asks for here, and the world around it."""
     if not options.layout:
-        wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
-        return generated.plan(wanted), "empty"
+        resolved = request.resolve("", robots=options.robots, shelves=options.shelves)
+        return generated.plan(resolved), "empty"
     file = replace(layout_choice.chosen(options.layout), items=0, stock="")
     laid = placement.place(file, robots=options.robots)
     hall = layout_world.world_of(file, folder)

@@ -133,22 +133,22 @@ class Warehouses:
 
     def check(self, actions: Any) -> np.ndarray:
         """Returns actions as (n, robots) or, for wheels, (n, robots, 3). Raises ActionError."""
-        given = np.asarray(actions)
+        values = np.asarray(actions)
         if self.options.continuous:
-            return self._check_wheels(given)
-        if given.shape != (self.n, self.robots):
+            return self._check_wheels(values)
+        if values.shape != (self.n, self.robots):
             raise ActionError(
                 f"actions: shape {(self.n, self.robots)} was expected, one for each robot of each"
-                f" world, not {given.shape}"
+                f" world, not {values.shape}"
             )
-        if given.dtype.kind not in "iuf":
-            raise ActionError(self._complaint(given, np.ones(given.shape, bool)))
+        if values.dtype.kind not in "iuf":
+            raise ActionError(self._complaint(values, np.ones(values.shape, bool)))
         # NaN is unequal to itself.
-        if given.dtype.kind == "f" and (given != np.rint(given)).any():
-            raise ActionError(self._complaint(given, given != np.rint(given)))
-        if given.min() < 0 or given.max() > 4:
-            raise ActionError(self._complaint(given, (given < 0) | (given > 4)))
-        return given.astype(np.int8)
+        if values.dtype.kind == "f" and (values != np.rint(values)).any():
+            raise ActionError(self._complaint(values, values != np.rint(values)))
+        if values.min() < 0 or values.max() > 4:
+            raise ActionError(self._complaint(values, (values < 0) | (values > 4)))
+        return values.astype(np.int8)
 
     def _check_wheels(self, actions):
         if actions.shape != (self.n, self.robots, 3) or actions.dtype.kind not in "iuf":

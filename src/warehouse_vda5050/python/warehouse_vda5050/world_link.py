@@ -113,7 +113,7 @@ class WorldLink:
             zip(fleet.status, fleet.state, fleet.shelf_id, fleet.path_id, fleet.reached),
             zip(fleet.failures, fleet.charge, fleet.mode),
         )
-        return {one: self._sighting(one, *parts) for one, *parts in columns}
+        return {kiva_id: self._sighting(kiva_id, *parts) for kiva_id, *parts in columns}
 
     def _sighting(self, kiva_id: int, motion: Any, work: Any, health: Any) -> Sighting:
         x, y = motion[0], motion[1]
@@ -141,8 +141,8 @@ class WorldLink:
             return 0
         xs, ys, _ = unit_poses(units)
         near = np.maximum(np.abs(np.asarray(xs) - x), np.abs(np.asarray(ys) - y)) < 0.3
-        found = np.flatnonzero(near & (np.asarray(units.carrier) == 0))
-        return int(unit_ids(objects)[found[0]]) if len(found) else 0
+        units_there = np.flatnonzero(near & (np.asarray(units.carrier) == 0))
+        return int(unit_ids(objects)[units_there[0]]) if len(units_there) else 0
 
     def read_floor(self) -> bool:
         """Reads the map again if robots came or went, or the world was reset. Returns whether the
@@ -154,11 +154,11 @@ class WorldLink:
         if floor_of == self._floor_of and self.grid is not None:
             return False
         try:
-            told = read_map()
+            grid = read_map()
         except rospy.ServiceException:
             return False  # the world comes or goes; there is another time
-        before, self.grid = self.grid, grid_of(told)
-        self.chargers = _chargers(told)
+        before, self.grid = self.grid, grid_of(grid)
+        self.chargers = _chargers(grid)
         self._floor_of = floor_of
         return self.grid != before
 

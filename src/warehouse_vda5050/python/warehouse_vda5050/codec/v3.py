@@ -110,7 +110,7 @@ class CodecV3(CodecV2):
         if isinstance(message, Factsheet):
             told_actions = value["protocolFeatures"]["mobileRobotActions"]
             for told, action in zip(told_actions, message.actions):
-                told["blockingTypes"] = [one.value for one in action.blocking]
+                told["blockingTypes"] = [blocking.value for blocking in action.blocking]
                 told["pauseAllowed"], told["cancelAllowed"] = action.can_pause, action.can_cancel
         return value
 

@@ -41,14 +41,14 @@ class RemoteRobot:
 def read(path: Path) -> list[RemoteRobot]:
     """Returns the robots of a file, by number. Raises RobotsFileError."""
     try:
-        told = yaml.safe_load(user_file.read_text(path))
+        entries = yaml.safe_load(user_file.read_text(path))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RobotsFileError(f"{path}: {error}") from error
-    if not isinstance(told, dict) or not told:
+    if not isinstance(entries, dict) or not entries:
         raise RobotsFileError(
             f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}"
         )
-    robots = [_robot(f"{path}: robot {number}", number, one) for number, one in told.items()]
+    robots = [_robot(f"{path}: robot {number}", number, one) for number, one in entries.items()]
     _check_distinct(path, robots)
     return sorted(robots, key=lambda robot: robot.number)
 

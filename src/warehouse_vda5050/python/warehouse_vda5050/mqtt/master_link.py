@@ -33,9 +33,9 @@ class MasterLink:
         tell: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self._codec, self._topics, self._take, self._tell = codec, topics, take, tell
-        self._headers = {one: Headers(one, codec.version) for one in who}
+        self._headers = {vehicle: Headers(vehicle, codec.version) for vehicle in who}
         subscriptions = [
-            (topics.of(one, kind), kind.qos) for one in self._headers for kind in HEARD
+            (topics.of(vehicle, kind), kind.qos) for vehicle in self._headers for kind in HEARD
         ]
         self.link = Link(name, broker, subscriptions, self._on_message)
 

@@ -126,8 +126,8 @@ class VehicleLink:
             self.vehicle.on_instant_actions(message, self._now, unknown)
 
     def _check_address(self, message: Any) -> None:
-        told = (message.header.manufacturer, message.header.serial)
+        addressee = (message.header.manufacturer, message.header.serial)
         ours = (self.identity.manufacturer, self.identity.serial)
-        if any(theirs and theirs != our for theirs, our in zip(told, ours)):
-            text = f"the message is for {'/'.join(told)}, and came to {'/'.join(ours)}"
+        if any(theirs and theirs != our for theirs, our in zip(addressee, ours)):
+            text = f"the message is for {'/'.join(addressee)}, and came to {'/'.join(ours)}"
             raise MessageError(text, ErrorType.VALIDATION.value)

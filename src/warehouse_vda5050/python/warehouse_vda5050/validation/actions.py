@@ -31,7 +31,9 @@ def check_actions(order: VehicleOrder, sheet: Factsheet) -> None:
 def unknown_parameters(actions: Iterable[Action], sheet: Factsheet) -> Iterator[str]:
     """Yields the parameters of instant actions that the factsheet does not have: startPause.x. A
     pause or a cancellation is not refused for them."""
-    known = {one.type: {name for name, *_ in one.parameters} for one in sheet.actions}
+    known = {
+        supported.type: {name for name, *_ in supported.parameters} for supported in sheet.actions
+    }
     for action in actions:
         for name, _ in action.parameters:
             if name not in known.get(action.type, {name}):

@@ -97,8 +97,8 @@ def _min_height(value: float, on: Stretch) -> str:
 
 def _orientation(value: float, on: Stretch) -> str:
     is_global = on.demands.get("orientationType", "").upper() == "GLOBAL"
-    wanted = value if is_global else on.heading + value
-    if _apart(wanted, on.heading) <= on.robot.sheet.heading_precision:
+    heading = value if is_global else on.heading + value
+    if _apart(heading, on.heading) <= on.robot.sheet.heading_precision:
         return ""
     return "the robot drives forwards along its edges"
 
