@@ -12,6 +12,7 @@ physics, and the difference between the two is what traffic costs.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -143,6 +144,25 @@ class IdealFleet(TransportRequests):
 
     def close(self) -> None:
         """Does nothing; a fleet under physics has threads to end."""
+
+    # Events of a scenario.
+
+    def set_in_service(self, kiva_id: int, in_service: bool) -> None:
+        """Takes a robot out of service, once its transport is over, or back."""
+        self._trips.set_in_service(self._index(kiva_id), in_service)
+
+    def fail(self, kiva_id: int, duration: float) -> None:
+        """Has a robot stand for a while [s]."""
+        self._trips.fail(self._index(kiva_id), duration)
+
+    def set_speed(self, share: float) -> None:
+        """Sets the robots' top speed, over that at first."""
+        speed = share * self.kinematics.speed
+        self._trips.set_kinematics(replace(self.kinematics, speed=speed))
+        self.travel = self._trips.travel
+
+    def _index(self, kiva_id: int) -> int:
+        return next(i for i, robot in enumerate(self._trips.robots) if robot.kiva_id == kiva_id)
 
     # Figures.
 

@@ -26,7 +26,9 @@ from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
+from warehouse_operations.stock.travel import Travel
 
+OUT = "out of service"  # beside the ACTIVITIES
 RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
 
 
@@ -39,6 +41,9 @@ class Robot:
     activity: str = "idle"  # one of ACTIVITIES
     since: float = 0.0  # when the activity began [s]
     there: float = 0.0  # when it reaches its cell, if it drives there [s]
+    in_service: bool = True
+    halt: float = 0.0  # for how long it has to stand amid its way [s]
+    able: float = 0.0  # when it can drive again, if it failed while it waited [s]
 
 
 class Trips:
@@ -76,11 +81,50 @@ class Trips:
         """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
         total = dict(self.seconds)
         for robot in self.robots:
-            total[robot.activity] += self.time - robot.since
+            if robot.activity != OUT:
+                total[robot.activity] += self.time - robot.since
         return total
 
-    def _schedule(self, delay: float, act: Callable[[Any], object], argument: Any) -> None:
-        self.queue.schedule(self.time + delay, act, argument)
+    def set_in_service(self, index: int, in_service: bool) -> None:
+        """Takes a robot out of service, once its transport is over, or back."""
+        robot = self.robots[index]
+        robot.in_service = in_service
+        if not in_service and index in self._idle:
+            del self._idle[index]
+            self._begin(robot, OUT)
+        elif in_service and robot.activity == OUT:
+            self._begin(robot, "idle")
+            self._idle[index] = robot
+
+    def fail(self, index: int, duration: float) -> None:
+        """Has a robot stand for a while [s], with its load if it has one."""
+        robot = self.robots[index]
+        if robot.activity in ("idle", OUT):
+            robot.there = max(robot.there, self.time) + duration
+        elif robot.activity in ("queue", "service"):
+            robot.able = max(robot.able, self.time) + duration
+        else:
+            robot.halt += duration
+
+    def set_kinematics(self, kinematics: Kinematics) -> None:
+        """Has robots drive otherwise from their next way on."""
+        self.kinematics = kinematics
+        self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
+
+    def _schedule(
+        self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
+    ) -> None:
+        """Has a robot act after a delay [s], and as much later as it had to stand meanwhile."""
+        delay += max(robot.able - self.time, 0.0)
+        self.queue.schedule(self.time + delay, self._act, (act, argument, robot))
+
+    def _act(self, planned: tuple[Callable[[Any], object], Any, Robot]) -> None:
+        act, argument, robot = planned
+        if robot.halt:
+            halt, robot.halt = robot.halt, 0.0
+            self.queue.schedule(self.time + halt, self._act, planned)
+        else:
+            act(argument)
 
     def _add_event(self, kind: Kind, transport: Transport) -> None:
         self.book.publish_event(self.time, transport, kind, self._driver(transport).kiva_id)
@@ -92,7 +136,8 @@ class Trips:
         self.book.go_on(transport, step, self.time)
 
     def _begin(self, robot: Robot, activity: str) -> None:
-        self.seconds[robot.activity] += self.time - robot.since
+        if robot.activity != OUT:
+            self.seconds[robot.activity] += self.time - robot.since
         robot.activity, robot.since = activity, self.time
 
     def _match(self) -> None:
@@ -125,15 +170,16 @@ class Trips:
         self.book.assign(transport, index, self.time)
         self._add_event(Kind.ASSIGNED, transport)
         self._begin(robot, "to unit")
-        self._schedule(seconds, self._reach_unit, transport)
+        self._schedule(seconds, self._reach_unit, transport, robot)
 
     def _reach_unit(self, transport: Transport) -> None:
         if transport.number not in self.book:
             return
         for step in (READY, LIFTING):
             self._go_on(transport, step)
-        self._begin(self._driver(transport), "lift")
-        self._schedule(self.kinematics.lift, self._lift, transport)
+        robot = self._driver(transport)
+        self._begin(robot, "lift")
+        self._schedule(self.kinematics.lift, self._lift, transport, robot)
 
     def _lift(self, transport: Transport) -> None:
         home = self.floor.units.pop(transport.shelf)
@@ -148,7 +194,7 @@ class Trips:
         table = self.travel.loaded_to(transport.cell)
         self.distance_m += table.metres[home]
         self.ways[transport.cell, home, False] += 1
-        self._schedule(table.seconds[home], self._reach_end, transport)
+        self._schedule(table.seconds[home], self._reach_end, transport, self._driver(transport))
 
     def _reach_end(self, transport: Transport) -> None:
         self._driver(transport).cell = transport.cell
@@ -170,7 +216,7 @@ class Trips:
             return
         lane.serving = lane.queue.popleft()
         delay = max(lane.free_from - self.time, 0.0) + moving_up
-        self._schedule(delay, self._arrive, lane.serving)
+        self._schedule(delay, self._arrive, lane.serving, self._driver(lane.serving))
 
     def _arrive(self, transport: Transport) -> None:
         if transport.cancelled:
@@ -214,14 +260,14 @@ class Trips:
         cells = np.flatnonzero(free & np.isfinite(table.seconds))
         if not len(cells):
             self._begin(robot, "idle")
-            self._schedule(RETRY, self._store, transport)
+            self._schedule(RETRY, self._store, transport, robot)
             return
         place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
         self.floor.free[place] = False
         self._begin(robot, "back")
         self.distance_m += table.metres[place]
         self.ways[robot.cell, place, True] += 1
-        self._schedule(table.seconds[place], self._lower, (transport, place))
+        self._schedule(table.seconds[place], self._lower, (transport, place), robot)
 
     def free(self) -> np.ndarray:
         """Returns (cells,) bool: storage places where no unit stands or is to be brought."""
@@ -237,7 +283,7 @@ class Trips:
         robot.cell = place
         self._go_on(transport, DROPPING)
         self._begin(robot, "lift")
-        self._schedule(self.kinematics.lift, self._drop, argument)
+        self._schedule(self.kinematics.lift, self._drop, argument, robot)
 
     def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
@@ -251,6 +297,11 @@ class Trips:
         if transport.robot == NOWHERE:
             return
         robot = self._driver(transport)
+        if robot.halt:  # it failed just before
+            robot.there, robot.halt = max(robot.there, self.time) + robot.halt, 0.0
+        if not robot.in_service:
+            self._begin(robot, OUT)
+            return
         self._begin(robot, "idle")
         self._idle[transport.robot] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)

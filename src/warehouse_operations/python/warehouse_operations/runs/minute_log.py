@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What happens in a shift, minute by minute, for reports, sizings and what limits a warehouse."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from warehouse_operations.shift.kpis import INTERVAL, upper_bound
+from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
@@ -60,7 +62,7 @@ class MinuteLog:
             "completed": tally.orders_completed,
             "pieces": tally.items_picked,
             "visits": tally.pick_visits,
-            "picking_s": sum(one.busy_s / one.pickers for one in picking),
+            "picking_s": sum(station.busy_s / station.most_pickers for station in picking),
             "replenishing_s": sum(one.busy_s for one in replenishing),
             "open_replenishing_s": sum(one.open_seconds(shift.now) for one in replenishing),
             "idle_s": activities["idle"],
@@ -74,11 +76,16 @@ class MinuteLog:
         visits = sum(self.series["visits"][-RECENT:])
         pile_on = sum(self.series["pieces"][-RECENT:]) / max(visits, 1)
         per_hour = sum(
-            upper_bound(pile_on, shift.settings.of(one.name), site.kinematics, site.plan.spacing)
-            for one in shift.picking.stations
-            if one.is_open
+            upper_bound(pile_on, self._settings(station), site.kinematics, site.plan.spacing)
+            for station in shift.picking.stations
+            if station.is_open and station.pickers
         )
         return per_hour * INTERVAL / 3600
+
+    def _settings(self, station: WorkStation) -> Settings:
+        """Returns the settings of a station as it works now."""
+        settings = self._ops.shift.settings.of(station.name)
+        return replace(settings, pickers=station.pickers, piece_s=station.seconds_a_piece)
 
 
 def _replenishing(ops: "Operations") -> list[WorkStation]:

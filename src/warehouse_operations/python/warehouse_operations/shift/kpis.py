@@ -132,7 +132,7 @@ def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) 
     throughput = tally.items_picked / hours
     overdue = sum(bool(order.due) and order.due < shift.now for order in shift.orders.values())
     busy = sum(station.busy_s for station in picking)
-    attended = sum(station.open_seconds(shift.now) * station.pickers for station in picking)
+    attended = sum(station.picker_seconds(shift.now) for station in picking)
     return {
         "simulated_s": elapsed,
         "wall_s": wall_s,

@@ -258,8 +258,9 @@ class Picking:
         line = visit.piece_to_pick(station.reaching - 1).line
         more = station.seconds_a_line if line is not station.line else 0.0
         station.line, now = line, self.shift.now
-        self.shift.events.schedule(now + more + station.pick_seconds, self._taken, (station, visit))
-        taken = now + more + station.seconds_a_piece
+        whole, first = station.draw_times()
+        self.shift.events.schedule(now + more + first, self._taken, (station, visit))
+        taken = now + more + whole
         self.shift.events.schedule(taken, self._in_tote, (station, now))
 
     def _taken(self, argument: tuple[WorkStation, Visit]) -> None:

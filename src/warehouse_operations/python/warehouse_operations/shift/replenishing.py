@@ -30,11 +30,14 @@ class Replenishing:
         self.ordered = 0  # pieces in them
         self.ordered_of: dict[str, int] = {}  # pieces in them, by SKU
         self.changed: set[str] = set()  # SKUs of which that has changed
+        self.sold_out: set[str] = set()  # SKUs of which no more come
         self._count = 0
         self._look = True
 
     def order(self, sku: str, quantity: int) -> None:
-        """Queues a bundle that has arrived for replenishment."""
+        """Queues a bundle that has arrived for replenishment; none comes of what is sold out."""
+        if sku in self.sold_out:
+            return
         self._count += 1
         self.bundles[self._count] = Bundle(self._count, sku, quantity, self.shift.now)
         self._ordered(sku, quantity)
