@@ -44,14 +44,14 @@ test: deps  ## build and run every test; make test ARGS="-L unit" only those
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
-	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
+	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/runs/test_rawsim.py unit/python/operations/store/test_kills.py $(ARGS); \
 	OVERLAPS=2000 ../devel/lib/warehouse_tests/overlap_test --gtest_brief=1; \
 	OBSTACLES=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_obstacles.py; \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
-	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
+	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	BURST=all rostest rostest/malformed.test; \
-	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
 	../scripts/axe; ../scripts/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py

@@ -13,17 +13,13 @@ from unittest import mock
 from reference.markdown import block, code, page, prose, table
 from reference.pages import ROOT
 
-# Where rosrun finds a program, if not in the package of its folder; `drive` is in two.
+# Where rosrun finds a program, if not in the package of its folder.
 PACKAGES = {
     "warehouse_viewer/drive": "warehouse_fleet",
-    "warehouse_viewer/simulate": "warehouse_fleet",
-    "warehouse_viewer/replay": "warehouse_fleet",
-    "warehouse_viewer/whatif": "warehouse_fleet",
+    "warehouse_viewer/simulate": "warehouse_operations",
+    "warehouse_viewer/replay": "warehouse_operations",
+    "warehouse_viewer/whatif": "warehouse_operations",
     "warehouse_viewer/edit": "warehouse_layout",
-    "warehouse_operations/report": "warehouse_fleet",
-    "warehouse_operations/sweep": "warehouse_fleet",
-    "warehouse_operations/size": "warehouse_fleet",
-    "warehouse_operations/check": "warehouse_fleet",
 }
 NODES = (
     "viewer",

@@ -18,7 +18,7 @@ from node_test import call, latched, wait_until
 from warehouse_test import Collector
 
 from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import FailureKind
+from warehouse_layout.message_enums import FailureKind
 from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent, Vda5050
 from warehouse_msgs.srv import SetRobotMode, Transport
 from warehouse_vda5050.codec import codec_for

@@ -23,8 +23,8 @@ from node_test import call, wait_until
 from warehouse_test import Collector
 
 from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import FailureKind, Status
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import FailureKind, Status
 from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent
 from warehouse_msgs.srv import ReleaseTransport, Transport
 from warehouse_vda5050.mqtt.broker import OwnBroker

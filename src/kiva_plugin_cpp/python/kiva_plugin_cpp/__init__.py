@@ -36,7 +36,7 @@ from numpy.typing import ArrayLike
 
 from kiva_plugin_cpp import _core
 from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionError, Fleet
-from kiva_plugin_cpp.message_enums import EventKind, FailureKind, State, Status
+from warehouse_layout.message_enums import EventKind, FailureKind, State, Status
 
 if TYPE_CHECKING:
     from warehouse_layout.file.layout_file import LayoutFile

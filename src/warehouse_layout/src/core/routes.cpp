@@ -7,7 +7,7 @@
 namespace layout {
 namespace {
 
-struct Reached {
+struct Arrival {
   double seconds;
   std::int32_t node;
 };
@@ -15,7 +15,7 @@ struct Reached {
 /// Nodes come in by rising time, since each is found from one that was taken out by rising time, at
 /// the same cost. So two queues do what a heap does for edges of any cost.
 struct Queue {
-  std::vector<Reached> nodes;
+  std::vector<Arrival> nodes;
   std::size_t first = 0;
 
   bool empty() const { return first == nodes.size(); }
@@ -43,14 +43,14 @@ class Search {
     while (!steps_.empty() || !turns_.empty()) {
       const bool has_turned = turns_.next() < steps_.next();
       Queue& queue = has_turned ? turns_ : steps_;
-      const Reached reached = queue.nodes[queue.first++];
+      const Arrival reached = queue.nodes[queue.first++];
       if (reached.seconds <= out_.seconds[reached.node]) goOn(reached, has_turned);
     }
   }
 
  private:
   /// Nothing turns twice in a cell: it would go back to where it came from.
-  void goOn(Reached reached, bool has_turned) {
+  void goOn(Arrival reached, bool has_turned) {
     stepOn(reached);
     if (has_turned) return;
     const Cell cell = reached.node / kHeadings;
@@ -58,13 +58,13 @@ class Search {
       const int node = cell * kHeadings + (reached.node + quarters) % kHeadings;
       const Cell next = graph_.next[node];
       if (next == kNowhere || !reach(reached, node, graph_.turn, 0)) continue;
-      const Reached turned{out_.seconds[node], node};
+      const Arrival turned{out_.seconds[node], node};
       // Most turn into an end: no need to wait for its turn.
       graph_.end[next] ? stepOn(turned) : turns_.nodes.push_back(turned);
     }
   }
 
-  void stepOn(Reached reached) {
+  void stepOn(Arrival reached) {
     const Cell next = graph_.next[reached.node];
     if (next == kNowhere) return;
     const std::int32_t node = next * kHeadings + reached.node % kHeadings;
@@ -72,7 +72,7 @@ class Search {
     steps_.nodes.push_back({out_.seconds[node], node});
   }
 
-  bool reach(Reached from, std::int32_t node, double cost, int steps) {
+  bool reach(Arrival from, std::int32_t node, double cost, int steps) {
     const double seconds = from.seconds + cost;
     if (seconds >= out_.seconds[node]) return false;
     out_.seconds[node] = seconds;

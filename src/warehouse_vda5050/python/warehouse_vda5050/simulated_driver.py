@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from warehouse_fleet.robots.message_enums import FailureKind, Mode, State, Status
+from warehouse_layout.message_enums import FailureKind, State, Status
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_vda5050.driver import Driver, Point, Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType
 from warehouse_vda5050.model import Battery, Factsheet, OperatingMode

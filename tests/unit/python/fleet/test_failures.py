@@ -14,8 +14,8 @@ from kiva_plugin_cpp import EventKind, FailureKind, World
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.failures import EMPTY, FailureLog
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.transports.transports import Kind, Step
+from warehouse_layout.message_enums import RobotMode as Mode
 
 LONG = float(os.environ.get("FAILURE_MINUTES", "0"))
 DENSE = 1 if LONG else 10  # failures an hour, for each of those in a warehouse

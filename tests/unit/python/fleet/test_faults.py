@@ -13,9 +13,9 @@ import pytest
 from fault_site import BOX, WARM_UP, Site
 from faults import BadConnection, Stops
 
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.transports.transports import Kind
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import RobotMode as Mode
 
 PILLAR = BOX.replace("0.5 0.5 0.6", "0.1 0.1 0.6")
 # Of pillars that leave no room on any grid point between them [m].

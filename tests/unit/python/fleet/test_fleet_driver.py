@@ -10,10 +10,10 @@ from paths import ROOT
 from kiva_plugin_cpp import World
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.transports.transports import STAY, Kind, Step
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 

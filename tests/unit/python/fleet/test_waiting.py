@@ -3,10 +3,10 @@
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.transports.transport_book import Step, Transport
 from warehouse_fleet.transports.waiting import Waiting
+from warehouse_layout.message_enums import RobotMode as Mode
 
 NOW = 1200.0  # [s]
 

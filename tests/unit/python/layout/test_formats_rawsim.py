@@ -2,11 +2,10 @@
 """Instances and layout configurations of RAWSim-O become layout files."""
 
 import re
-import sys
 
 import numpy as np
 import pytest
-from paths import ROOT
+from instance_file import write_hall_instance, write_instance
 
 from warehouse_layout import convert as formats
 from warehouse_layout.convert import FormatError
@@ -14,9 +13,6 @@ from warehouse_layout.convert.rawsim.instance import read_floor
 from warehouse_layout.file import drawn_floor, layout_file, station_lanes
 from warehouse_layout.place import file_check
 from warehouse_layout.place.placement import plan_of
-
-sys.path.append(str(ROOT / "tests/unit/python/operations"))
-from instance_file import write_hall_instance, write_instance  # noqa: E402
 
 
 def plan(file):

@@ -16,10 +16,11 @@ import pytest
 from kiva_plugin_cpp import World
 from warehouse_fleet.hosts.controller import FleetController, Observation
 from warehouse_fleet.hosts.random_transports import RandomTransports
-from warehouse_fleet.robots.message_enums import Mode, State, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import State, Status
 from warehouse_vda5050 import model
 from warehouse_vda5050.errors import Error
 from warehouse_vda5050.grid import Grid

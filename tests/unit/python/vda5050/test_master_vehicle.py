@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from warehouse_fleet.robots.message_enums import FailureKind, Status
-from warehouse_fleet.robots.message_enums import State as Does
+from warehouse_layout.message_enums import FailureKind, Status
+from warehouse_layout.message_enums import State as Does
 from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Follow, Lift, Other, Stop
@@ -516,6 +516,6 @@ def test_kinds_of_events_are_those_of_the_messages():
 
 
 def _event_kinds():
-    from warehouse_fleet.robots.message_enums import EventKind as Kinds  # noqa: PLC0415
+    from warehouse_layout.message_enums import EventKind as Kinds  # noqa: PLC0415
 
     return Kinds

@@ -9,12 +9,12 @@ import pytest
 from paths import ROOT
 
 from warehouse_client import message_names
+from warehouse_layout.message_enums import EventKind, State, Status
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.api.schemas.pydantic_versions import names_of
-from warehouse_viewer.message_enums import EventKind, State, Status
 from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
 
 WEB = ROOT / "src/warehouse_viewer/web/js/base/words.js"

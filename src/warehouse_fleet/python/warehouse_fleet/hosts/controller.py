@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.traffic.people import NO_PEOPLE
 from warehouse_fleet.traffic.takeover import Handover, Takeover
@@ -27,6 +26,7 @@ from warehouse_fleet.transports.towing import order as tow_order
 from warehouse_fleet.transports.transports import LiftOrder, Transports
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
 
 CANCEL_PERIOD = 1.0  # between two looks at paths that others gave out [s]
 

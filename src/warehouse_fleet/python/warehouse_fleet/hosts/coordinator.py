@@ -17,11 +17,11 @@ from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, chec
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.served_part import LeftOut, served_part
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,

@@ -9,10 +9,10 @@ import rospy
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
 from warehouse_fleet.hosts.fleet_driver import square
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.transport_book import Answer
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.srv import (
     CancelTransport,
     CancelTransportRequest,

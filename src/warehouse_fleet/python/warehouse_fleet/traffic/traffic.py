@@ -16,12 +16,13 @@ import numpy as np
 from warehouse_fleet import Execution
 from warehouse_fleet.planners.plan_loop import PlanLoop
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan, is_taken
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 
 MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL

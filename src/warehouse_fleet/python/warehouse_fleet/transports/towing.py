@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.robots.failures import EMPTY
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.transports.transports import Transports
+from warehouse_layout.message_enums import RobotMode as Mode
 
 
 class TowOrder(NamedTuple):

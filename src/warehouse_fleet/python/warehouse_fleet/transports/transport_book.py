@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Then, TransportEventKind
 from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_layout.message_enums import Then, TransportEventKind
 
 STORE, STAY = Then.STORE, Then.STAY  # what becomes of the unit afterwards
 Kind = TransportEventKind

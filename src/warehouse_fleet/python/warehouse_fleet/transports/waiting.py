@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.transports.transport_book import Step, Transport
+from warehouse_layout.message_enums import RobotMode as Mode
 
 if TYPE_CHECKING:
     from warehouse_fleet.traffic.traffic import Traffic

@@ -28,8 +28,8 @@ class Chart:
 
     def html(self, width: float = 0) -> str:
         """Returns the chart for a page; of that width alone [px], or of both that pages have."""
-        told = f"{self.title}. {self.quantity}."
-        parts = self.draw, self.height, self.margins, told
+        description = f"{self.title}. {self.quantity}."
+        parts = self.draw, self.height, self.margins, description
         drawn = canvas.single(parts[0], width, *parts[1:]) if width else canvas.drawing(*parts)
         note = f'<p class="note">{escape(self.note)}</p>' if self.note else ""
         table = page.behind(self.head, self.rows, self.title) if self.rows else ""

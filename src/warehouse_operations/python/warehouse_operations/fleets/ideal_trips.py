@@ -147,7 +147,8 @@ class Trips:
         waiting, robots = list(self.book.open), list(self._idle.values())
         indices = list(self._idle)
         seconds, metres = self.travel.unloaded(
-            [self.floor.units[one.shelf] for one in waiting], [robot.cell for robot in robots]
+            [self.floor.units[transport.shelf] for transport in waiting],
+            [robot.cell for robot in robots],
         )
         # One that drives somewhere must come there first.
         seconds += np.array([max(robot.there - self.time, 0.0) for robot in robots])
@@ -157,11 +158,17 @@ class Trips:
             self._assign(waiting[task], indices[robot], seconds[task, robot])
 
     def _tasks(self, waiting: list[Transport]) -> list[Task]:
-        asked = Counter(one.station for one in waiting)
+        asked = Counter(transport.station for transport in waiting)
         coming = {name: self.book.waiting(name) + count for name, count in asked.items() if name}
         return [
-            Task(one.number, one.shelf, one.station, one.priority, coming.get(one.station, 0))
-            for one in waiting
+            Task(
+                transport.number,
+                transport.shelf,
+                transport.station,
+                transport.priority,
+                coming.get(transport.station, 0),
+            )
+            for transport in waiting
         ]
 
     def _assign(self, transport: Transport, index: int, seconds: float) -> None:

@@ -51,18 +51,18 @@ class WorldFleet(FleetDriver):
         self, asked: list[Transport], free: np.ndarray
     ) -> Iterator[tuple[Transport, int]]:
         transports = self.transports
-        cells = [transports.cell_of_unit[one.shelf] for one in asked]
+        cells = [transports.cell_of_unit[transport.shelf] for transport in asked]
         seconds, _ = self.travel.unloaded(cells, self.robots.cell[free])
-        waiting = Counter(one.station for one in asked)
+        waiting = Counter(transport.station for transport in asked)
         tasks = [
             Task(
-                one.number,
-                one.shelf,
-                one.station,
-                one.priority,
-                transports.waiting(one.station) + waiting[one.station],
+                transport.number,
+                transport.shelf,
+                transport.station,
+                transport.priority,
+                transports.waiting(transport.station) + waiting[transport.station],
             )
-            for one in asked
+            for transport in asked
         ]
         robots = self.robots.kiva_ids[free].tolist()
         for task, robot in self._hooks.match_robots(tasks, robots, seconds):

@@ -183,7 +183,7 @@ class Policies:
         for role in chosen:
             if role not in ROLES:
                 raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
-        self.given = chosen
+        self.choices = chosen
         self.chosen: dict[str, Any] = {}  # as a file has them
         for role in ROLES:
             what = chosen.get(role, DEFAULTS[role])

@@ -77,16 +77,16 @@ def decision_on_order(station: WorkStation, view: "View") -> Decision:
 
 def _orders_near(station: WorkStation, view: "View", usual: Order | None) -> list[Order]:
     """Up to SHORTLIST - 1 orders in stock, the default's first, then those of inbound SKUs."""
-    found: dict[int, Order] = {} if usual is None else {usual.order_id: usual}
+    nearest: dict[int, Order] = {} if usual is None else {usual.order_id: usual}
     lines = (line for sku in station.inbound_stock() for line in view.backlog.lines_of(sku))
     served = (line.order for line in lines)
     for source, most in ((served, SHORTLIST // 2), (view.backlog.by_urgency(), SHORTLIST - 1)):
         for order in source:
-            if len(found) >= most:
+            if len(nearest) >= most:
                 break
-            if order.order_id not in found and view.in_stock(order):
-                found[order.order_id] = order
-    return list(found.values())
+            if order.order_id not in nearest and view.in_stock(order):
+                nearest[order.order_id] = order
+    return list(nearest.values())
 
 
 def _order_row(

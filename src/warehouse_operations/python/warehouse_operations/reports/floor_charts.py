@@ -36,9 +36,9 @@ def maps(group: Group) -> list[Chart]:
         (row["name"], row["kind"], *row["cell"]) for row in data[0]["stations"] if row.get("cell")
     ]
     return [
-        heat_map(np.mean([one[what] for one in data], axis=0), what, floor, stations)
+        heat_map(np.mean([maps[what] for maps in data], axis=0), what, floor, stations)
         for what in MAPS
-        if all(one.get(what) for one in data)
+        if all(maps.get(what) for maps in data)
     ]
 
 

@@ -34,7 +34,7 @@ class Director:
             ops.fleet.set_in_service(robot, False)
         for event in events:
             self._check(event)
-            self._shift.events.schedule(self._shift.began + event.at, self._carry_out, event)
+            self._shift.context.clock.schedule(self._shift.began + event.at, self._carry_out, event)
 
     def _check(self, event: Event) -> None:
         """Raises EventError if an event could not happen."""
@@ -64,7 +64,7 @@ class Director:
             raise event.fault(f"is {name}; there are {', '.join(names[:NAMED])}{more}")
 
     def _carry_out(self, event: Event) -> None:
-        self._shift.update_hash("event", event.kind, str(event.value))
+        self._shift.context.update_hash("event", event.kind, str(event.value))
         getattr(self, f"_{event.kind}")(event)
 
     def _close(self, event: Event) -> None:
@@ -106,7 +106,7 @@ class Director:
     def _orders(self, event: Event) -> None:
         now = self._shift.now
         for order in read_csv(event.value):
-            self._shift.events.schedule(now + order.at, self._submit, (order, now))
+            self._shift.context.clock.schedule(now + order.at, self._submit, (order, now))
 
     def _submit(self, argument: tuple[Wanted, float]) -> None:
         order, begin = argument
@@ -121,4 +121,4 @@ class Director:
             station.set_pace(event.value["seconds_a_piece"])
         if "pickers" in event.value:
             station.set_pickers(event.value["pickers"], self._shift.now)
-        self._shift.next_work(station)
+        station.next_work()

@@ -32,7 +32,7 @@ def of_file(site: Site, file: LayoutFile) -> Site:
 
 def settings_of(file: LayoutFile) -> Settings:
     """Returns the Settings of a file's stations."""
-    return Settings(by_station={one.name: _of(one) for one in file.stations})
+    return Settings(by_station={station.name: _of(station) for station in file.stations})
 
 
 def _of(entry: StationEntry) -> dict[str, Any]:
@@ -59,13 +59,13 @@ def _policies(file: LayoutFile) -> dict[str, Any]:
     return beside(dict(file.policies), Path(file.path or ".").parent)
 
 
-def merged(file: LayoutFile, told: Policies) -> Policies:
+def merged(file: LayoutFile, policies: Policies) -> Policies:
     """Returns the policies that were told, and for the other roles those of a layout file.
 
     Raises PolicyError.
     """
     policies_of(file)
-    return Policies({**_policies(file), **told.given})
+    return Policies({**_policies(file), **policies.choices})
 
 
 def fault(file: LayoutFile) -> str:

@@ -16,6 +16,7 @@ from warehouse_operations.stock.order_file import DemandError, lines_by_sku
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.stock.travel import Travel
 from warehouse_operations.stock.whereabouts import Whereabouts
 from warehouse_operations.store.returning import changes, layout_of
@@ -23,7 +24,6 @@ from warehouse_operations.store.returning import changes, layout_of
 if TYPE_CHECKING:
     from warehouse_operations.store.database import Database
     from warehouse_operations.store.database_journal import DatabaseJournal
-    from warehouse_operations.store.stored import Stored
 
 
 def open_shift(
@@ -66,11 +66,11 @@ def open_shift(
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
-    stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
+    stock_rng, demand_rng, policy_rng = (np.random.default_rng(seeds) for seeds in chance.spawn(3))
     if stored and database:
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
-        stock = [(one, 0) for one in (*stored.bins, *changed.new)]
+        stock = [(bin_, 0) for bin_ in (*stored.bins, *changed.new)]
     elif site.stock:
         assortment, stock = told(site.items, site.stock, stock_rng)
     else:
@@ -83,11 +83,11 @@ def open_shift(
     shift = Shift(
         transports,
         assortment,
-        [one for one, _ in stock],
+        [bin_ for bin_, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
         demand=make_demand(
-            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+            orders, assortment, count, demand_rng, now, sum(bin_.capacity for bin_, _ in stock)
         ),
         settings=settings,
         journal=journal,
@@ -102,10 +102,10 @@ def open_shift(
         journal.gone(changed.gone)
     else:
         if journal:
-            journal.begin(shift)
+            journal.begin(assortment, shift.inventory.bins.values())
         shift.begin(stock)
     if journal:  # what the shift begins with is kept before it does
-        journal.commit(shift)
+        shift.commit()
         journal.flush()
     return shift
 

@@ -11,7 +11,6 @@ from warehouse_operations.fleets.ideal import IdealFleet
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.minute_log import MinuteLog
 from warehouse_operations.runs.opening import open_shift
-from warehouse_operations.shift import kpis
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
@@ -70,7 +69,14 @@ class Operations:
             unless_open.pop_all()
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
-        self.log = MinuteLog(self)
+        self.log = MinuteLog(
+            self.shift.context,
+            self.shift.stations,
+            self.shift.orders,
+            fleet=self.fleet,
+            kinematics=self.site.kinematics,
+            spacing=self.site.plan.spacing,
+        )
 
     def _fleet(
         self, world: Any, physics: bool, seed: int, threads: int, planner: Any
@@ -137,7 +143,7 @@ class Operations:
 
     def kpis(self) -> dict[str, Any]:
         """Returns the figures up to now, in the form of kpis.json."""
-        return kpis.of_shift(self.shift, self.fleet, self.site.kinematics, self.wall_s)
+        return self.shift.figures(self.fleet, self.site.kinematics, self.wall_s)
 
     def close(self) -> None:
         """Writes what is left and the run's figures to the database, and ends the fleet.
@@ -145,7 +151,7 @@ class Operations:
         Raises DatabaseError.
         """
         if self.database:
-            self.shift.journal.end(self.shift, self.kpis())
+            self.shift.end(self.kpis())
             self.database.close()
             self.database = None
         self.fleet.close()

@@ -111,13 +111,13 @@ class ProgressLines(ProgressBar):
         super().__init__(seconds, stream, clock, self.PERIOD)
 
     def _show(self, ops: "Operations") -> None:
-        told = {
+        state = {
             "time": round(ops.time, 1),
             "of": self._seconds,
             "pieces": ops.shift.tally.items_picked,
             "wall_s": round(self._line.wall, 2),
         }
-        self._line.write(json.dumps(told) + "\n")
+        self._line.write(json.dumps(state) + "\n")
 
 
 def hms(seconds: float) -> str:

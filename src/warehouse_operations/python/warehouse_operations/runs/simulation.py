@@ -3,7 +3,7 @@
 
 import contextlib
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from kiva_plugin_cpp import World
 
 MOST_SEED = 2**63 - 1
+WriteReport = Callable[[Path, Sequence[runs.Run]], object]  # writes the report about runs
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
@@ -116,11 +117,11 @@ def with_settings(description: Description) -> Description:
     """Returns the Description completed by its settings file where it has defaults."""
     if not description.settings:
         return description
-    told, default = read_settings(description.settings), Description()
+    settings, default = read_settings(description.settings), Description()
     return replace(
         description,
-        orders=told.orders if description.orders == default.orders else description.orders,
-        policies=told.policies | description.policies,
+        orders=settings.orders if description.orders == default.orders else description.orders,
+        policies=settings.policies | description.policies,
     )
 
 
@@ -129,23 +130,25 @@ def remarks(description: Description) -> list[str]:
 
     Raises one of ERRORS.
     """
-    told: list[str] = []
+    sentences: list[str] = []
     if description.settings:
-        told += read_settings(description.settings).not_followed
+        sentences += read_settings(description.settings).not_followed
     if description.instance and not description.physics:
         jams = _jams(description.instance, read_instance(description.instance))
-        told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        sentences += (
+            [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        )
     if description.layout and not description.physics:
         file = layout_choice.chosen(description.layout)
-        told += [f"{description.layout}: {text}" for text in _of_bodies(file)]
-    return told
+        sentences += [f"{description.layout}: {text}" for text in _of_bodies(file)]
+    return sentences
 
 
 def _of_bodies(file: LayoutFile) -> list[str]:
     """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
     ideal ones, too."""
     faults = file_check.faults(file)
-    return [one.text for one in faults] if all(one.is_of_bodies for one in faults) else []
+    return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
 
 
 def _jams(path: str, site: Site) -> str:
@@ -195,8 +198,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
-            told = read_settings(description.settings)
-            site = replace(site, level=told.level or site.level)
+            settings = read_settings(description.settings)
+            site = replace(site, level=settings.level or site.level)
         world = None
         if description.physics:
             if jams := _jams(description.instance, site):
@@ -251,15 +254,20 @@ def simulate(
     database: str | Path | None = None,
     progress: ProgressBar | None = None,
     observe: Callable[[Operations], None] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[runs.Run, list[str]]:
     """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
     database: None: a new one in the folder. observe: called at the begin and after each cycle.
+    write_report: as reports.report.write; None: there is no report.
     """
     folder = Path(folder)
     with _locked(folder):
         kept = database or _new_database(folder)
-        return _simulate(description, folder, kept, progress, observe)
+        run, faults = _simulate(description, folder, kept, progress, observe)
+        if write_report:
+            write_report(folder / runs.REPORT, [run])
+        return run, faults
 
 
 @contextlib.contextmanager
@@ -293,15 +301,12 @@ def _simulate(
         if progress:
             progress.end(ops)
         kept: Any = ops.database
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         kept.flush()
         with kept.reading():
             faults = check.faults(kept.engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
-    from warehouse_operations.reports import report
-
-    report.write(folder / runs.REPORT, [run])
     if run.kpis["collisions"]:
         faults.append(f"{run.kpis['collisions']} collisions")
     if stuck:

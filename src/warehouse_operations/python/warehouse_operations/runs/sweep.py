@@ -40,6 +40,7 @@ from warehouse_operations.runs.simulation import (
     ERRORS,
     MOST_SEED,
     Description,
+    WriteReport,
     simulate,
     with_settings,
 )
@@ -107,11 +108,11 @@ def read(path: str | Path) -> Sweep:
     folder = path.parent / data.get("out", path.stem)
     jobs = []
     for point in _points(path, data.get("grid") or {}):
-        one = _description(path, data, point)
+        description = _description(path, data, point)
         words = [f"{key.rpartition('.')[2]}={_word(value)}" for key, value in point.items()]
         name = re.sub(r"[^\w=.,-]+", "-", ",".join(words)) or _only(data)
         for seed in _seeds(path, data.get("seeds", 1)):
-            jobs.append((replace(one, seed=seed), folder / name / f"seed-{seed}"))
+            jobs.append((replace(description, seed=seed), folder / name / f"seed-{seed}"))
     return Sweep(folder, tuple(jobs))
 
 
@@ -120,14 +121,16 @@ def run_all(
     processes: int | None = None,
     executor: Executor | None = None,
     on_done: Callable[[int, int], object] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[list[runs.Run], list[str]]:
     """Runs what is left; returns all Runs and sentences about those that failed.
 
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
-    called after each.
+    called after each. write_report: a function of a module, see simulate.
     """
     with _alone(sweep.folder):
-        return _run_all(sweep, executor or ProcessPoolExecutor(processes), on_done)
+        pool = executor or ProcessPoolExecutor(processes)
+        return _run_all(sweep, pool, on_done, write_report)
 
 
 @contextlib.contextmanager
@@ -141,12 +144,15 @@ def _alone(folder: Path) -> Iterator[None]:
 
 
 def _run_all(
-    sweep: Sweep, executor: Executor, on_done: Callable[[int, int], object] | None
+    sweep: Sweep,
+    executor: Executor,
+    on_done: Callable[[int, int], object] | None,
+    write_report: WriteReport | None,
 ) -> tuple[list[runs.Run], list[str]]:
     complete, left = sweep.done()
     failures = []
     with executor as pool:
-        pending = {pool.submit(_one, *job): job for job in left}
+        pending = {pool.submit(_one, *job, write_report): job for job in left}
         while pending:
             finished, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in finished:
@@ -163,8 +169,8 @@ def _run_all(
     return sorted(complete, key=lambda run: order[run.folder]), failures
 
 
-def _one(description: Description, folder: Path) -> list[str]:
-    _, faults = simulate(description, folder)
+def _one(description: Description, folder: Path, write_report: WriteReport | None) -> list[str]:
+    _, faults = simulate(description, folder, write_report=write_report)
     return faults
 
 
@@ -199,9 +205,9 @@ def _only(data: dict[str, Any]) -> str:
     return "" if data.get("out") == "." else "all"
 
 
-def _beside(path: Path, given: str) -> str:
+def _beside(path: Path, name: str) -> str:
     """Returns a file that a sweep names, by the same path whichever folder that is seen from."""
-    return os.path.abspath(path.parent / given)
+    return os.path.abspath(path.parent / name)
 
 
 def _orders_beside(path: Path, orders: str) -> str:
@@ -232,22 +238,22 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
     for key, value in point.items():
         if key.startswith("policies."):
             policies[key.removeprefix("policies.")] = value
-    known = {one.name for one in fields(Description)} - {"events"}
-    given = {key: merged[key] for key in merged.keys() & known}
+    known = {field.name for field in fields(Description)} - {"events"}
+    options = {key: merged[key] for key in merged.keys() & known}
     for key in ("layout", "instance", "settings"):
-        if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
-            given[key] = _beside(path, given[key])
-    if "orders" in given:
-        given["orders"] = _orders_beside(path, given["orders"])
-    sites = [key for key in ("size", "layout", "instance") if key in given]
+        if options.get(key) and not (key == "layout" and layout_choice.is_preset(options[key])):
+            options[key] = _beside(path, options[key])
+    if "orders" in options:
+        options["orders"] = _orders_beside(path, options["orders"])
+    sites = [key for key in ("size", "layout", "instance") if key in options]
     if len(sites) > 1:
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
-        given |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
-        given["events"] = _events(path, merged.get("events", []), "events" in point)
-        one = with_settings(Description(**given))
-        one.config  # noqa: B018 - policies that don't exist are told before anything runs
-        return one
+        options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
+        options["events"] = _events(path, merged.get("events", []), "events" in point)
+        description = with_settings(Description(**options))
+        description.config  # noqa: B018 - policies that don't exist are told before anything runs
+        return description
     except EventError as error:
         raise SweepError(str(error)) from error
     except (TypeError, ValueError, *ERRORS) as error:

@@ -80,15 +80,15 @@ class Answer:
         verdict = self.measured
         if not self.confirmed or self.robots > self.verdict.robots:
             return Limit.STREETS
-        found = limits.limit(verdict.windows)
-        if found != Limit.ORDERS:
-            return found
+        limit = limits.limit(verdict.windows)
+        if limit != Limit.ORDERS:
+            return limit
         use = {
             Limit.STATIONS: verdict.estimate("of_bound").mean,
             Limit.REPLENISHING: verdict.estimate("replenishing").mean,
             Limit.ROBOTS: verdict.estimate("robots_at_work").mean,
         }
-        return max(use, key=lambda one: use[one])
+        return max(use, key=lambda limit: use[limit])
 
     def reasons(self) -> Iterator[str]:
         """Yields sentences about what limits the answer."""
@@ -119,7 +119,7 @@ class Answer:
             yield f"Traffic takes {count(more, 'robot')} more than ideal robots would be."
         else:
             yield "Simulated robots meet it too: traffic takes no robot more."
-        for fault in sorted({text for one in check.records for text in one.faults}):
+        for fault in sorted({text for record in check.records for text in record.faults}):
             yield f"With physics: {fault}."
 
     def _fewer_robots(self) -> Iterator[str]:
@@ -162,7 +162,7 @@ class Answer:
 
 def knee(verdicts: list[Verdict]) -> int | None:
     """Returns the fewest robots with nearly as many orders an hour as any of these points have."""
-    hourly = {one.robots: one.estimate("orders_per_hour").mean for one in verdicts}
+    hourly = {verdict.robots: verdict.estimate("orders_per_hour").mean for verdict in verdicts}
     if len(hourly) < 2:
         return None
     return min(robots for robots, orders in hourly.items() if orders >= KNEE * max(hourly.values()))

@@ -74,11 +74,11 @@ def _first(study: Study, answer: Answer | None, why: str, prices: Prices | None)
     wish = study.wish
     orders = f"{wish.orders_per_hour:,.0f} orders an hour"
     asked = f"How many robots does {wish.file.title} need for {orders}?"
-    told = answer.headline() if answer else f"It can't be done: {why}."
+    result = answer.headline() if answer else f"It can't be done: {why}."
     is_bad = not answer or not answer.confirmed
     curve = figures.throughput(study, _chosen(answer)).html()
     parts = [
-        document.opening(asked, told, is_bad),
+        document.opening(asked, result, is_bad),
         document.big(_big(study, answer, prices)) if answer else "",
         document.section("How orders grow with robots", curve),
         document.section(f"What limits it: {answer.limit}", document.sentences(answer.reasons()))
@@ -129,8 +129,8 @@ def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
         f" {100 * wish.late:g} % may be late. A peak hour is sized by its own orders an hour."
     )
     chosen = Policies(wish.file.policies).chosen
-    told = ", ".join(f"{role}: {_name(policy)}" for role, policy in chosen.items())
-    yield f"Decisions: {told}."
+    decisions = ", ".join(f"{role}: {_name(policy)}" for role, policy in chosen.items())
+    yield f"Decisions: {decisions}."
     yield (
         f"Shifts of {wish.hours:g} h on {wish.file.title}: {count(wish.units, 'storage unit')},"
         f" {_bins(wish)}; all replenishing stations are open, and nothing breaks."
@@ -199,9 +199,9 @@ def _part(study: Study, prices: Prices | None, number: int, columns: tuple) -> s
     rows = []
     for verdict, kind in table.rows(study):
         cells = table.head_of(verdict, kind)[: len(kept)]
-        cells += [table.cell_of(verdict, *one) for one in columns]
+        cells += [table.cell_of(verdict, *column) for column in columns]
         rows.append(cells + ([table.cost_of(study, prices, verdict)] if cost else []))
-    head = [*kept, *(one[1] for one in columns), *cost]
+    head = [*kept, *(column[1] for column in columns), *cost]
     return document.table(head, rows, f"All points, part {number + 1}")
 
 

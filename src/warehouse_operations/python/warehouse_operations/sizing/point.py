@@ -12,11 +12,11 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from warehouse_layout.file import layout_file
+from warehouse_layout.message_enums import OrderEventKind
 from warehouse_operations.runs import minute_log
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.sizing import sites
 from warehouse_operations.stock import order_mix
-from warehouse_operations.stock.message_enums import OrderEventKind
 from warehouse_operations.stock.orders import Order
 
 MINUTE = 60.0  # [s]

@@ -39,7 +39,7 @@ class Prices:
 def read(path: str | Path) -> Prices:
     """Reads a YAML file of prices. Raises PriceError."""
     data = read_yaml(path, PriceError)
-    names = [one.name for one in fields(Prices)]
+    names = [field.name for field in fields(Prices)]
     if not isinstance(data, dict):
         raise PriceError(f"{path}: keys with prices were expected: {', '.join(names)}")
     for key, value in data.items():

@@ -42,10 +42,10 @@ class Search:
         best: int | None = None
         for stations in range(least, most + 1):
             highest = self.most_robots(stations) if best is None else best - 1
-            found = self.fewest(stations, highest)
-            if best is not None and found is None:
+            fewest = self.fewest(stations, highest)
+            if best is not None and fewest is None:
                 break
-            self.frontier[stations] = best = found
+            self.frontier[stations] = best = fewest
         return self.frontier
 
     def fewest(self, stations: int, highest: int) -> int | None:

@@ -48,7 +48,7 @@ def open_shift(
 
 def picking_stations(file: LayoutFile) -> list[str]:
     """Returns the names of the picking stations, in the order in which they are opened."""
-    return [one.name for one in file.stations if one.kind != "replenish"]
+    return [station.name for station in file.stations if station.kind != "replenish"]
 
 
 def _world(file: LayoutFile, robots: int, seed: int) -> "World":

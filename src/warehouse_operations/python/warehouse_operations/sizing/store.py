@@ -17,7 +17,7 @@ class Store:
 
     def __init__(self, folder: Path, *files: str) -> None:
         self._folder = folder
-        self._files = b"".join(user_file.read_bytes(one) for one in files if one)
+        self._files = b"".join(user_file.read_bytes(file) for file in files if file)
 
     def get(self, point: Point) -> Record | None:
         """Returns the Record of a Point; None if there is none, or none that can be read."""

@@ -78,7 +78,7 @@ class Study:
 
     def _judge(
         self,
-        found: dict[tuple[int, int], Verdict],
+        verdicts: dict[tuple[int, int], Verdict],
         robots: int,
         stations: int,
         physics_hours: float,
@@ -88,23 +88,23 @@ class Study:
         for enough in sorted({FIRST, *looks(seeds)}):
             numbers = range(len(records) + 1, max(enough, len(records)) + 1)
             records += self._shifts(self.wish.points(robots, stations, numbers, physics_hours))
-            verdict = self._judged(found, robots, stations, records)
+            verdict = self._judged(verdicts, robots, stations, records)
             if verdict.decided:
                 break
         return verdict
 
     def _judged(
         self,
-        found: dict[tuple[int, int], Verdict],
+        verdicts: dict[tuple[int, int], Verdict],
         robots: int,
         stations: int,
         records: Sequence[Record],
     ) -> Verdict:
         """Returns the Verdict on these shifts, and adds it to those that were found."""
         verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN)
-        known = found.get((robots, stations))
+        known = verdicts.get((robots, stations))
         if known is None or len(known.records) < len(records):
-            found[robots, stations] = verdict
+            verdicts[robots, stations] = verdict
         return verdict
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
@@ -153,5 +153,5 @@ def choose(
     """
     able = [(robots, stations) for stations, robots in frontier.items() if robots]
     if prices is None:
-        return min(able, key=lambda one: (one[1], one[0]))
-    return min(able, key=lambda one: prices.per_hour(one[0], one[1] + replenishing, units))
+        return min(able, key=lambda point: (point[1], point[0]))
+    return min(able, key=lambda point: prices.per_hour(point[0], point[1] + replenishing, units))

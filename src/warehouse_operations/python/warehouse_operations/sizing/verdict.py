@@ -92,7 +92,7 @@ class Verdict:
         return self._limit("late", risk, side, shifts)
 
     def _limit(self, name: str, risk: float, side: int, shifts: int = 0) -> float:
-        values = np.array([one[name] for one in self.figures])
+        values = np.array([figures[name] for figures in self.figures])
         if len(values) < 2:
             return math.inf * side
         count = shifts or len(values)
@@ -107,26 +107,28 @@ class Verdict:
     @cached_property
     def warm_up(self) -> int:
         """The first minutes that are left out: the run-in, and until the open orders are steady."""
-        return max(self.run_in, mser5([one.series["open"] for one in self.records]))
+        return max(self.run_in, mser5([record.series["open"] for record in self.records]))
 
     @cached_property
     def figures(self) -> list[Figures]:
         """The figures of each shift after the warm-up."""
-        return [figures_of(one, self.warm_up) for one in self.records]
+        return [figures_of(record, self.warm_up) for record in self.records]
 
     @cached_property
     def windows(self) -> list[Window]:
         """The Windows of all its shifts after the warm-up, summed."""
-        each = [one.series for one in self.records]
+        each = [record.series for record in self.records]
         series = {
-            name: np.sum([one[name] for one in each], axis=0)[self.warm_up :].tolist()
+            name: np.sum([series_of_shift[name] for series_of_shift in each], axis=0)[
+                self.warm_up :
+            ].tolist()
             for name in SERIES
         }
         return windows_of(series, series["missed"])
 
     def estimate(self, name: str) -> Estimate:
         """Returns the Estimate of one of the figures."""
-        return Estimate.of([one[name] for one in self.figures])
+        return Estimate.of([figures[name] for figures in self.figures])
 
 
 def figures_of(record: Record, warm_up: int) -> Figures:
@@ -155,10 +157,10 @@ def figures_of(record: Record, warm_up: int) -> Figures:
 
 def difference(first: Verdict, second: Verdict, name: str) -> Estimate:
     """Returns by how much a figure of `second` is above that of `first`, seed by seed."""
-    seen = {one.seed: figures[name] for one, figures in zip(first.records, first.figures)}
+    firsts = {record.seed: figures[name] for record, figures in zip(first.records, first.figures)}
     deltas: Sequence[float] = [
-        figures[name] - seen[one.seed]
-        for one, figures in zip(second.records, second.figures)
-        if one.seed in seen
+        figures[name] - firsts[record.seed]
+        for record, figures in zip(second.records, second.figures)
+        if record.seed in firsts
     ]
     return Estimate.of(deltas)

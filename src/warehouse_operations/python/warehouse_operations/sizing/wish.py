@@ -54,7 +54,7 @@ class Wish:
     most_robots: int = 0  # 0: as many as could be of use, and there is room for
 
     def __post_init__(self) -> None:
-        faults = [one for one in file_check.faults(self.file) if not one.is_of_bodies]
+        faults = [fault for fault in file_check.faults(self.file) if not fault.is_of_bodies]
         if faults:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
@@ -93,7 +93,7 @@ class Wish:
         if not self.orders_file:
             return self.lines * self.pieces
         orders = read_csv(self.orders_file)
-        pieces = sum(n for one in orders for _, n in one.lines)
+        pieces = sum(n for order in orders for _, n in order.lines)
         return pieces / max(len(orders), 1)
 
     @property

@@ -50,8 +50,8 @@ def told(
     result: list[tuple[Bin, int]] = []
     for item, sku, pieces in stock:
         if item in unit_of:
-            one = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)
-            result.append((one, pieces))
+            bin_ = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)
+            result.append((bin_, pieces))
     return assortment, result
 
 
@@ -82,6 +82,6 @@ def stocked(
     fill = np.round(capacity * rng.uniform(level - spread, level + spread, len(items)))
     result = []
     for i, ((item, unit), sku, pieces) in enumerate(zip(items, skus_of, fill)):
-        one = Bin(i + 1, item, unit, capacity, assortment.skus[sku])
-        result.append((one, int(pieces)))
+        bin_ = Bin(i + 1, item, unit, capacity, assortment.skus[sku])
+        result.append((bin_, int(pieces)))
     return assortment, result

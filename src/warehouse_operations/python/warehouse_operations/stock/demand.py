@@ -80,10 +80,10 @@ class Fill:
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         for _ in range(self.waiting - len(backlog)):
-            wanted = self.customers.order(now, in_stock)
-            if wanted is None:
+            draft = self.customers.order(now, in_stock)
+            if draft is None:
                 return
-            yield wanted
+            yield draft
 
 
 class Poisson:
@@ -109,10 +109,10 @@ class Poisson:
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         while self._next <= now:
-            wanted = self.customers.order(self._next, in_stock)
+            draft = self.customers.order(self._next, in_stock)
             self._wait()
-            if wanted:
-                yield wanted
+            if draft:
+                yield draft
 
     def _wait(self) -> None:
         self._next += self._rng.exponential(3600.0 / self.per_hour)
@@ -124,22 +124,22 @@ class FromFile:
 
     bundles_per_hour = 0.0
 
-    def __init__(self, wanted: Iterable[Wanted]) -> None:
-        self._wanted = sorted(wanted, key=lambda one: one.at)[::-1]
+    def __init__(self, drafts: Iterable[Wanted]) -> None:
+        self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
 
     def next_time(self) -> float:
         """Returns when the next order comes [s]; inf after the last."""
-        return max(self._wanted[-1].at, self._more_at) if self._wanted else float("inf")
+        return max(self._drafts[-1].at, self._more_at) if self._drafts else float("inf")
 
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         for _ in range(AT_ONCE):
             if self.next_time() > now:
                 return
-            if backlog.lines + len(self._wanted[-1].lines) > MOST_WAITING:
+            if backlog.lines + len(self._drafts[-1].lines) > MOST_WAITING:
                 break
-            yield self._wanted.pop()
+            yield self._drafts.pop()
         self._more_at = now + PAUSE
 
 

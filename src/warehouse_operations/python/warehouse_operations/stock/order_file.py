@@ -73,7 +73,7 @@ def read_csv(
     table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
     orders, faults = _read(table, skus, capacity)
     if faults:
-        raise DemandError("\n".join(f"{path}:{one.line}: {one.text}" for one in faults))
+        raise DemandError("\n".join(f"{path}:{fault.line}: {fault.text}" for fault in faults))
     return orders
 
 
@@ -91,8 +91,8 @@ def parse_csv(
         table = CsvTable(TEXT, NEEDED, OPTIONAL, DemandError, text)
         return _read(table, skus, capacity)
     except DemandError as error:
-        found = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
-        start, line = (found.end(), int(found[1] or 0)) if found else (0, 0)
+        match = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
+        start, line = (match.end(), int(match[1] or 0)) if match else (0, 0)
         return [], [Fault(line, "", str(error)[start:])]
 
 

@@ -3,15 +3,15 @@
 
 import math
 from collections import defaultdict, deque
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations.stock.inventory import Bin, Inventory
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.totes import Totes
@@ -70,7 +70,8 @@ class WorkStation:
     """A station for picking or replenishing; `place` is the floor's Station.
 
     settings: its own. picks, replenishes: what is done there, one of them or both. began:
-    when its shift begins [s].
+    when its shift begins [s]. on_hands_free: called with the station where its people can begin
+    with something else.
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class WorkStation:
         began: float = 0.0,
     ) -> None:
         self.name, self.kind = place.name, place.kind
-        self.mode, self.inventory = Mode.AUTOMATIC, inventory
+        self.mode, self.inventory, self.settings = StationMode.AUTOMATIC, inventory, settings
         self.is_open, self._opened, self._open_s = True, began, 0.0
         self.picks = place.kind == PICK
         self.replenishes = settings.replenishes or not self.picks
@@ -103,6 +104,7 @@ class WorkStation:
         # Lines with pieces for which no unit comes, by (order, line).
         self.missing: dict[tuple[int, int], Line] = {}
         self.pieces = self.visits = 0  # done here
+        self.on_hands_free: list[Callable[[WorkStation], object]] = []
 
     def set_open(self, is_open: bool, now: float) -> None:
         """Opens or closes the station at a time [s]."""
@@ -122,6 +124,11 @@ class WorkStation:
         )
         self.seconds_a_piece, self.piece_sd = mean, deviation
         self.pick_seconds = min(self.pick_seconds, mean)
+
+    @property
+    def settings_now(self) -> Settings:
+        """Its settings with the pickers of this moment and their pace."""
+        return replace(self.settings, pickers=self.pickers, piece_s=self.seconds_a_piece)
 
     def set_chance(self, rng: np.random.Generator) -> None:
         """Sets what the times of pieces are drawn with."""
@@ -151,6 +158,11 @@ class WorkStation:
         """Returns the share of its pickers' hours in which they worked, until a time [s]."""
         time = self.picker_seconds(now)
         return self.busy_s / time if time else 0.0
+
+    def next_work(self) -> None:
+        """Starts what its people can do next."""
+        for start in self.on_hands_free:
+            start(self)
 
     def take_on(self, order: Order, again: bool = False) -> None:
         """Adds an order, in a tote of its own; `again`: in the one that it had here."""
@@ -184,7 +196,7 @@ class WorkStation:
     def waiting(self, now: float) -> float:
         """Returns how long a task has waited for a person [s]; 0 without one."""
         visit = self.here
-        if self.mode != Mode.MANUAL or not visit or visit.arrived is None:
+        if self.mode != StationMode.MANUAL or not visit or visit.arrived is None:
             return 0.0
         if not (visit.picks or visit.puts):
             return 0.0
@@ -202,7 +214,7 @@ class WorkStation:
     def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
         stock: dict[str, int] = defaultdict(int)
         for visit in visits:
-            for one in self.inventory.of_unit[visit.unit]:
-                if one.available:
-                    stock[one.sku] += one.available
+            for bin_ in self.inventory.of_unit[visit.unit]:
+                if bin_.available:
+                    stock[bin_.sku] += bin_.available
         return stock

@@ -31,8 +31,10 @@ class Whereabouts:
         self.plan, self.robots, self.units = plan, dict(robots), dict(units)
         self.cells = UnitCells(units)
         self._travel = travel or Travel(plan, Kinematics())
-        self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
-        self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
+        self._service = {
+            station.name: int(station.cells[station.service]) for station in plan.stations
+        }
+        self._picking = [station.name for station in plan.stations if station.kind == "PICK"]
         self._place_rank: np.ndarray | None = None
 
     @property

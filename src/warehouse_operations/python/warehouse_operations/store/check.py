@@ -90,12 +90,12 @@ def faults(engine: Engine, most: int = 20) -> list[str]:
 
     Raises DatabaseError where values can't be read, as after damage to the file.
     """
-    found = []
+    sentences = []
     with _reading(engine) as connection:
         for sentence, query in RULES:
             rows = connection.execute(text(query)).fetchmany(most)
-            found += [sentence.format(*row) for row in rows]
-    return found
+            sentences += [sentence.format(*row) for row in rows]
+    return sentences
 
 
 def summary(engine: Engine) -> dict[str, Any]:

@@ -94,9 +94,9 @@ class Database:
                 taken.append(self._queue.get())
             ended = None in taken
             rows = Rows()
-            for one in taken:
-                if one is not None:
-                    rows.merge(one)
+            for rows_of_commit in taken:
+                if rows_of_commit is not None:
+                    rows.merge(rows_of_commit)
             try:
                 if rows and not self._error:
                     with self.engine.begin() as connection:

@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import and_, exists, func, or_, select
 from sqlalchemy.engine import Engine
 
-from warehouse_operations.stock.message_enums import OrderState
+from warehouse_layout.message_enums import OrderState
 from warehouse_operations.store import schema
 
 MOST_ROWS = 10_000  # in an answer
@@ -50,8 +50,8 @@ def find_orders(
         rows: Sequence[Any] = connection.execute(newest).all()
         of_them = select(lines).where(lines.c.order_id.in_([row.id for row in rows]))
         by_order: dict[int, list[Any]] = {row.id: [] for row in rows}
-        found: Any = connection.execute(of_them.order_by(lines.c.order_id, lines.c.number))
-        for line in found:
+        matching_lines: Any = connection.execute(of_them.order_by(lines.c.order_id, lines.c.number))
+        for line in matching_lines:
             by_order[line.order_id].append(line)
     return total, [(row, by_order[row.id]) for row in rows]
 
@@ -77,9 +77,9 @@ def find_stock(
     if sku:
         query = query.where(bins.c.sku == sku, bins.c.quantity > 0)
     with engine.connect() as connection:
-        found = query.subquery()
-        counts = select(func.count(), func.coalesce(func.sum(found.c.quantity), 0))
-        total, pieces = connection.execute(counts.select_from(found)).one()
+        matches = query.subquery()
+        counts = select(func.count(), func.coalesce(func.sum(matches.c.quantity), 0))
+        total, pieces = connection.execute(counts.select_from(matches)).one()
         fullest = query.order_by(bins.c.quantity.desc(), bins.c.id)
         return total, pieces, connection.execute(_page(fullest, limit, offset)).all()
 
@@ -87,8 +87,8 @@ def find_stock(
 def matching(names: Iterable[str], search: str) -> list[str]:
     """Returns the names that have a text in them: first those that begin with it, by number."""
     text = search.casefold()
-    found = [name for name in names if text in name.casefold()]
-    return sorted(found, key=lambda name: (not name.casefold().startswith(text), _natural(name)))
+    matches = [name for name in names if text in name.casefold()]
+    return sorted(matches, key=lambda name: (not name.casefold().startswith(text), _natural(name)))
 
 
 def _natural(name: str) -> list[tuple[int, str]]:

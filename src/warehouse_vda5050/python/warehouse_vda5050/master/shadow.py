@@ -5,8 +5,8 @@ import math
 from dataclasses import dataclass
 
 from warehouse_fleet.robots.failures import EMPTY, OUT_OF_ORDER
-from warehouse_fleet.robots.message_enums import EventKind as Ended
-from warehouse_fleet.robots.message_enums import FailureKind, State, Status
+from warehouse_layout.message_enums import EventKind as Ended
+from warehouse_layout.message_enums import FailureKind, State, Status
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
 
 # What breaks, by words in the types that makers give their errors.

@@ -15,8 +15,9 @@ import rospy
 from warehouse_client.engine import Engine, EngineError
 from warehouse_client.services import is_offered
 from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import EventKind as Kind
-from warehouse_fleet.robots.message_enums import FailureKind, Mode
+from warehouse_layout.message_enums import EventKind as Kind
+from warehouse_layout.message_enums import FailureKind
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from warehouse_viewer.message_enums import EventKind, State, Status
+from warehouse_layout.message_enums import EventKind, State, Status
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, FleetState

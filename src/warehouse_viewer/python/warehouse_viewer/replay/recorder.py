@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.replay.file import NAME, FileWriter

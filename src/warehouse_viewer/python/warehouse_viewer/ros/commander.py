@@ -14,7 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from warehouse_client.commands import COMMANDS
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 
 ANSWERS = EventKind.ACCEPTED.name, EventKind.REFUSED.name
 ENDS = EventKind.DONE.name, EventKind.BLOCKED.name

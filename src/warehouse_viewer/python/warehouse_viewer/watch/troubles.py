@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from warehouse_client.message_names import failures_of
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.watch.alarm_book import Trouble
 
 if TYPE_CHECKING:

@@ -85,7 +85,7 @@ class Scenario:
     def write(self, folder: Path) -> None:
         """Writes scenario.yaml into a folder."""
         text = yaml.safe_dump(self.to_sweep(), sort_keys=False, allow_unicode=True)
-        (folder / FILE).write_text(f"# rosrun warehouse_fleet sweep {FILE}\n{text}", "utf-8")
+        (folder / FILE).write_text(f"# rosrun warehouse_operations sweep {FILE}\n{text}", "utf-8")
 
     @classmethod
     def read(cls, folder: Path) -> "Scenario":

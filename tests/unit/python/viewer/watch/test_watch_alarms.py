@@ -4,8 +4,8 @@
 import pytest
 from sample_messages import fleet
 
+from warehouse_layout.message_enums import EventKind
 from warehouse_msgs.msg import CoordinatorState, StationState
-from warehouse_viewer.message_enums import EventKind
 from warehouse_viewer.watch import troubles
 from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Status
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.transports.transport_book import (
     BRINGING,
@@ -20,6 +19,7 @@ from warehouse_fleet.transports.transport_book import (
     Step,
     Transport,
 )
+from warehouse_layout.message_enums import Status
 
 if TYPE_CHECKING:
     from warehouse_fleet.transports.transports import Transports

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.transports.dispatch import carry
 from warehouse_fleet.transports.transport_book import READY, STORING, Kind
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 
 if TYPE_CHECKING:
     from warehouse_fleet.transports.transports import Transports

@@ -6,8 +6,8 @@ import time
 import pytest
 from operations_site import site
 
+from warehouse_layout.message_enums import OrderState
 from warehouse_operations import Operations
-from warehouse_operations.stock.message_enums import OrderState
 from warehouse_operations.store.database import open_engine
 from warehouse_operations.store.queries import find_orders, find_stock
 
@@ -67,7 +67,7 @@ def test_many_orders_are_no_burden(tmp_path):
         for i in range(10_000):
             assert ops.shift.submit([("sku-1", 1)], reference=f"R-{i}")[0]
         spent = time.process_time() - began
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         ops.database.flush()
         began = time.process_time()
         assert find_orders(ops.database.engine, search="R-77", limit=20)[0] == 111

@@ -151,7 +151,7 @@ def test_programs_say_it_in_a_sentence(program, database):
     options = ("--size", "small", "--no-physics", "--minutes", "1", "--database")
     options = options if program == "simulate" else ()
     done = subprocess.run(
-        ["rosrun", "warehouse_fleet", program, *options, str(database)],
+        ["rosrun", "warehouse_operations", program, *options, str(database)],
         capture_output=True,
         text=True,
         cwd=database.parent,

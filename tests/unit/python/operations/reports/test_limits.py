@@ -8,7 +8,7 @@ import sqlite3
 import pytest
 from instance_file import write_instance
 
-from warehouse_operations.reports import comparison, limits
+from warehouse_operations.reports import comparison, limits, report
 from warehouse_operations.reports import front as report_front
 from warehouse_operations.reports.limits import Window, when
 from warehouse_operations.runs.simulation import Description, simulate
@@ -40,6 +40,7 @@ def day(tmp_path_factory):
     run, _ = simulate(
         Description(instance=str(instance), orders=str(path), seconds=3600 * HOURS, physics=False),
         folder / "out",
+        write_report=report.write,
     )
     return comparison.grouped([run])[0], (folder / "out" / "report.html").read_text()
 

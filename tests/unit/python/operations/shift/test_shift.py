@@ -17,10 +17,10 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
+from warehouse_layout.message_enums import OrderEventKind, OrderState, StationMode
 from warehouse_operations import Operations
 from warehouse_operations.stock import demand
 from warehouse_operations.stock.inventory import Reason
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.store import check, queries, stored
 from warehouse_operations.store.database import DatabaseError, open_engine
@@ -151,7 +151,7 @@ def test_times_of_orders_go_on_in_the_next_run(tmp_path):
     with shift_on(tmp_path / "run.db", orders="none") as ops:
         ops.run(seconds=100)
         for station in ops.shift.stations:
-            ops.shift.set_station(station.name, False, Mode.AUTOMATIC)
+            ops.shift.set_station(station.name, False, StationMode.AUTOMATIC)
         ops.shift.submit([("sku-1", 1)], due=400.0, reference="mine")
         ops.run(seconds=50)
     with shift_on(tmp_path / "run.db", orders="none") as ops:
@@ -161,7 +161,7 @@ def test_times_of_orders_go_on_in_the_next_run(tmp_path):
         assert is_late(engine, 249.0) == []
         assert is_late(engine, 251.0) == ["mine"]
         for station in ops.shift.stations:
-            ops.shift.set_station(station.name, True, Mode.AUTOMATIC)
+            ops.shift.set_station(station.name, True, StationMode.AUTOMATIC)
         ops.run(seconds=240)
         assert order.state == OrderState.COMPLETED
         ops.shift.journal.flush()
@@ -454,13 +454,13 @@ def test_a_station_closes_while_units_are_on_the_way():
     ops.run(minutes=5)
     station = ops.shift.station(PICK)
     assert len(station.coming) > 1 and station.orders
-    assert ops.shift.set_station(PICK, False, Mode.AUTOMATIC) == (True, "")
+    assert ops.shift.set_station(PICK, False, StationMode.AUTOMATIC) == (True, "")
     ops.run(minutes=10)
     assert not station.inbound and not station.orders and promised(ops)[0] == promised(ops)[1]
     pieces = station.pieces
     ops.run(minutes=10)
     assert station.pieces == pieces
-    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(minutes=10)
     assert station.pieces > pieces + 30
     ops.shift.demand.waiting = 0
@@ -468,23 +468,21 @@ def test_a_station_closes_while_units_are_on_the_way():
     assert not ops.shift.orders
 
 
-def test_a_unit_out_of_service_is_not_asked_for():
+def test_a_unit_that_is_gone_is_not_asked_for():
     ops = shift_on(orders="fill")
     ops.run(minutes=5)
     on_the_way = [visit.unit for s in ops.shift.stations for visit in s.inbound.values()]
-    for unit in on_the_way:
-        assert ops.shift.set_unit(unit, False) == (True, "")
+    ops.shift.update_units(set(ops.site.units) - set(on_the_way))
     ops.run(minutes=10)
     for station in ops.shift.stations:
         assert not {visit.unit for visit in station.inbound.values()} & set(on_the_way)
     assert promised(ops)[0] == promised(ops)[1]
-    assert ops.shift.set_unit(10**6, False)[0] is False
 
 
 def by_hand(ops):
-    ops.shift.set_station(PICK, True, Mode.MANUAL)
+    ops.shift.set_station(PICK, True, StationMode.MANUAL)
     station = ops.shift.station(PICK)
-    ops.shift.set_station("pick2", False, Mode.AUTOMATIC)
+    ops.shift.set_station("pick2", False, StationMode.AUTOMATIC)
     ops.run(minutes=10)
     return station, station.here.picks[0]
 
@@ -516,7 +514,7 @@ def test_what_is_not_there_is_written_off_and_brought_from_elsewhere(tmp_path, d
     assert one.quantity == 0 and promised(ops)[0] == promised(ops)[1]
     assert told[0][1] == OrderEventKind.SHORT
     assert told[0][-1] == ("damaged" if damaged else "short")
-    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=1)
     assert order.state == OrderState.COMPLETED
     ops.close()
@@ -525,7 +523,7 @@ def test_what_is_not_there_is_written_off_and_brought_from_elsewhere(tmp_path, d
 
 def test_a_person_puts_new_stock_in():
     ops = shift_on(orders="none")
-    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.shift.set_station(REPLENISH, True, StationMode.MANUAL)
     ops.run(minutes=10)
     visit = ops.shift.station(REPLENISH).here
     bundle, before = visit.puts[0], visit.puts[0].bin.quantity
@@ -661,6 +659,6 @@ def test_stock_is_put_in_where_orders_are_picked():
     assert kpis["items_picked"] > 100 and kpis["bundles_stored"] > 0
     visits = [v for v in station.inbound.values() if v.replenishes]
     assert all(not visit.picks for visit in visits)
-    ops.shift.set_station("pick1", False, Mode.AUTOMATIC)
+    ops.shift.set_station("pick1", False, StationMode.AUTOMATIC)
     ops.run(seconds=300)
     assert not station.inbound and promised(ops) == (0, 0)

@@ -45,7 +45,7 @@ def test_a_file_lies_beside_the_policies(tmp_path, monkeypatch):
     scorer.linear(np.zeros(decisions.FEATURES)).save(tmp_path / "mine.npz", "units")
     (tmp_path / "p.yaml").write_text("units: {name: learned, file: mine.npz}\n")
     monkeypatch.chdir("/")
-    assert Policies.read(tmp_path / "p.yaml").given["units"]["file"] == str(tmp_path / "mine.npz")
+    assert Policies.read(tmp_path / "p.yaml").choices["units"]["file"] == str(tmp_path / "mine.npz")
 
 
 def test_scores_are_those_of_the_network():

@@ -7,9 +7,9 @@ import pytest
 from random_layout import layout
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import Operations
 from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check
+from warehouse_operations import Operations
 from warehouse_operations.runs import layout_site
 from warehouse_operations.stock.site import Site
 

@@ -6,9 +6,10 @@ from dataclasses import replace
 import pytest
 from operations_site import site
 
+from warehouse_layout.message_enums import OrderState, PickOutcome, StationMode
 from warehouse_operations import Operations
-from warehouse_operations.shift.tasks import UNDO_WITHIN, Report
-from warehouse_operations.stock.message_enums import Mode, OrderState, Outcome
+from warehouse_operations.shift.task_reports import Report
+from warehouse_operations.shift.tasks import UNDO_WITHIN
 from warehouse_operations.stock.orders import Bundle, Order
 from warehouse_operations.stock.totes import Totes
 from warehouse_operations.store import check, stored
@@ -20,8 +21,8 @@ PICK, REPLENISH = "pick1", "replenish3"
 def by_hand(database=None, least=1):
     """(Operations, WorkStation) with a unit that has `least` things or more to be picked."""
     ops = Operations(site=site(), physics=False, database=database, orders="fill:30")
-    ops.shift.set_station(PICK, True, Mode.MANUAL)
-    ops.shift.set_station("pick2", False, Mode.AUTOMATIC)
+    ops.shift.set_station(PICK, True, StationMode.MANUAL)
+    ops.shift.set_station("pick2", False, StationMode.AUTOMATIC)
     ops.run(minutes=10)
     station = ops.shift.station(PICK)
     while len(station.here.picks) < least:
@@ -30,7 +31,7 @@ def by_hand(database=None, least=1):
     return ops, station
 
 
-def report_of(pick, quantity=None, outcome=Outcome.DONE):
+def report_of(pick, quantity=None, outcome=PickOutcome.DONE):
     order = pick.line.order
     quantity = pick.quantity if quantity is None else quantity
     return Report(PICK, order.order_id, pick.bin.item, pick.sequence, quantity, outcome)
@@ -51,7 +52,7 @@ def test_a_report_that_comes_twice_is_carried_out_once():
         assert (answer.success, answer.quantity) == (True, report.quantity)
     assert station.pieces == report.quantity and second in station.here.picks
     # The same pick with another outcome is not a repetition.
-    other = replace(report, outcome=Outcome.DAMAGED)
+    other = replace(report, outcome=PickOutcome.DAMAGED)
     assert ops.shift.tasks.report(other).message == "that was reported as DONE already"
 
 
@@ -69,10 +70,10 @@ def test_what_is_no_longer_shown_is_refused_and_what_is_asked_for_named():
     # Nor is one taken for another: each part of its name counts.
     order, item, sequence = pick.line.order.order_id, pick.bin.item, pick.sequence
     for name in ((order + 1, item, sequence), (order, "item0", sequence), (order, item, 10**9)):
-        assert not ops.shift.tasks.report(Report(PICK, *name, 1, Outcome.DONE)).success
+        assert not ops.shift.tasks.report(Report(PICK, *name, 1, PickOutcome.DONE)).success
     assert station.pieces == before
     for name, text in (("pick2", "pick2 works by itself"), ("x", "there is no station 'x'")):
-        report = Report(name, order, item, sequence, 1, Outcome.DONE)
+        report = Report(name, order, item, sequence, 1, PickOutcome.DONE)
         assert ops.shift.tasks.report(report).message == text
 
 
@@ -91,14 +92,14 @@ def test_what_is_left_of_a_pick_is_another_one():
     assert pick.sequence != report.sequence
 
 
-@pytest.mark.parametrize("outcome", [Outcome.SHORT, Outcome.DAMAGED])
+@pytest.mark.parametrize("outcome", [PickOutcome.SHORT, PickOutcome.DAMAGED])
 def test_a_write_off_is_taken_back_by_a_move_of_its_own(tmp_path, outcome):
     ops, station = by_hand(tmp_path / "run.db", least=2)
     pick = station.here.picks[0]
     one, order, stock = pick.bin, pick.line.order, pick.bin.quantity
-    report = report_of(pick, 0 if outcome == Outcome.SHORT else 1, outcome)
+    report = report_of(pick, 0 if outcome == PickOutcome.SHORT else 1, outcome)
     answer = ops.shift.tasks.report(report)
-    lacking = stock if outcome == Outcome.SHORT else 1
+    lacking = stock if outcome == PickOutcome.SHORT else 1
     assert (answer.success, answer.quantity) == (True, lacking), answer
     assert one.quantity == stock - lacking
     for _ in range(2):
@@ -109,7 +110,7 @@ def test_a_write_off_is_taken_back_by_a_move_of_its_own(tmp_path, outcome):
     assert again.sequence != report.sequence
     assert ops.shift.tasks.undo(PICK, again.sequence)[0] is False
     assert ops.shift.tasks.undo("pick2", report.sequence)[0] is False
-    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=1)
     assert order.state == OrderState.COMPLETED
     ops.close()
@@ -127,7 +128,7 @@ def test_a_write_off_is_taken_back_by_a_move_of_its_own(tmp_path, outcome):
 def test_a_write_off_is_for_good_after_a_while_and_where_the_place_is_taken():
     ops, station = by_hand(least=2)
     pick = station.here.picks[0]
-    report = report_of(pick, 1, Outcome.DAMAGED)
+    report = report_of(pick, 1, PickOutcome.DAMAGED)
     assert ops.shift.tasks.report(report).success
     one, stock = pick.bin, pick.bin.quantity
     one.capacity = stock
@@ -142,7 +143,7 @@ def test_a_write_off_is_for_good_after_a_while_and_where_the_place_is_taken():
 
 def test_of_a_bundle_what_stays_out_can_go_in_after_all():
     ops = Operations(site=site(), physics=False, orders="none")
-    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.shift.set_station(REPLENISH, True, StationMode.MANUAL)
     ops.run(minutes=10)
     station, tasks = ops.shift.station(REPLENISH), ops.shift.tasks
     bundle = station.here.puts[0]
@@ -152,11 +153,11 @@ def test_of_a_bundle_what_stays_out_can_go_in_after_all():
         named = REPLENISH, 0, bundle.bin.item, bundle.sequence
         return Report(*named, pieces, outcome)
 
-    assert not tasks.report(report(quantity + 1, Outcome.DONE)).success
-    lost = report(1, Outcome.DAMAGED)
+    assert not tasks.report(report(quantity + 1, PickOutcome.DONE)).success
+    lost = report(1, PickOutcome.DAMAGED)
     assert tasks.report(lost).success and bundle.quantity == quantity - 1
     assert tasks.undo(REPLENISH, lost.sequence) == (True, "") and bundle.quantity == quantity
-    done = report(quantity, Outcome.DONE)
+    done = report(quantity, PickOutcome.DONE)
     for _ in range(2):
         assert tasks.report(done).success
     assert bundle.bin.quantity == stock + quantity and station.pieces == quantity
@@ -173,7 +174,7 @@ def test_a_station_tells_for_how_long_it_waits_for_a_person():
     before = station.waiting(shift.now)
     ops.run(minutes=20)
     assert station.waiting(shift.now) == pytest.approx(before + 1200)
-    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    shift.set_station(PICK, True, StationMode.AUTOMATIC)
     assert station.waiting(shift.now) == 0
 
 
@@ -188,10 +189,10 @@ def test_a_report_that_comes_again_under_its_id_gets_the_first_answer():
     other = replace(report_of(second), id="a")
     assert ops.shift.tasks.report(other).message == "the id a is of another report"
     # What was refused stays refused, whatever has changed since.
-    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.shift.set_station(PICK, True, StationMode.AUTOMATIC)
     refused = replace(report_of(second), id="b")
     text = ops.shift.tasks.report(refused).message
-    ops.shift.set_station(PICK, True, Mode.MANUAL)
+    ops.shift.set_station(PICK, True, StationMode.MANUAL)
     assert text == f"{PICK} works by itself" and ops.shift.tasks.report(refused).message == text
 
 
@@ -202,7 +203,7 @@ def test_a_report_is_known_after_a_restart(tmp_path):
     answer = ops.shift.tasks.report(report)
     ops.close()
     again = Operations(site=site(), physics=False, database=database, orders="none")
-    again.shift.set_station(PICK, True, Mode.MANUAL)
+    again.shift.set_station(PICK, True, StationMode.MANUAL)
     assert not again.shift.tasks.report(report).success  # it is not known yet
     again.close()
     engine = open_engine(database)
@@ -237,7 +238,7 @@ def test_what_was_picked_is_taken_back_while_its_unit_is_there(tmp_path):
         assert shift.tasks.report(last).success
     refused = shift.tasks.undo(PICK, last.sequence)
     assert refused == (False, f"storage unit {unit} has left {PICK}")
-    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=1)
     assert order.state == OrderState.COMPLETED
     ops.close()
@@ -268,7 +269,7 @@ def test_an_order_that_was_completed_is_open_again_in_its_tote(tmp_path):
     assert station.orders[order.order_id] is order and station.totes.at(tote) is order
     assert len(station.orders) <= station.capacity
     assert len({one.tote for one in station.orders.values()}) == len(station.orders)
-    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=2)
     assert order.state == OrderState.COMPLETED
     ops.close()
@@ -292,14 +293,16 @@ def test_a_complete_order_stays_so_once_another_one_has_pieces_in_its_place():
 
 def test_a_bundle_that_was_put_in_comes_out_again(tmp_path):
     ops = Operations(site=site(), physics=False, database=tmp_path / "run.db", orders="none")
-    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.shift.set_station(REPLENISH, True, StationMode.MANUAL)
     ops.run(minutes=10)
     station, tasks = ops.shift.station(REPLENISH), ops.shift.tasks
     bundle, visit = station.here.puts[0], station.here
     visit.puts.append(Bundle(0, bundle.sku, 1, bin=bundle.bin))  # so that the unit stays
     ops.shift.inventory.expect(bundle.bin, bundle.sku, 1)
     stock, pieces = bundle.bin.quantity, ops.shift.tally.pieces_stored
-    report = Report(REPLENISH, 0, bundle.bin.item, bundle.sequence, bundle.quantity, Outcome.DONE)
+    report = Report(
+        REPLENISH, 0, bundle.bin.item, bundle.sequence, bundle.quantity, PickOutcome.DONE
+    )
     assert tasks.report(report).success and bundle.bin.quantity == stock + bundle.quantity
     assert tasks.undo(REPLENISH, report.sequence) == (True, "")
     assert (bundle.bin.quantity, ops.shift.tally.pieces_stored) == (stock, pieces)
@@ -310,7 +313,7 @@ def test_a_bundle_that_was_put_in_comes_out_again(tmp_path):
     text = f"pieces of {bundle.sku} in {bundle.bin.item} are promised to orders by now"
     assert tasks.undo(REPLENISH, again.sequence) == (False, text)
     ops.shift.inventory.reserve(bundle.bin, -bundle.bin.reserved)
-    ops.shift.journal.commit(ops.shift)
+    ops.shift.commit()
     ops.close()
     assert check.faults(open_engine(tmp_path / "run.db")) == []
 

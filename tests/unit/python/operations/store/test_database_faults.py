@@ -101,7 +101,7 @@ def test_what_can_not_be_written_is_told_in_a_sentence(tmp_path, protected):
     else:
         (folder / "run.db").chmod(0o444)
     folder.chmod(0o555)
-    command = ["rosrun", "warehouse_fleet", "simulate", "--size", "small", "--minutes", "1"]
+    command = ["rosrun", "warehouse_operations", "simulate", "--size", "small", "--minutes", "1"]
     out = tmp_path / "out"
     done = subprocess.run(
         [*HELD, *command, "--no-physics", "--out", out, "--database", folder / "run.db"],

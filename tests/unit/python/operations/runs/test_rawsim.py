@@ -212,7 +212,7 @@ XCONF = """<?xml version="1.0" encoding="utf-8"?>
 def test_policies_of_a_controller_are_taken_and_others_named(tmp_path):
     path = tmp_path / "one.xconf"
     path.write_text(XCONF)
-    assert Policies.read(path).given == {
+    assert Policies.read(path).choices == {
         "robots": "balanced",
         "storage": "fixed",
         "orders": "first come",

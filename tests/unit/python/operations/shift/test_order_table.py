@@ -11,22 +11,22 @@ from warehouse_operations.store.queries import matching
 TWO = "reference,sku,quantity,due,priority\nA,sku-1,2,1800,3\nA,sku-2,1,1800,3\nB,sku-3,1,,\n"
 
 
-def shift():
-    return Operations(site=site(), physics=False, orders="none").shift
+def book():
+    return Operations(site=site(), physics=False, orders="none").shift.order_book
 
 
 def test_a_table_of_orders_is_accepted():
-    the_shift = shift()
-    answer = order_table.submit(the_shift, TWO)
+    the_book = book()
+    answer = order_table.submit(the_book, TWO)
     assert (answer.faults, answer.references, answer.lines, answer.pieces) == ([], ["A", "B"], 3, 4)
-    first = the_shift.orders[answer.order_ids[0]]
+    first = the_book.orders[answer.order_ids[0]]
     assert (first.reference, first.due, first.priority, len(first.lines)) == ("A", 1800.0, 3, 2)
 
 
 def test_a_check_accepts_nothing():
-    the_shift = shift()
-    answer = order_table.submit(the_shift, TWO, check_only=True)
-    assert (answer.order_ids, answer.pieces, the_shift.orders) == ([], 4, {})
+    the_book = book()
+    answer = order_table.submit(the_book, TWO, check_only=True)
+    assert (answer.order_ids, answer.pieces, the_book.orders) == ([], 4, {})
 
 
 @pytest.mark.parametrize(
@@ -40,19 +40,19 @@ def test_a_check_accepts_nothing():
     ],
 )
 def test_where_one_is_wrong_none_is_accepted(table, line, column, text):
-    the_shift = shift()
-    (fault,) = order_table.submit(the_shift, table).faults
+    the_book = book()
+    (fault,) = order_table.submit(the_book, table).faults
     assert (fault.line, fault.column) == (line, column)
     assert fault.text.startswith(text)
-    assert not the_shift.orders
+    assert not the_book.orders
 
 
 def test_so_many_orders_as_would_stop_the_shift_are_refused(monkeypatch):
     monkeypatch.setattr(order_table, "MOST_ORDERS", 1)
-    assert order_table.submit(shift(), TWO).faults[0].text == "2 orders; 1 or fewer were expected"
+    assert order_table.submit(book(), TWO).faults[0].text == "2 orders; 1 or fewer were expected"
     monkeypatch.setattr(order_table, "MOST_ORDERS", 2)
     monkeypatch.setattr(order_table.acceptance, "MOST_WAITING", 2)
-    assert "wait already" in order_table.submit(shift(), TWO).faults[0].text
+    assert "wait already" in order_table.submit(book(), TWO).faults[0].text
 
 
 def test_skus_are_found_by_a_part_of_their_name():

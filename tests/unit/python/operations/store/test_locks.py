@@ -102,7 +102,7 @@ def test_a_database_that_can_not_be_opened_is_not_held(tmp_path):
 
 
 def simulate(folder, *args):
-    command = ["rosrun", "warehouse_fleet", "simulate", "--size", "small", "--no-physics"]
+    command = ["rosrun", "warehouse_operations", "simulate", "--size", "small", "--no-physics"]
     return subprocess.Popen(
         [*command, "--out", str(folder), *args], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL
     )

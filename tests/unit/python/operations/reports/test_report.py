@@ -340,7 +340,7 @@ def test_ideal_and_simulated_robots_are_told_apart():
 def test_the_report_begins_with_the_answer_and_what_limits_it(tmp_path, robots, orders, limit):
     path = write_instance(tmp_path / "a.xinst", bots=robots, picking=1, replenishing=1, rows=3)
     description = Description(instance=str(path), orders=orders, seconds=3600, physics=False)
-    run, _ = simulate(description, tmp_path / "out")
+    run, _ = simulate(description, tmp_path / "out", write_report=report.write)
     html = (tmp_path / "out" / "report.html").read_text()
     pieces = f"{run.kpis['item_throughput_per_hour']:,.0f}"
     with_robots = "1 robot" if robots == 1 else f"{robots} robots"
@@ -352,7 +352,7 @@ def test_the_report_begins_with_the_answer_and_what_limits_it(tmp_path, robots, 
 
 def test_the_reports_figures_open_in_a_spreadsheet(tmp_path, instance):
     description = Description(instance=str(instance), seconds=600, physics=False)
-    run, _ = simulate(description, tmp_path / "out")
+    run, _ = simulate(description, tmp_path / "out", write_report=report.write)
     html = (tmp_path / "out" / "report.html").read_text()
     found = dict(re.findall(r'download="([a-z.]+)" href="data:text/csv;base64,([^"]+)"', html))
     files = {

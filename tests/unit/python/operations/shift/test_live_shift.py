@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from operations_site import site
 
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations import Operations
 from warehouse_operations.fleets.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
 from warehouse_operations.shift.changes import ChangeJournal
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.store import check
 from warehouse_operations.store.database import open_engine
 from warehouse_operations.store.queries import find_orders
@@ -48,7 +48,7 @@ def test_late_orders_are_found(tmp_path):
             ops.shift.submit([("sku-1", 1)], due, reference=reference)
         ops.run(minutes=20)
         ops.shift.submit([("sku-2", 1)], ops.shift.now - 1, reference="waits")
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         ops.shift.journal.flush()
 
         def late(now):
@@ -63,7 +63,7 @@ def test_late_orders_are_found(tmp_path):
 def test_what_does_not_come_to_be_put_in_stays_out_of_the_stock(tmp_path, damaged):
     with Operations(site=site(), physics=False, database=tmp_path / "a.db", orders="none") as ops:
         shift = ops.shift
-        shift.set_station(REPLENISH, True, Mode.MANUAL)
+        shift.set_station(REPLENISH, True, StationMode.MANUAL)
         ops.run(minutes=10)
         visit = shift.station(REPLENISH).here
         bundle = visit.puts[0]
