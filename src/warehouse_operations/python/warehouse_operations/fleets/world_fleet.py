@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
-from warehouse_fleet.robots.message_enums import FailureKind, Mode
 from warehouse_fleet.transports.transport_book import Transport
+from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_operations.fleets.activities import ActivityLog
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
@@ -90,7 +90,7 @@ class WorldFleet(FleetDriver):
 
     def set_in_service(self, kiva_id: int, in_service: bool) -> None:
         """Takes a robot out of service where it is, or back."""
-        mode = Mode.AUTOMATIC if in_service else Mode.OUT_OF_SERVICE
+        mode = RobotMode.AUTOMATIC if in_service else RobotMode.OUT_OF_SERVICE
         if cancels := self.controller.set_mode(kiva_id, mode):
             self.world.cancel(cancels)
 
