@@ -23,11 +23,13 @@ from warehouse_fleet.transports.transport_book import (
     TransportBook,
 )
 from warehouse_operations.fleets.activities import ACTIVITIES
+from warehouse_operations.fleets.availability import Upkeep
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
 
+UNDER_WAY = ("to unit", "lift", "to station", "back")
 OUT = "out of service"  # beside the ACTIVITIES
 RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
 
@@ -38,6 +40,7 @@ class Robot:
 
     kiva_id: int
     cell: int
+    index: int = 0
     activity: str = "idle"  # one of ACTIVITIES
     since: float = 0.0  # when the activity began [s]
     there: float = 0.0  # when it reaches its cell, if it drives there [s]
@@ -60,12 +63,58 @@ class Trips:
         self.floor, self.kinematics, self.hooks = floor, kinematics, hooks
         self.travel, self.queue = floor.travel, EventQueue()
         self.time = self.distance_m = 0.0
-        self.robots = [Robot(i, int(cell)) for i, cell in sorted(robots.items())]
+        self.robots = [
+            Robot(kiva_id, int(cell), index)
+            for index, (kiva_id, cell) in enumerate(sorted(robots.items()))
+        ]
         self.book = TransportBook(len(self.robots), stations=floor.lanes)
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
         self.arrive: Callable[[Transport], None] = lambda _transport: None
         self.ways: Counter[tuple[int, int, bool]] = Counter()
         self._idle = dict(enumerate(self.robots))  # by index
+        self.upkeep: Upkeep | None = None
+
+    def keep_up(self, upkeep: Upkeep) -> None:
+        """Has robots charge, fail and be repaired from now on."""
+        self.upkeep = upkeep
+        self._schedule_failure(upkeep)
+
+    def _schedule_failure(self, upkeep: Upkeep) -> None:
+        wait = upkeep.next_failure(len(self.robots))
+        if wait < np.inf:
+            self.queue.schedule(self.time + wait, self._fail_by_chance, upkeep)
+
+    def _fail_by_chance(self, upkeep: Upkeep) -> None:
+        index, duration = upkeep.draw_failure(len(self.robots))
+        if duration:
+            self.fail(index, duration)
+            upkeep.down_s += duration
+        self._schedule_failure(upkeep)
+
+    def _charge(self, upkeep: Upkeep) -> dict[int, Robot]:
+        """Sends robots without work to charging places; returns those that may be given work."""
+        is_wanted = bool(self.book.open)
+        for index, robot in self._idle.items():
+            upkeep.note(index, self.time, robot.there > self.time)
+            if upkeep.is_full(index):
+                upkeep.leave(index)
+        wants = [index for index in self._idle if upkeep.wants(index, is_wanted)]
+        for index in sorted(wants, key=lambda index: float(upkeep.charge[index])):
+            cells = upkeep.free_cells(index)
+            if not cells:
+                break
+            self._drive_to_charger(upkeep, index, cells)
+        return {index: robot for index, robot in self._idle.items() if upkeep.may_work(index)}
+
+    def _drive_to_charger(self, upkeep: Upkeep, index: int, cells: list[int]) -> None:
+        robot = self._idle[index]
+        seconds, metres = self.travel.unloaded([robot.cell], cells)
+        at = int(seconds[0].argmin())
+        self.distance_m += float(metres[0, at])
+        robot.there = max(self.time, robot.there) + float(seconds[0, at])
+        robot.cell = cells[at]
+        able = upkeep.begin(index, robot.cell, robot.there)
+        self.queue.schedule(max(able, self.time), _wake, None)
 
     def step_until(self, time: float) -> None:
         """Goes on to a time [s], or to the first event before it."""
@@ -136,16 +185,25 @@ class Trips:
         self.book.go_on(transport, step, self.time)
 
     def _begin(self, robot: Robot, activity: str) -> None:
+        if self.upkeep:
+            self.upkeep.note(robot.index, self.time, robot.activity in UNDER_WAY)
         if robot.activity != OUT:
             self.seconds[robot.activity] += self.time - robot.since
         robot.activity, robot.since = activity, self.time
 
     def _match(self) -> None:
         """Gives robots without work the transports that wait."""
-        if not self.book.open or not self._idle:
+        if not self._idle:
             return
-        waiting, robots = list(self.book.open), list(self._idle.values())
-        indices = list(self._idle)
+        if not self.book.open:
+            if self.upkeep:
+                self._charge(self.upkeep)
+            return
+        idle = self._charge(self.upkeep) if self.upkeep else self._idle
+        if not idle:
+            return
+        waiting, robots = list(self.book.open), list(idle.values())
+        indices = list(idle)
         seconds, metres = self.travel.unloaded(
             [self.floor.units[transport.shelf] for transport in waiting],
             [robot.cell for robot in robots],
@@ -173,6 +231,8 @@ class Trips:
 
     def _assign(self, transport: Transport, index: int, seconds: float) -> None:
         robot = self._idle.pop(index)
+        if self.upkeep:
+            self.upkeep.leave(index)
         robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
         self.book.assign(transport, index, self.time)
         self._add_event(Kind.ASSIGNED, transport)
@@ -317,3 +377,7 @@ class Trips:
             self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)
             robot.cell, robot.there = int(to), begin + float(seconds[0, 0])
+
+
+def _wake(_: object) -> None:
+    """Does nothing: after it, robots that may work again are given work."""

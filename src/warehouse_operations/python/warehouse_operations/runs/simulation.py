@@ -14,6 +14,8 @@ from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_
 from warehouse_layout.file.request import items_for
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
+from warehouse_operations.fleets import availability
+from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.policies import Policies, PolicyError
 from warehouse_operations.runs import event_file, layout_site
@@ -46,6 +48,7 @@ ERRORS = (
     LayoutFileError,
     PlannerError,
     PolicyError,
+    RealismError,
     SiteError,
     runs.RunError,
 )
@@ -234,6 +237,7 @@ def _open_operations(description: Description, database: str | None = None) -> O
         physics=description.physics,
         threads=description.threads,
         planner=description.planner or None,
+        availability=None if description.physics else availability.read(description.realism),
     )
     if description.stations:
         ops.shift.open_picking(description.stations)
