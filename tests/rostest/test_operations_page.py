@@ -104,7 +104,7 @@ class OperationsPage(WorkPageTest):
         self.page.until(f"{TASK} === 'Take 1 × sku-4'")
         self.tap("short")
         self.tap("question-yes")
-        self.page.until(f"page.bench.told.shelf_id !== {unit}")  # it has no more
+        self.page.until(f"page.bench.state.shelf_id !== {unit}")  # it has no more
         self.overview()
         self.press("pick1", 2)
         self.press("pick2", 1)

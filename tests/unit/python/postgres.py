@@ -49,13 +49,13 @@ def running():
         subprocess.run(
             [programs / "initdb", "-D", data, "-U", "shift", "-A", "trust"], check=True, **quiet
         )
-        one = Server(folder, port, control, quiet)
-        one.start()
+        server_ = Server(folder, port, control, quiet)
+        server_.start()
         try:
-            yield one
+            yield server_
         finally:
             with contextlib.suppress(subprocess.CalledProcessError):  # it may be stopped already
-                one.stop()
+                server_.stop()
     finally:
         shutil.rmtree(folder)
 
@@ -63,5 +63,5 @@ def running():
 @contextlib.contextmanager
 def server():
     """Yields the URL of an empty database; its server ends with the block."""
-    with running() as one:
-        yield one.url
+    with running() as server_:
+        yield server_.url

@@ -83,11 +83,6 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             self._infos(happened),
         )
 
-    @property
-    def unit_deliveries(self) -> np.ndarray:
-        """Returns (robots,) units that each has delivered in this episode."""
-        return self._in.delivered[0].copy()
-
     def _chosen(self, actions):
         missing = [a for a in self.agents if a not in actions]
         if missing:

@@ -19,7 +19,7 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     runs      whole shifts in folders: simulate, sweep
     demand    a day of orders, described: its peak, its oddities
     reports   figures, comparisons, charts, pages
-    sizing    how many robots and stations a wish takes
+    sizing    numbers of robots and stations for a wish
     ros       the nodes
 """
 

@@ -61,7 +61,7 @@ class Page {
     this.paths = {};
     this.scans = new Map();
     this.openStage();
-    this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found), (text) => this.tip.say(text, 'refused'));
+    this.where = new Where(this.stage, this.world, (...pieces) => this.list.showPieces(...pieces), (text) => this.tip.say(text, 'refused'));
     this.addButtons();
     this.keys = new Keys((step) => this.next(step), () => this.leave(), () => this.goToSearch());
     setInterval(() => this.isNews && this.soon(() => this.refreshPanels()), PANELS_EVERY);
@@ -80,7 +80,7 @@ class Page {
     this.timeline = new Timeline(this);
   }
 
-  /** Without WebGL list and commands work all the same. */
+  /** Leaves the picture out where there is no WebGL; list and commands work all the same. */
   openStage() {
     try {
       this.stage = new Stage($('stage'), (now) => this.beforeDraw(now),
@@ -287,7 +287,7 @@ class Page {
     return this.placers.find((placer) => placer.wantsCell);
   }
 
-  /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
+  /** What a click on the floor does: whether it needs a cell, what it says, and does. */
   get wantsCell() {
     return Boolean(this.placer) || isPerson(this.selected) || this.details.selectedRobot >= 0;
   }
@@ -348,19 +348,19 @@ class Page {
     this.speak();
   }
 
-  /** For who does not see the mark. */
+  /** Says the selection to a screen reader. */
   speak() {
     if (this.details.selectedRobot >= 0) speak(this.world, this.details.selectedRobot);
   }
 
-  follow(wanted) {
+  follow(isOn) {
     const { thing } = this.details;
-    press($('follow'), wanted && Boolean(thing));
-    this.navigator?.follow(wanted && thing ? () => this.world.placeOf(thing) : null);
+    press($('follow'), isOn && Boolean(thing));
+    this.navigator?.follow(isOn && thing ? () => this.world.placeOf(thing) : null);
   }
 
   addButtons() {
-    toggle('follow', (wanted) => this.follow(wanted));
+    toggle('follow', (isOn) => this.follow(isOn));
     for (const id of ['scan', 'path', 'ways']) {
       toggle(id, () => {
         this.watch();
@@ -368,9 +368,9 @@ class Page {
         this.showExtras();
       });
     }
-    toggle('trails', (wanted) => this.showTrails(wanted));
-    toggle('heat', (wanted) => this.heat?.want(wanted));
-    toggle('xray', (wanted) => this.actors?.setSeeThrough(wanted));
+    toggle('trails', (isOn) => this.showTrails(isOn));
+    toggle('heat', (isOn) => this.heat?.want(isOn));
+    toggle('xray', (isOn) => this.actors?.setSeeThrough(isOn));
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));
     on($('theme'), 'click', () => this.changeTheme());
@@ -382,10 +382,10 @@ class Page {
     this.navigator?.showAll(above);
   }
 
-  showTrails(wanted) {
+  showTrails(isOn) {
     if (!this.stage) return;
     this.overlays.trails.clear();
-    this.overlays.trails.object.visible = wanted;
+    this.overlays.trails.object.visible = isOn;
     this.stage.invalidate();
   }
 

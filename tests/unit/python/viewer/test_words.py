@@ -37,27 +37,27 @@ def named(text):
 
 
 def test_the_page_has_the_words_of_the_api():
-    told = page()
-    assert [named(one) for one in told["ACTIVITY"]] == [one.name for one in Activity]
-    assert told["NEEDS_HELP"] == Activity.NEEDS_HELP
-    assert len(told["STATE"]) == len(message_names.STATE)
-    assert told["FAILURE"] == list(message_names.FAILURES.values())
-    assert told["WORK"] == list(message_names.WORK)
-    assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
-    assert tuple(told["ORDER_STATES"]) == STATES
+    words = page()
+    assert [named(does) for does in words["ACTIVITY"]] == [does.name for does in Activity]
+    assert words["NEEDS_HELP"] == Activity.NEEDS_HELP
+    assert len(words["STATE"]) == len(message_names.STATE)
+    assert words["FAILURE"] == list(message_names.FAILURES.values())
+    assert words["WORK"] == list(message_names.WORK)
+    assert set(words["TROUBLE"]) < set(message_names.EVENT.values())
+    assert tuple(words["ORDER_STATES"]) == STATES
 
 
 def test_the_api_has_the_words_of_the_messages():
     assert set(names_of(RobotsByWork)) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
     allowed = get_args(Robot.__annotations__["activity"])
-    assert allowed == tuple(one.name for one in Activity)
+    assert allowed == tuple(does.name for does in Activity)
 
 
 def fleet(status=IDLE, state=State.IDLE, load=0, ended=0, failures=0):
     """A FleetState of one robot."""
-    told = {"status": [status], "state": [state], "last_end": [ended], "failures": [failures]}
-    return FleetState(kiva_id=[1], shelf_id=[load], **told)
+    fields = {"status": [status], "state": [state], "last_end": [ended], "failures": [failures]}
+    return FleetState(kiva_id=[1], shelf_id=[load], **fields)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What charts are drawn on: matplotlib in the pages' type and colours, axes from zero."""
+"""A canvas for charts: matplotlib in the pages' type and colours, axes from zero."""
 
 import io
 import re
@@ -85,7 +85,7 @@ def drawing(
 ) -> str:
     """Returns what `draw` draws as SVG, twice: wide, and narrow for phones.
 
-    told: what it shows, for those who don't see it.
+    description: what it shows, for those who don't see it.
     """
     svgs = []
     for name, width in (("wide", WIDE), ("narrow", NARROW)):
@@ -128,11 +128,11 @@ def write_png(path: Any, draw: Callable[[Figure], None], width: float, height: f
 
 
 def spread(targets: Sequence[float], least: float) -> list[float]:
-    """Returns values near those wanted that are `least` apart, in their order."""
+    """Returns values near the targets that are `least` apart, in their order."""
     order = np.argsort(targets, kind="stable")
     values = np.asarray(targets, float)[order]
     # Neighbours that are too near become one group around their mean.
-    groups: list[list[float]] = []  # [sum of the wanted, number]
+    groups: list[list[float]] = []  # [sum of the targets, number]
     for value in values:
         groups.append([value, 1])
         while len(groups) > 1 and _top(groups[-2], least) + least > _low(groups[-1], least):

@@ -84,7 +84,7 @@ class IdealFleet(TransportRequests):
 
     @property
     def robot_count(self) -> int:
-        """How many robots there are."""
+        """The number of robots."""
         return len(self._trips.robots)
 
     @property

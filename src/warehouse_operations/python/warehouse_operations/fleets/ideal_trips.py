@@ -31,7 +31,7 @@ from warehouse_operations.stock.travel import Travel
 
 UNDER_WAY = ("to unit", "lift", "to station", "back")
 OUT = "out of service"  # beside the ACTIVITIES
-RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
+RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
 
 
 @dataclass(eq=False)

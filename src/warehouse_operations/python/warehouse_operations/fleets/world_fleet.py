@@ -15,7 +15,7 @@ from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
 
 TOW_AFTER = 60.0  # in which people come to a robot that is broken in others' way [s]
-DEADLOCKED = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
+DEADLOCKED = 60.0  # standstill after which a robot with a goal counts as stuck [s]
 
 
 class WorldFleet(FleetDriver):
@@ -131,7 +131,7 @@ class WorldFleet(FleetDriver):
 
     @property
     def stuck(self) -> int:
-        """How many robots stand still for DEADLOCKED although they have somewhere to go."""
+        """The number of robots that have a goal and stand still for DEADLOCKED."""
         robots = self.robots
         going = (robots.goal >= 0) & (robots.goal != robots.cell) & ~robots.busy
         return int(np.count_nonzero(going & (self.traffic.watchdog.stuck_for > DEADLOCKED)))

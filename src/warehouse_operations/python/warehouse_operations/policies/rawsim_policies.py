@@ -10,7 +10,7 @@ from warehouse_layout.convert.rawsim.xml_fields import read_root
 
 SUFFIX = ".xconf"
 TYPE = "{http://www.w3.org/2001/XMLSchema-instance}type"
-# Of the elements that choose a method: our role, and our policies by theirs.
+# The elements that choose a method: our role, and our policies by theirs.
 CHOSEN: dict[str, tuple[str, dict[str, str]]] = {
     "TaskAllocationConfig": ("robots", {"Balanced": "balanced"}),
     "ItemStorageConfig": (

@@ -22,7 +22,7 @@ RANKS_KEPT = 300.0  # the ranking of the units by turnover is used for this long
 
 @dataclass(eq=False)
 class View:
-    """What a policy gets as `view`. Policies read it and change nothing.
+    """The `view` of a policy on its shift. Policies read it and change nothing.
 
     clock: simulated times [s]. backlog: the orders that no station has. orders: all that are not
     over, by id. goods_in: the bundles that have no bin yet. free_units: the ids of units that stand
@@ -129,7 +129,7 @@ class View:
         return self.floor.seconds_to(station, unit)
 
     def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
-        """Returns the same of units, (n,) [s]."""
+        """Returns seconds_to() of units, (n,) [s]."""
         return self.floor.seconds_to_all(station, units)
 
     def cell(self, unit: int) -> int | None:

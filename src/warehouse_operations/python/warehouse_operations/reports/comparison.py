@@ -17,7 +17,7 @@ LEAST = 3  # runs that an interval takes: of two, their deviation is next to unk
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean and half its confidence interval; nan where fewer than LEAST runs can't tell."""
+    """A mean and half its confidence interval; nan with fewer than LEAST runs."""
 
     mean: float
     half: float
@@ -36,7 +36,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Difference:
-    """How much the second of two configurations is above the first, and how likely by chance.
+    """The difference of the second of two configurations from the first, and its p-value.
 
     estimate: with its confidence interval. paired: seeds that both have are compared one by one.
     effect: over the standard deviation of the pairs' differences, else of the runs (Hedges' g);

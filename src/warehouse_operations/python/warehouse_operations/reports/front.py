@@ -93,7 +93,7 @@ def _reason(limit: Limit, then: Window) -> str:
         ),
         Limit.STREETS: (
             f"Stations pick {of_bound}, and robots take {late:.0f} % longer than their ways would"
-            " without others on them: wider aisles or fewer robots would tell."
+            " without others on them: wider aisles or fewer robots would help."
         ),
         Limit.ROBOTS: (
             f"Stations pick {of_bound} and wait for units meanwhile; robots are idle for {idle} and"

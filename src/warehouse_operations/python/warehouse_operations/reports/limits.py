@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What limits a warehouse, and when: the one place that reports, sweeps, sizings and what-if ask.
+"""The limits of a warehouse over the day; reports, sweeps, sizings and what-if ask here alone.
 
 A shift is looked at in windows of ten minutes. Each has a limit of its own, from how near stations
 and robots are to what they can; what limits the shift is what does where orders become late, else
@@ -24,7 +24,7 @@ HELD_UP = 1.15  # driven over planned time: traffic holds robots up
 
 
 class Limit(StrEnum):
-    """What limits a warehouse."""
+    """The parts of a warehouse that can limit it."""
 
     STATIONS = "the picking stations"
     REPLENISHING = "the replenishing stations"
@@ -78,7 +78,7 @@ class Window:
 
     @property
     def limit(self) -> Limit:
-        """What limits the warehouse in this window."""
+        """The limit of the warehouse in this window."""
         if self.of_bound >= SATURATED:
             return Limit.STATIONS
         if self.idle > IDLE:

@@ -43,7 +43,7 @@ def page(runs: Sequence[Run]) -> str:
 
 
 def _of_group(place: int, group: Group, alone: bool) -> str:
-    """Returns what is told of each configuration by itself."""
+    """Returns the sections about one configuration."""
     name = "" if alone else f": {report_side.named(place, group)}"
     hours = document.section(
         f"Hour by hour{name}", report_front.by_hour(group, f"Hour by hour{name}")

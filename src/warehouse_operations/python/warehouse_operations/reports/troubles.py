@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What of a day went wrong in a report, and what each of it cost."""
+"""The troubles of a day in a report, and the cost of each."""
 
 from collections.abc import Iterator
 

@@ -5,7 +5,7 @@ Intervals are widened as p-values are corrected, so that both say the same. Fewe
 comparison.LEAST runs say nothing.
 
 The warm-up is where MSER-5 cuts the pieces picked a minute; all configurations lose as much as the
-one that takes longest. All differences that are told together are corrected together.
+one that takes longest. All differences that are shown together are corrected together.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ TOLD: tuple[tuple[str, str, float, int], ...] = (
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a group differs from the first in a figure; p-value and interval: corrected."""
+    """The difference of a group from the first in a figure, with corrected p-value and interval."""
 
     group: Group
     first: Group

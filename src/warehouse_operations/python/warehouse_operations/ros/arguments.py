@@ -15,7 +15,7 @@ from warehouse_operations.store.engines import DatabaseError, lock, make_engine,
 
 
 def orders(text: str, folder: Path) -> str:
-    """Checks orders; only the shift can tell whether the SKUs of a file are in stock."""
+    """Checks orders; only the shift knows whether the SKUs of a file are in stock."""
     text = orders_text.with_file(text, lambda file: _whole_path(file, folder))
     make_demand(text, None, (1, 1), np.random.default_rng(1))
     return text

@@ -67,7 +67,7 @@ class OperationsNode:
         self._stock = _queued("stock_changes", msg.StockPlaces)
         self._events = _queued("order_events", msg.OrderEvent)
         self._chosen: dict[str, Any] = {"orders": orders, "seed": seed}
-        self._told_policies = policies or Policies()
+        self._own_policies = policies or Policies()
         self._wait_for_warehouse()
         self._database = Database(database)
         self._begin()
@@ -93,9 +93,9 @@ class OperationsNode:
         self._site = self._read_site()
         if file:
             self._site = layout_site.of_file(self._site, file)
-        self._policies = self._told_policies
+        self._policies = self._own_policies
         if file:
-            self._policies = layout_site.merged(file, self._told_policies)
+            self._policies = layout_site.merged(file, self._own_policies)
         self._transports = RemoteTransports(self._coordinator)
         heat = FloorHeat(self._site.plan, now)
         since = max(0.0, (now // INTERVAL + 1 - SHOWN) * INTERVAL)

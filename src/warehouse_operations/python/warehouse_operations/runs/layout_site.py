@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a layout file says about a shift: how its stations work, its policies and initial stock."""
+"""The part of a layout file about shifts: settings of stations, policies and initial stock."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -60,7 +60,7 @@ def _policies(file: LayoutFile) -> dict[str, Any]:
 
 
 def merged(file: LayoutFile, policies: Policies) -> Policies:
-    """Returns the policies that were told, and for the other roles those of a layout file.
+    """Returns the policies, and for the roles that they leave out those of a layout file.
 
     Raises PolicyError.
     """

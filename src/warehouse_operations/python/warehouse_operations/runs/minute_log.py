@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens in a shift, minute by minute, for reports, sizings and what limits a warehouse."""
+"""A log of a shift, minute by minute, for reports, sizings and limits."""
 
 from collections.abc import Collection, Sized
 from typing import Any

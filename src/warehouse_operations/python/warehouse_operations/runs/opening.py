@@ -10,7 +10,7 @@ import numpy as np
 from warehouse_operations.policies import Policies
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock import days, orders_text
-from warehouse_operations.stock.assortment import Assortment, stocked, told
+from warehouse_operations.stock.assortment import Assortment, listed, stocked
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.stock.order_file import DemandError, lines_by_sku
 from warehouse_operations.stock.protocols import Requests
@@ -72,7 +72,7 @@ def open_shift(
         assortment = stored.assortment
         stock = [(bin_, 0) for bin_ in (*stored.bins, *changed.new)]
     elif site.stock:
-        assortment, stock = told(site.items, site.stock, stock_rng)
+        assortment, stock = listed(site.items, site.stock, stock_rng)
     else:
         own = _own_skus(str(orders), site)
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level, own=own)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
 GATHER = 0.5  # rows for the database are written together, twice a second [s, wall]
-ASKED = 16  # cycles after which the progress is told: those of a large world take seconds
+ASKED = 16  # cycles between two calls of progress: those of a large world take seconds
 
 
 class Operations:
@@ -112,7 +112,7 @@ class Operations:
         progress: "Callable[[Operations], bool | None] | None" = None,
         observe: "Callable[[Operations], None] | None" = None,
     ) -> None:
-        """Goes on for the given time.
+        """Goes on for a time, the sum of its arguments.
 
         progress(self) is called now and then; it may return True to stop. observe(self) is called
         at the begin and after each cycle.

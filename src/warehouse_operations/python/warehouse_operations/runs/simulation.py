@@ -60,7 +60,7 @@ class Description:
 
     size: str = "medium"
     layout: str = ""  # a .layout.yaml file
-    robots: int = 0  # instead of the layout's or the preset's; 0: as many as it has
+    robots: int = 0  # overrides the layout's or the preset's number; 0: does not
     units: int = 0  # of a warehouse that is generated for them and the robots; 0: none is
     stations: int = 0  # picking stations that are open, the first ones; 0: all
     instance: str = ""  # an .xinst file
@@ -110,7 +110,10 @@ class Description:
 
     @property
     def chosen_policies(self) -> Policies:
-        """The policies: those told, and besides them those of the layout. Raises PolicyError."""
+        """The policies of the description, and of the layout for other roles.
+
+        Raises PolicyError.
+        """
         if not self.layout:
             return Policies(self.policies)
         return layout_site.merged(layout_choice.chosen(self.layout), Policies(self.policies))
@@ -207,7 +210,7 @@ def _open_operations(description: Description, database: str | None = None) -> O
         if description.physics:
             if jams := _jams(description.instance, site):
                 raise InstanceError(jams)
-            with _told_as_ours():
+            with _errors_as_ours():
                 world, site = world_of(site, **_options(description))
     elif description.units:
         world = _generated(description)
@@ -321,7 +324,7 @@ def _simulate(
 def _of_layout(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.layout(
             description.layout or description.size,
             robots=description.robots or None,
@@ -338,7 +341,7 @@ def _generated(description: Description) -> "World":
         raise InstanceError(
             "units: a layout has its own; leave out the layout to have a warehouse generated"
         )
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.create(
             robots=description.robots,
             shelves=description.units,
@@ -350,7 +353,7 @@ def _generated(description: Description) -> "World":
 def _preset(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.preset(description.size, **_options(description))
 
 
@@ -364,7 +367,7 @@ def _options(description: Description) -> dict[str, Any]:
 
 
 @contextlib.contextmanager
-def _told_as_ours() -> Iterator[None]:
+def _errors_as_ours() -> Iterator[None]:
     """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
     try:
         yield

@@ -3,7 +3,7 @@
 
 out: results                  # folder; beside the file
 size: medium                  # or layout: FILE, or instance: FILE.xinst, settings: FILE.xsett
-robots: 30                    # instead of as many as the layout or size has; also stations
+robots: 30                    # overrides the layout's or size's number; also stations
 minutes: 60
 physics: false
 seeds: 10                     # 1 to 10, or a list
@@ -252,7 +252,7 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
         options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
         options["events"] = _events(path, merged.get("events", []), "events" in point)
         description = with_settings(Description(**options))
-        description.config  # noqa: B018 - policies that don't exist are told before anything runs
+        description.config  # noqa: B018 - policies that don't exist are refused before anything runs
         return description
     except EventError as error:
         raise SweepError(str(error)) from error

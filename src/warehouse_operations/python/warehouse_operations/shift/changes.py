@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which orders and bins have changed, for those who follow a shift live."""
+"""The orders and bins that have changed, for clients that follow a shift live."""
 
 from collections.abc import Collection
 from typing import Any

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parts of a shift share: its clock, inventory, journal and tally."""
+"""The common ground of the parts of a shift: clock, inventory, journal and tally."""
 
 import hashlib
 from collections.abc import Collection

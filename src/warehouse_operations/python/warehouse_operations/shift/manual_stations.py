@@ -92,7 +92,7 @@ class ManualPicking:
 
     def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
         """Carries out a Report of a Pick."""
-        # The pick is of the unit at the station: task() found it there.
+        # The pick is of the unit at the station, where task() looks for it.
         visit, bin_, sku = cast(Visit, station.here), pick.bin, pick.line.sku
         if report.outcome == PickOutcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
@@ -213,7 +213,7 @@ class ManualReplenishing:
 
     def report(self, station: WorkStation, bundle: Bundle, report: Report) -> Answer:
         """Carries out a Report of a Bundle."""
-        # The bundle is for the unit at the station: task() found it there.
+        # The bundle is for the unit at the station, where task() looks for it.
         visit, there = cast(Visit, station.here), bundle.quantity
         if report.outcome == PickOutcome.DONE:
             if report.quantity != there:

@@ -12,7 +12,7 @@ MOST_ORDERS = 5_000  # of a table
 
 @dataclass
 class TableAnswer:
-    """What became of a table. `order_ids` is empty where it was only checked, or has faults."""
+    """The result of a table. `order_ids` is empty where it was only checked, or has faults."""
 
     faults: list[Fault]
     references: list[str] = field(default_factory=list)

@@ -161,7 +161,7 @@ class Shift:
                 self.inventory.move(bin_, bin_.sku, pieces, Reason.INITIAL)
 
     def resume(self, stored: Stored, changed: Changes) -> None:
-        """Goes on with the orders of a Stored warehouse, whose bins this shift was given.
+        """Goes on with the orders of a Stored warehouse, whose bins this shift has.
 
         Writes off what has Changed since, with a notice.
         """
@@ -264,10 +264,6 @@ class Shift:
         """Returns the WorkStation of that name. Raises KeyError."""
         return self._stations[name]
 
-    def find_station(self, name: str) -> WorkStation | None:
-        """Returns the WorkStation of that name, or None."""
-        return self._stations.get(name)
-
     @property
     def stations(self) -> Collection[WorkStation]:
         """All WorkStations."""
@@ -291,7 +287,7 @@ class Shift:
         return True, ""
 
     def open_picking(self, count: int) -> None:
-        """Opens the first so many picking stations and closes the others, before robots begin."""
+        """Opens the first `count` picking stations and closes the others, before robots begin."""
         for i, station in enumerate(self.picking.stations):
             self.set_station(station.name, i < count, station.mode)
         working = sum(station.is_open for station in self.stations)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person at a station reports about a task, and the answer."""
+"""Reports of people at stations about their tasks, and the answers."""
 
 import itertools
 from collections.abc import Callable

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person at a station is asked to do: each thing by a number of its own, done but once."""
+"""Tasks of people at stations: each has a number of its own and is done once."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ class Tasks:
         self._answered: dict[str, Done] = {}  # those with an id, refused ones too, by it
 
     def remember(self, reports: Iterable[tuple[Report, Answer]]) -> None:
-        """Takes in reports of earlier runs, with their answers, as they are to be given again."""
+        """Takes in reports of earlier runs with their answers, for when they come again."""
         for report, answer in reports:
             self._answered[report.id] = Done(report, answer, self._clock.now)
 

@@ -23,7 +23,7 @@ KNEE = 0.99  # of the most orders an hour of any number of robots
 
 @dataclass(frozen=True)
 class Answer:
-    """The chosen point of a Study, with what was found around it.
+    """The chosen point of a Study, with the points around it.
 
     others: the points with a robot or a station more. verdict: of ideal robots. check: of
     simulated ones, None if that was not asked for; its robots
@@ -37,12 +37,12 @@ class Answer:
 
     @property
     def robots(self) -> int:
-        """How many robots are needed: simulated ones, if they were checked."""
+        """The number of robots needed: simulated ones, if they were checked."""
         return self.check.robots if self.check and self.check.met else self.verdict.robots
 
     @property
     def stations(self) -> int:
-        """How many picking stations have to be open."""
+        """The number of picking stations that have to be open."""
         return self.verdict.stations
 
     @property

@@ -25,7 +25,7 @@ BY_HOUR = "by_hour.csv"
 
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"
-    " knee: the fewest robots with 99 % of the most orders an hour that so many stations complete."
+    " knee: the fewest robots with 99 % of the most orders an hour that these stations complete."
     " The upright line is the answer."
 )
 MISSED = (

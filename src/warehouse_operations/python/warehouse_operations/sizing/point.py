@@ -22,16 +22,16 @@ from warehouse_operations.stock.orders import Order
 MINUTE = 60.0  # [s]
 MOST_AFTER = 24 * 60  # minutes for which orders are waited for that are not due yet
 PATIENCE = order_mix.DUE_LATER  # after which an order without a due time is late [s]
-# Of the orders that came in each minute, those completed in time, whenever that was, and those not.
+# Orders by the minute in which they came: completed in time, whenever that was, or not.
 FATES = ("in_time", "missed")
 SERIES = (*minute_log.SERIES, *FATES)
 
 
 @dataclass(frozen=True)
 class Point:
-    """What decides the outcome of a shift. layout: the text of a layout file.
+    """A shift to be simulated, with all that decides its outcome.
 
-    minutes: those that count, after those of the run-in.
+    layout: the text of a layout file. minutes: the length of the shift after the run-in.
     """
 
     robots: int
@@ -102,7 +102,7 @@ def simulate(point: Point) -> Record:
 
 
 class _Fates:
-    """What became of the orders that came in each minute of a shift."""
+    """Counts the orders of each minute of a shift by their outcome."""
 
     def __init__(self) -> None:
         self._open: dict[int, Order] = {}  # by id

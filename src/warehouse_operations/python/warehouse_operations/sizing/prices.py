@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What robots, stations and units cost, for the cost of a piece.
+"""Prices of robots, stations and units, for the cost of a piece.
 
     robot: 25000      # one of them [money]
     station: 40000    # a picking or a replenishing one

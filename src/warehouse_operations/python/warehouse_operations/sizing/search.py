@@ -11,7 +11,7 @@ from typing import Protocol
 
 
 class Judged(Protocol):
-    """What a search has to know of a point."""
+    """The result of a point, as far as a search needs it."""
 
     @property
     def met(self) -> bool:
@@ -49,7 +49,7 @@ class Search:
         return self.frontier
 
     def fewest(self, stations: int, highest: int) -> int | None:
-        """Returns the fewest robots up to `highest` that do with so many stations, or None."""
+        """Returns the fewest robots, `highest` at most, that suffice at some stations, or None."""
         if highest < 1:
             return None
         many = self.judge(highest, stations)

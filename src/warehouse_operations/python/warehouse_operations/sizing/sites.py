@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opens shifts on the floor of a layout file, with so many robots and open picking stations."""
+"""Opens shifts on the floor of a layout file with a number of robots and open picking stations."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -26,7 +26,7 @@ def open_shift(
     policies: Mapping[str, Any] | None = None,
     realism: str = "",
 ) -> Operations:
-    """Opens a shift with so many robots, and the first so many picking stations open.
+    """Opens a shift with a number of robots, and of open picking stations, the first ones.
 
     All replenishing stations are open. Raises LayoutFileError, DemandError, PolicyError, SiteError.
     """

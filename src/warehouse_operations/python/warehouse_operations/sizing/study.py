@@ -50,7 +50,7 @@ class Study:
         return self.frontier
 
     def judge(self, robots: int, stations: int) -> Verdict:
-        """Returns the Verdict on ideal robots at so many stations."""
+        """Returns the Verdict on ideal robots at a number of stations."""
         return self._judge(self.verdicts, robots, stations, 0.0)
 
     def draw(self) -> None:
@@ -70,7 +70,7 @@ class Study:
     def check(self, robots: int, stations: int, hours: float) -> int | None:
         """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
 
-        Shifts have so many hours.
+        hours: of a shift.
         """
         most, add = self.wish.robots(stations), 0
         for _ in range(TRIES):
@@ -105,7 +105,7 @@ class Study:
         stations: int,
         records: Sequence[Record],
     ) -> Verdict:
-        """Returns the Verdict on these shifts, and adds it to those that were found."""
+        """Returns the Verdict on these shifts, and adds it to `verdicts`."""
         verdict = Verdict(
             robots,
             stations,
@@ -158,11 +158,11 @@ class Study:
 def choose(
     frontier: dict[int, int | None], prices: Pricing | None, units: int, replenishing: int
 ) -> tuple[int, int]:
-    """Returns the (robots, picking stations) of a frontier that are wanted.
+    """Returns the (robots, picking stations) of a frontier to recommend.
 
     units, replenishing: storage units and replenishing stations, the same at all points.
-    With prices the cheapest; without, the fewest stations, each of which takes a person, and as
-    few robots as they do with.
+    With prices these are the cheapest; without, the fewest stations, each of which takes a person,
+    and the fewest robots for them.
     """
     able = [(robots, stations) for stations, robots in frontier.items() if robots]
     if prices is None:

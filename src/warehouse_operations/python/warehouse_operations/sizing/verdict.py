@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges a point by its shifts: is the wish met, and how sure is that?
 
-Of the orders that came after the warm-up, the part counts that was late; orders that were not due
+Lateness is a part of the orders that came after the warm-up; orders that were not due
 yet when the shift was over are waited for. A point meets a wish if the upper confidence limit of
 the mean part, by Student's t over seeds, is at most the share that may be late, and if the open
 orders do not pile up: orders of which few are late today may all be late tomorrow.
@@ -20,7 +20,7 @@ from warehouse_operations.reports.limits import Window, windows_of
 from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.sizing.point import SERIES, Record
 
-FIRST = LEAST  # shifts after which a point that is far off is given up
+FIRST = LEAST  # shifts after which a point that is far off is dropped
 MORE = (1, 2, 4)  # times the seeds of a wish, at which a point is judged
 RISK = (1 - CONFIDENCE) / len(MORE)  # of one look: each has its part (Bonferroni)
 
@@ -28,7 +28,7 @@ Figures = dict[str, float]
 
 
 def looks(seeds: int) -> list[int]:
-    """Returns the numbers of shifts at which a point may be found to meet a wish."""
+    """Returns the numbers of shifts at which a point may be accepted."""
     return [seeds * times for times in MORE]
 
 
@@ -46,12 +46,12 @@ class Verdict:
 
     @property
     def decided(self) -> bool:
-        """Whether more shifts would hardly say otherwise, or there are enough."""
+        """Whether more shifts would hardly change the verdict, or there are enough."""
         most = looks(self.seeds)[-1]
         return self.met or self.fails or len(self.records) >= most or self._hopeless(most)
 
     def _hopeless(self, most: int) -> bool:
-        """Whether the wish would not be shown to be met if `most` shifts went on like these."""
+        """Whether `most` shifts like these would leave it open that the wish is met."""
         return len(self.records) >= self.seeds and self.limit(RISK, 1, most) > self.late
 
     @cached_property
@@ -88,7 +88,7 @@ class Verdict:
     def limit(self, risk: float, side: int, shifts: int = 0) -> float:
         """Returns the upper (side 1) or lower (-1) limit of the mean part that is late.
 
-        shifts: so many would there be, with the same mean and deviation; 0: those there are.
+        shifts: their assumed number, with the same mean and deviation; 0: the number simulated.
         """
         return self._limit("late", risk, side, shifts)
 

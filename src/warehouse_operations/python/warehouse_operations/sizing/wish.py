@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is asked of a warehouse, and the points that are simulated for it."""
+"""The demand on a warehouse, and the points that are simulated for it."""
 
 import math
 from collections.abc import Sequence
@@ -38,7 +38,7 @@ class ImpossibleError(Exception):
 
 @dataclass(frozen=True)
 class Wish:
-    """So many orders an hour on a floor, of which a share `late` may be late.
+    """A rate of orders on a floor, of which a share `late` may be late.
 
     lines, pieces: means, of an order and of a line. orders_file: a CSV file whose orders come
     instead. hours: of each shift, after its run-in. seeds: shifts of a point, at least. Raises
@@ -53,7 +53,7 @@ class Wish:
     late: float = 0.01
     hours: float = 8.0
     seeds: int = 5
-    most_robots: int = 0  # 0: as many as could be of use, and there is room for
+    most_robots: int = 0  # 0: what the demand can use and the floor has room for
     day: Day | None = None  # comes instead of so many orders an hour
     realism: str = ""  # what keeps robots from work: a preset or a file
 
@@ -78,12 +78,12 @@ class Wish:
 
     @property
     def replenishing(self) -> int:
-        """How many replenishing stations there are; all of them are open."""
+        """The number of replenishing stations; all of them are open."""
         return len(self.file.stations) - len(self.stations)
 
     @cached_property
     def units(self) -> int:
-        """How many storage units there are."""
+        """The number of storage units."""
         return len(placement.place(self.file).units)
 
     @property
@@ -138,13 +138,13 @@ class Wish:
         )
 
     def robots(self, stations: int) -> int:
-        """Returns the most robots that are tried with so many open picking stations."""
+        """Returns the largest number of robots that is tried at some open picking stations."""
         useful = AT_WORK * UNITS_MOST * (stations + self.replenishing)
         return min(self.most_robots or self.room, self.room, useful)
 
     @cached_property
     def room(self) -> int:
-        """How many robots have room on the floor: on parking, and beneath storage units."""
+        """The number of robots with room on the floor: on parking, and beneath storage units."""
         floor = self.file.floor
         parking = np.isin(floor, list(layout_file.PARKING + layout_file.CHARGING)).sum()
         return int(parking) + self.units

@@ -12,7 +12,7 @@ from warehouse_operations.stock.units_by_id import UnitSet
 
 
 class Candidates(Mapping[int, Mapping[Line, int]]):
-    """What each unit could serve of some lines: {unit: {line: pieces}}, by ascending units.
+    """The pieces of some lines that units could serve: {unit: {line: pieces}}, ascending.
 
     units: their ids, (n,). completes: how many lines each completes, (n,). pieces: how many pieces
     each has for all lines, (n,).

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
+"""Sources of orders and bundles: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
 order_file), `day:…`, `demand:…` or `mix:…` (see orders_text), or `none`."""
 
 from collections.abc import Callable, Iterable, Iterator
@@ -16,7 +16,7 @@ from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_S
 from warehouse_operations.stock.orders import Backlog
 from warehouse_operations.stock.orders_text import DAY
 
-FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: so many, or those of all stations
+FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: at least, and a station
 POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
@@ -67,7 +67,7 @@ class Customers:
 
 
 class Fill:
-    """So many orders wait at any time."""
+    """A constant number of orders waits at any time."""
 
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
@@ -87,7 +87,7 @@ class Fill:
 
 
 class Poisson:
-    """Orders come by chance, so many an hour on the average; bundles likewise."""
+    """Orders and bundles that come by chance (Poisson), at a mean rate [1/h]."""
 
     def __init__(
         self,

@@ -21,7 +21,7 @@ class Reason(StrEnum):
     INITIAL = "initial"
     PICK = "pick"
     PUT = "put"
-    SHORT = "short"  # fewer were found than the books said
+    SHORT = "short"  # fewer were there than the books said
     DAMAGED = "damaged"
     FELL = "fell"  # they lie on the floor, with their bin,
     PICKED_UP = "picked up"  # or are back
@@ -57,7 +57,7 @@ class Bin:
 
     @property
     def room(self) -> int:
-        """Pieces that can be put in beside those that are expected."""
+        """Pieces that can be put in besides the expected ones."""
         return 0 if self.fallen is not None else self.capacity - self.quantity - self.expected
 
     @property
@@ -139,7 +139,7 @@ class Inventory:
         return rows[order], units, begins
 
     def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
-        """Returns whether so many pieces of a SKU can be put into a bin.
+        """Returns whether a quantity of a SKU can be put into a bin.
 
         The last bin of a SKU is kept for it: else it could never be refilled.
         """

@@ -35,7 +35,7 @@ class DemandError(ValueError):
 
 
 class Fault(NamedTuple):
-    """What is wrong in a line, counted from 1, and in which column; 0 and "": as a whole."""
+    """A fault in a line, counted from 1, and a column; 0 and "": in the whole file."""
 
     line: int
     column: str
@@ -185,7 +185,7 @@ class _Orders:
 
 
 def _date(text: str) -> float | None:
-    """Returns the seconds since 1970 of a date as people write it; None if it is none."""
+    """Returns the seconds since 1970 of a date as people write it; None for other texts."""
     if not re.match(r"\d{4}-\d\d-\d\d", text):
         return None
     try:

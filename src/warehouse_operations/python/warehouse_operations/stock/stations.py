@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift knows of its stations, and of the units that visit them."""
+"""The stations of a shift, and the visits of units to them."""
 
 import math
 from collections import defaultdict, deque
@@ -54,7 +54,7 @@ class Visit:
 
     @property
     def pieces_to_pick(self) -> int:
-        """How many pieces are still to be picked from its unit."""
+        """The number of pieces still to be picked from its unit."""
         return sum(pick.quantity for pick in self.picks)
 
     def piece_to_pick(self, index: int) -> Pick:
@@ -176,7 +176,7 @@ class WorkStation:
 
     @property
     def free_slots(self) -> int:
-        """How many more orders can be open here."""
+        """The number of further orders that can be open here."""
         return self.capacity - len(self.orders)
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where units stand and how far it is from there: what of the floor a shift's policies see."""
+"""The places of units and the ways from there: the floor as a shift's policies see it."""
 
 from collections.abc import Mapping
 
@@ -39,7 +39,7 @@ class Whereabouts:
 
     @property
     def reach(self) -> float:
-        """How much longer than the nearest unit one may take to a station [s]: on a wide floor
+        """The longest detour of a unit to a station, against the nearest unit [s]: on a wide floor
         there is always a better one, far away."""
         return REACH if len(self.units) > WIDE else np.inf
 

@@ -102,7 +102,7 @@ class DatabaseJournal(Journal):
             self._rows.update(schema.bin_, bin_.bin_id, capacity=0)
 
     def resume(self, stored: Stored) -> None:
-        """What an earlier run left under way has ended: its visits, assignments and promises. The
+        """Ends what an earlier run left under way: its visits, assignments and promises. The
         orders of a Stored warehouse are this run's from now on, and so are their times."""
         with self._database.engine.begin() as connection:
             self._rows.write(connection)  # with this run

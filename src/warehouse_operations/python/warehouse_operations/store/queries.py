@@ -25,7 +25,7 @@ def find_orders(
     offset: int = 0,
     late_at: float | None = None,
 ) -> tuple[int, list[tuple[Any, list[Any]]]]:
-    """Returns the number of orders found and [(row of orders, rows of its lines)], the newest
+    """Returns the number of matching orders and [(row of orders, rows of its lines)], the newest
     first, limited to MOST_ROWS.
 
     order_id: 0: any. search: a part of the reference, or a whole SKU. late_at: only orders that
@@ -68,7 +68,7 @@ def _late(order: Any, now: float) -> Any:
 def find_stock(
     engine: Engine, sku: str = "", limit: int = 100, offset: int = 0
 ) -> tuple[int, int, list[Any]]:
-    """Returns the number of bins found, the pieces in all of them and their rows, the fullest
+    """Returns the number of matching bins, the pieces in all of them and their rows, the fullest
     first, limited to MOST_ROWS. sku: "": any."""
     if not sku.isprintable():
         return 0, 0, []
@@ -92,7 +92,7 @@ def matching(names: Iterable[str], search: str) -> list[str]:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """What orders names with numbers as people do."""
+    """Returns a key that sorts names with numbers as people do."""
     return [
         (int(part), "") if part.isdecimal() else (-1, part)
         for part in re.split(r"(\d+)", name.casefold())

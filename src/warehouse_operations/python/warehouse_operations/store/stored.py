@@ -21,7 +21,7 @@ from warehouse_operations.store import schema
 
 
 def read(engine: Engine, now: float = 0.0) -> Stored | None:
-    """Reads the warehouse of a database; None if there is none.
+    """Reads the warehouse of a database; None where it holds no warehouse.
 
     now: the simulated time at which the next run begins [s].
     """

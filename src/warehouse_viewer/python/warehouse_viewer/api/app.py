@@ -142,7 +142,7 @@ class Viewer:
 
     async def _totes(self, name: str) -> int | None:
         stations = (await self.backend.call(self.backend.operations.latest, "stations")).stations
-        return next((one.slots for one in stations if one.name == name), None)
+        return next((station.slots for station in stations if station.name == name), None)
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:

@@ -82,10 +82,10 @@ class ApiBackend:
 
     async def robot(self, number: int) -> Robot:
         """Returns the robot of that number; 404 if there is none."""
-        found = [r for r in await self.robots() if r.id == number]
-        if not found:
+        robots = [r for r in await self.robots() if r.id == number]
+        if not robots:
             raise HTTPException(404, f"no robot kiva{number}")
-        return found[0]
+        return robots[0]
 
     async def things(self, kind: str) -> Tracked:
         """Returns where all "storage_units" or "items" are."""
@@ -97,8 +97,8 @@ class ApiBackend:
 
     def stations(self, message: StationStates) -> list[dict[str, Any]]:
         """Returns the stations of a message as JSON has them."""
-        told = operations_json.stations(message)
-        return [one | self.monitor.station(station) for one, station in zip(told, message.stations)]
+        rows = operations_json.stations(message)
+        return [row | self.monitor.station(station) for row, station in zip(rows, message.stations)]
 
     async def simulate(self, action: str, *args: Any) -> Any:
         """Calls a method of Simulation."""

@@ -10,8 +10,8 @@ often as they change.
     {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
     {"type": "kpis", "kpis": {"items_picked": 123, …}}
 
-Of orders, stock and transports come the rows that have changed, as the requests of those names tell
-them. Who opens the WebSocket before asking for a list misses nothing in between.
+Messages of orders, stock and transports hold the rows that have changed, as the requests of those
+names return them. Who opens the WebSocket before asking for a list misses nothing in between.
 
     {"type": "orders", "orders": [{"order_id": 7, "state": "COMPLETED", …}, …], "missed": false}
 
@@ -50,7 +50,7 @@ TOPICS = (*ROWS, *WHOLE)
 
 
 class Shift(BaseModel):
-    """Tells whether a shift runs: the first message, and one at each change."""
+    """Whether a shift runs: the first message, and one at each change."""
 
     type: Literal["shift"]
     runs: bool
@@ -157,24 +157,24 @@ def topics(text: str) -> list[str]:
 
     Raises ValueError for one that does not exist.
     """
-    wanted = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
-    unknown = sorted(set(wanted) - set(TOPICS))
+    names = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
+    unknown = sorted(set(names) - set(TOPICS))
     if unknown:
         raise ValueError(f"no {', '.join(unknown)} to follow; there are {', '.join(TOPICS)}")
-    return wanted
+    return names
 
 
-async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], rate: float) -> None:
+async def serve(socket: WebSocket, backend: ApiBackend, topics: Sequence[str], rate: float) -> None:
     """Serves one client until it disconnects: the TOPICS `wanted`, each at most `rate` times a
     second. The socket is accepted already."""
-    await until_gone(socket, _Reader(socket, backend, wanted).send_news, rate)
+    await until_gone(socket, _Reader(socket, backend, topics).send_news, rate)
 
 
 class _Reader:
-    def __init__(self, socket: WebSocket, backend: ApiBackend, wanted: Sequence[str]) -> None:
-        self._socket, self._backend, self._wanted = socket, backend, wanted
+    def __init__(self, socket: WebSocket, backend: ApiBackend, topics: Sequence[str]) -> None:
+        self._socket, self._backend, self._topics = socket, backend, topics
         self._feed, self._book = backend.operations.feed, backend.changes
-        self._read = {topic: self._book.last if topic in ROWS else 0 for topic in wanted}
+        self._read = {topic: self._book.last if topic in ROWS else 0 for topic in topics}
         self._runs: bool | None = None
         self._coordinator: CoordinatorState | tuple[()] | None = ()
 
@@ -183,7 +183,7 @@ class _Reader:
         if runs != self._runs:
             self._runs = runs
             await self._send("shift", runs=runs)
-        for topic in self._wanted:
+        for topic in self._topics:
             if topic == "coordinator":
                 await self._send_coordinator()
             elif topic in ROWS:
@@ -210,8 +210,8 @@ class _Reader:
         """A row of the book as JSON has it."""
         if topic in OF_MONITOR:
             return row
-        told = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
-        return told(row)
+        describe = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
+        return describe(row)
 
     async def _send_coordinator(self) -> None:
         self._backend.feed.subscribe(("coordinator", "fleet"))
@@ -219,8 +219,8 @@ class _Reader:
         if state is not self._coordinator:
             self._coordinator = state
             fleet = self._backend.feed["fleet"]
-            told = catalogue.plain_coordinator(state, fleet) if state else None
-            await self._send("coordinator", coordinator=told)
+            shown = catalogue.plain_coordinator(state, fleet) if state else None
+            await self._send("coordinator", coordinator=shown)
 
     async def _send(self, kind: str, **fields: Any) -> None:
         await self._socket.send_text(dumps({"type": kind, **fields}))

@@ -21,7 +21,7 @@ from warehouse_viewer.ros.operations_client import OperationsClient
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, StationState
 
-# Of the Kpis: name, what it is, field.
+# Figures of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (
     ("items_picked", "Pieces that were picked.", "items_picked"),
     ("lines_picked", "Order lines that were picked.", "lines_picked"),
@@ -42,7 +42,7 @@ SHIFT_GAUGES = (
     ("stock_ratio", "Pieces over room for pieces.", "stock_level"),
 )
 PERCENTILES = {"p25": "25", "median": "50", "p75": "75", "p95": "95"}
-# Of the CoordinatorState.
+# Figures of the CoordinatorState.
 FLEET_COUNTERS = (
     ("transports_delivered", "Storage units brought to where they should go.", "delivered"),
     ("transports_stored", "Storage units brought back.", "stored"),
@@ -99,8 +99,8 @@ class Metrics(Collector):
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
-        if told := self._shift["stations"]:
-            yield from _stations(told.stations)
+        if message := self._shift["stations"]:
+            yield from _stations(message.stations)
 
     def _orders(self) -> dict[str, int]:
         """{state: how many}."""
@@ -133,13 +133,13 @@ def _stations(stations: Iterable[StationState]) -> Iterator[Metric]:
     for name, text, kind, value in (
         ("queue", "Units at a station or on their way to it.", GaugeMetricFamily, _queue),
         ("busy_ratio", "Of the time since the shift began.", GaugeMetricFamily, _busy),
-        ("open", "Whether it is open.", GaugeMetricFamily, lambda one: float(one.open)),
-        ("orders", "Orders it works at.", GaugeMetricFamily, lambda one: len(one.orders)),
-        ("pieces", "Picked there, or put in.", CounterMetricFamily, lambda one: one.pieces),
+        ("open", "Whether it is open.", GaugeMetricFamily, lambda s: float(s.open)),
+        ("orders", "Orders it works at.", GaugeMetricFamily, lambda s: len(s.orders)),
+        ("pieces", "Picked there, or put in.", CounterMetricFamily, lambda s: s.pieces),
     ):
         family = kind(f"warehouse_station_{name}", text, labels=["station", "kind"])
-        for one in stations:
-            family.add_metric([one.name, one.kind], value(one))
+        for station in stations:
+            family.add_metric([station.name, station.kind], value(station))
         yield family
 
 

@@ -56,7 +56,7 @@ async def until_gone(
     sender = asyncio.create_task(_send_forever(send_news, 1 / rate))
     try:
         await asyncio.wait({listener, sender}, return_when=asyncio.FIRST_COMPLETED)
-        # Of a client that has gone, each of uvicorn's libraries tells the sender by another error.
+        # Each of uvicorn's libraries raises another error for a client that has gone.
         await asyncio.wait({listener}, timeout=FAREWELL)
         if not listener.done():
             sender.result()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse as RViz shows it: markers of the shapes that the world's Looks tell."""
+"""The warehouse as RViz shows it: markers of the shapes in the world's Looks."""
 
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
@@ -76,17 +76,17 @@ def robots(look: Look | None, at: np.ndarray, does: np.ndarray, lift: np.ndarray
     at = np.insert(at, 2, 0.0, axis=1)
     if look is None:
         return [_joined("robots", [])]
-    seen = looks.parts(look)
-    body = seen[0]
-    if len(at) * sum(len(part.triangles()) for part in seen) > MOST_POINTS:
-        seen = [body := looks.hull(look)]
+    parts = looks.parts(look)
+    body = parts[0]
+    if len(at) * sum(len(part.triangles()) for part in parts) > MOST_POINTS:
+        parts = [body := looks.hull(look)]
     lifted = at + np.outer(lift, (0, 0, 1, 0))
     solids = [
         (
             shapes.placed(lifted if part.link == LIFTED else at, part.triangles()),
             COLOURS[does] if part is body else part.colour,
         )
-        for part in seen
+        for part in parts
     ]
     if len(at) * (len(body.triangles()) + len(_frame()) + len(ARROW)) > MOST_POINTS:
         return [_joined("robots", [(shapes.placed(lifted, _top(look)), COLOURS[does])])]
@@ -119,12 +119,12 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
     """Returns things of one look at (n, 4) x y z [m] yaw [rad]; in line with the axes as boxes."""
     if look is None or not len(at):
         return []
-    seen = [looks.hull(look)] if are_thinned(look, len(at)) else looks.parts(look)
+    parts = [looks.hull(look)] if are_thinned(look, len(at)) else looks.parts(look)
     turned = np.abs(np.sin(2 * at[:, 3])) > 0.01
     across = ~turned & (np.abs(np.sin(at[:, 3])) > 0.7)
     along = ~turned & ~across
-    boxes = [part for part in seen if part.kind == Look.BOX and _is_straight(part)]
-    others = [part for part in seen if not any(part is box for box in boxes)]
+    boxes = [part for part in parts if part.kind == Look.BOX and _is_straight(part)]
+    others = [part for part in parts if not any(part is box for box in boxes)]
     out = []
     for i, alike in enumerate(_alike(boxes)):
         colour, size = alike[0].colour.tolist(), alike[0].size
@@ -133,12 +133,12 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
             label = f"{name} {i + 1}{suffix}"
             out.append(shapes.cubes(label, middles.reshape(-1, 3), size[list(edges)], colour))
     round_ones = [(shapes.placed(at[~turned], p.triangles()), p.colour) for p in others]
-    slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in seen]
+    slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in parts]
     return [*out, _joined(f"{name} round", round_ones), _joined(f"{name} turned", slanted)]
 
 
 def are_thinned(look: Look | None, count: int) -> bool:
-    """Tells whether so many things of a look are a box each, since they have too many parts."""
+    """Whether `count` things of a look are drawn as a box each, since they have too many parts."""
     return look is not None and count * len(looks.parts(look)) > MOST_CUBES
 
 
@@ -201,11 +201,11 @@ def _at_poses(part: Part, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def names(
-    look: Look | None, numbers: Sequence[int], at: np.ndarray, wanted: Collection[int]
+    look: Look | None, numbers: Sequence[int], at: np.ndarray, always: Collection[int]
 ) -> list[Text]:
     """Returns names over the robots `numbers` at (n, 3); over many only those in `wanted`."""
     height = looks.extent(look)[1][2] + NAME_ABOVE if look else NAME_HEIGHT
-    shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in wanted]
+    shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in always]
     where = dict(zip(numbers, at))
     return [
         shapes.Text("names", n, (*where[n][:2], height), f"kiva{n}", NAME_HEIGHT, INK)

@@ -26,8 +26,8 @@ class RecordingError(ValueError):
 def moments(path: str, period: float) -> Iterator[Moment]:
     """Yields Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
     moment, due = Moment(), None
-    for one in bag_reader.messages(path, list(PARTS), RecordingError):
-        setattr(moment, PARTS[one.topic], one.message)
+    for message in bag_reader.messages(path, list(PARTS), RecordingError):
+        setattr(moment, PARTS[message.topic], message.message)
         now = moment.fleet.stamp.to_sec() if moment.complete else None
         if now is None or (due is not None and due - 10 * period < now < due):
             continue

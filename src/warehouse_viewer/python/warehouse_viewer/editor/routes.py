@@ -135,8 +135,8 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
             fields = _fields(await request.json(), work)
             return JSONResponse(await asyncio.to_thread(work, **fields))
         except (LayoutFileError, RequestError) as error:
-            told = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
-            return JSONResponse({"detail": told}, 409)
+            detail = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
+            return JSONResponse({"detail": detail}, 409)
         except (TypeError, ValueError) as error:
             return JSONResponse({"detail": f"the request is wrong: {error}"}, 422)
 
@@ -161,8 +161,8 @@ def _check(text: str) -> Answer:
 
 def _read(files: dict[str, str]) -> Answer:
     """Returns the drawing of files in base64, by name, and what could not be carried over."""
-    file, told = opening.opened(files)
-    return {"drawing": drawing_json.of_file(file), "told": told}
+    file, notes = opening.opened(files)
+    return {"drawing": drawing_json.of_file(file), "told": notes}
 
 
 def _new(robots: int, units: int, items: int, stations: int) -> Answer:

@@ -96,7 +96,7 @@ class Hub:
         self._scene_due = 0.0
 
     def notify(self) -> None:
-        """Tells the hub that the Source has something new."""
+        """Wakes the hub: the Source has something new."""
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
                 self._loop.call_soon_threadsafe(self._changed.set)
@@ -125,7 +125,7 @@ class Hub:
 
     @property
     def _gap(self) -> float:
-        """Between two updates [s, wall]."""
+        """The duration between two updates [s, wall]."""
         if self._pages or not self._keeper:
             return GAP
         performance = self._feed["performance"]
@@ -141,7 +141,7 @@ class Hub:
             return
         objects, states = together
         scenery = self._feed["scenery"]
-        # While a warehouse is built, what stands there changes ten times a second.
+        # What stands there changes ten times a second while a warehouse is built.
         if not self._model.is_same_scene(objects, scenery):
             if time.monotonic() < self._scene_due:
                 return
@@ -299,14 +299,14 @@ def mount_of(frames: TFMessage | None, name: str) -> tuple[float, float, float, 
     return None
 
 
-def paths_of(message: FleetPaths | None, wanted: Collection[int]) -> dict[int, list[list[float]]]:
+def paths_of(message: FleetPaths | None, robots: Collection[int]) -> dict[int, list[list[float]]]:
     """Returns {kiva_id: [[x, y], …]} [m] of the wanted robots in a FleetPaths or None."""
     out: dict[int, list[list[float]]] = {}
     at = 0
     if message is None:
         return out
     for kiva_id, points in zip(message.kiva_id, message.points):
-        if kiva_id in wanted:
+        if kiva_id in robots:
             end = at + points
             xy = zip(message.x[at:end], message.y[at:end])
             out[kiva_id] = [[x, y] for x, y in xy if math.isfinite(x) and math.isfinite(y)]

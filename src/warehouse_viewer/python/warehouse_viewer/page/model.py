@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
-STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
+STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
 
 
 class Model:
@@ -40,7 +40,10 @@ class Model:
         self._robot_of: dict[int, int] = {}
         self._solid = np.zeros(0, int)  # indices of models in a Scenery that are not paint
         self._scene_text: str | None = None
-        self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
+        self._sent_stamp, self._sent_at = (
+            0.0,
+            0.0,
+        )  # the time in the last update, and when [s, wall]
 
     # --- messages in
     def is_same_scene(self, objects: WarehouseObjects, scenery: Scenery) -> bool:
@@ -74,10 +77,10 @@ class Model:
             moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose)[self._solid])
             self._scenery = scenery
         # Time alone is worth an update too, now and then: the page shows it.
-        late = self._clock() - self._told_at >= TIME_GAP
-        if scene or moved or (late and self.stamp != self._told):
+        late = self._clock() - self._sent_at >= TIME_GAP
+        if scene or moved or (late and self.stamp != self._sent_stamp):
             self.changed_at = self.tick
-            self._told, self._told_at = self.stamp, self._clock()
+            self._sent_stamp, self._sent_at = self.stamp, self._clock()
         return self.changed_at == self.tick
 
     def _take_scene(self, objects: WarehouseObjects, fleet: FleetState, scenery: Scenery) -> bool:
@@ -185,7 +188,7 @@ class Model:
         }
 
     def _looks(self) -> list[Any]:
-        """Of all but paint, which the page draws as it likes."""
+        """The looks of all but paint, which the page draws in its own colours."""
         scenery = self._scenery
         solid = {scenery.model_look[i] for i in self._solid}
         unseen = {*scenery.model_look} - solid
@@ -214,7 +217,7 @@ def _planar(x: np.ndarray, y: np.ndarray, yaw: np.ndarray) -> np.ndarray:
 
 
 def _centred(inner: np.ndarray) -> np.ndarray:
-    """Of a unit first seen under way, whose pose and its robot's may be of different moments.
+    """Corrects the pose of a unit first met under way: it may be older than its robot's.
 
     It sits over the robot's centre, turned by whole quarters.
     """

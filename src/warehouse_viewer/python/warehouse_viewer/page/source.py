@@ -91,7 +91,7 @@ class Simulation(Protocol):
         """Lets simulated time go on."""
 
     def step(self, steps: int) -> str:
-        """Advances a paused simulation by so many physics steps."""
+        """Advances a paused simulation by a number of physics steps."""
 
     def speed(self, factor: float) -> str:
         """Sets the target: simulated seconds per wall second, 0 for as fast as possible."""

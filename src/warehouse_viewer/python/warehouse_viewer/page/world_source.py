@@ -57,7 +57,7 @@ class WorldFeed:
         self.update()
 
     def request(self, units: Iterable[int]) -> None:
-        """Tells which storage units are requested, by number."""
+        """Sets which storage units are requested, by number."""
         self._now = self._now | {"requested": sorted(units)}
 
     def update(self) -> None:
@@ -194,7 +194,7 @@ class WorldSimulation:
         return ""
 
     def step(self, steps: int) -> str:
-        """Advances a paused world by so many physics steps."""
+        """Advances a paused world by a number of physics steps."""
         self._pace.step(steps * self._step_size)
         return ""
 

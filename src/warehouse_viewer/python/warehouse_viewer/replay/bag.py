@@ -36,9 +36,9 @@ def convert(bag: Path, path: Path, progress: Callable[[float], None]) -> None:
     """
     writer = FileWriter(path, {"name": bag.stem, "from": "bag"})
     conversion = _Conversion(writer)
-    for one in bag_reader.messages(bag, [*PARTS, EVENTS, *FIGURES], RecordingError):
-        conversion.take(one.topic, one.message, one.time)
-        progress(one.part)
+    for message in bag_reader.messages(bag, [*PARTS, EVENTS, *FIGURES], RecordingError):
+        conversion.take(message.topic, message.message, message.time)
+        progress(message.part)
     if not conversion.count:
         needed = ", ".join(PARTS)
         raise RecordingError(f"{bag}: nothing to play; at least {needed} were expected in it")

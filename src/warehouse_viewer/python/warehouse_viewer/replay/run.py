@@ -59,7 +59,7 @@ class RunRecorder:
         for too long.
         """
         self._due = self._world.time + INTERVAL - 1e-3
-        for event in (one for some in events for one in some):
+        for event in (event_ for some in events for event_ in some):
             self._journal.add(_entry(event))
         feed = self._feed
         feed.update()

@@ -63,13 +63,13 @@ class ShiftRecorder:
 def waiting(fleet: FleetDriver) -> list[int]:
     """Returns the numbers of the robots of a FleetDriver that wait for too long."""
     traffic, robots = fleet.traffic, fleet.robots
-    found = Waiting(traffic, fleet.transports).long()
-    long = [robot for robot, _ in found if traffic.time - robots.still_since[robot] >= TOO_LONG]
+    waits = Waiting(traffic, fleet.transports).long()
+    long = [robot for robot, _ in waits if traffic.time - robots.still_since[robot] >= TOO_LONG]
     return robots.kiva_ids[long].tolist()
 
 
 def figures(ops: Operations) -> dict[str, Any]:
-    """Returns what a recording tells of a shift now."""
+    """Returns what a recording keeps of a shift now."""
     shift = ops.shift
     tally, hours = shift.tally, max(shift.now - shift.began, 1e-9) / 3600
     return {
@@ -78,26 +78,26 @@ def figures(ops: Operations) -> dict[str, Any]:
             "items_picked": tally.items_picked,
             "item_throughput_per_hour": tally.items_picked / hours,
             "orders_completed": tally.orders_completed,
-            "orders_late": sum(0 < one.due < shift.now for one in shift.orders.values()),
+            "orders_late": sum(0 < order.due < shift.now for order in shift.orders.values()),
         },
-        "stations": [station(one, shift.now) for one in shift.stations],
+        "stations": [station(work_station, shift.now) for work_station in shift.stations],
     }
 
 
 def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
-    """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
+    """Returns the state of a WorldFleet's coordinator, as JSON has it; `objects` as
     RunFeed.objects."""
     watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 
-def station(one: WorkStation, now: float) -> dict[str, Any]:
+def station(work_station: WorkStation, now: float) -> dict[str, Any]:
     """Returns a station at a time of the shift [s]."""
     return {
-        "name": one.name,
-        "kind": one.kind,
-        "open": one.is_open,
-        "inbound": sorted(one.inbound),
-        "pieces": one.pieces,
-        "busy_fraction": one.busy_fraction(now),
+        "name": work_station.name,
+        "kind": work_station.kind,
+        "open": work_station.is_open,
+        "inbound": sorted(work_station.inbound),
+        "pieces": work_station.pieces,
+        "busy_fraction": work_station.busy_fraction(now),
     }

@@ -23,7 +23,7 @@ SHOWN: dict[str, Callable[[Any], Any]] = {
 def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
     """Returns Kpis, StationStates and CoordinatorState, as far as there are any, as JSON has
     them."""
-    return {name: SHOWN[name](one) for name, one in messages.items() if one is not None}
+    return {name: SHOWN[name](message) for name, message in messages.items() if message is not None}
 
 
 class Told:

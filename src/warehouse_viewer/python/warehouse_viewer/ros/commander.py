@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sends commands to robots and tells what becomes of each.
+"""Sends commands to robots and returns what becomes of each.
 
-From its answer on a command goes by the number that the answer tells. The answer itself names the
+An answer carries the number by which the command is known from then on. The answer itself names the
 robot alone, so commands to one robot are sent one after the other; a command
 that another client sends to the same robot at the same moment can be taken for ours.
 """

@@ -137,11 +137,11 @@ class Feed:
         """
         if not self.has_positions:
             return False
-        told = _names(self["objects"])
+        names = _names(self["objects"])
         robots = {f"kiva{n}" for n in self["fleet"].kiva_id}
-        if told != standing.names or robots != {n for n in told if n.startswith("kiva")}:
+        if names != standing.names or robots != {n for n in names if n.startswith("kiva")}:
             return False
-        is_new = self["objects"] is not objects or not told
+        is_new = self["objects"] is not objects or not names
         stamp = self["fleet"].stamp.to_sec()
         came_later = standing.is_paused or stamp >= standing.time
         return is_new and (not robots or (self["fleet"] is not fleet and came_later))
@@ -153,19 +153,19 @@ class Feed:
 
     def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
         """Subscribes to paths, to ways, and to the scans of exactly these robots (ids)."""
-        wanted = {f"scan{n}": (f"kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        topics = {f"scan{n}": (f"kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
-            wanted["frames"] = ("tf_static", TFMessage)
+            topics["frames"] = ("tf_static", TFMessage)
         if paths:
-            wanted["paths"] = ("warehouse/paths", FleetPaths)
+            topics["paths"] = ("warehouse/paths", FleetPaths)
         if ways:
-            wanted["ways"] = ("warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
+            topics["ways"] = ("warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
         with self._lock:
-            for name in self._extras.keys() - wanted.keys():
+            for name in self._extras.keys() - topics.keys():
                 self._extras.pop(name).unregister()
                 self._messages.pop(name, None)
-            for name in wanted.keys() - self._extras.keys():
-                self._extras[name] = self._subscribe(name, *wanted[name])
+            for name in topics.keys() - self._extras.keys():
+                self._extras[name] = self._subscribe(name, *topics[name])
 
     def _subscribe(self, name: str, topic: str, kind: type) -> rospy.Subscriber:
         return subscribe(self._ros, topic, kind, self._keep, name, queue_size=1)

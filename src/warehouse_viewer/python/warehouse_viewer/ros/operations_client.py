@@ -59,8 +59,8 @@ class OperationsClient:
         offset: int = 0,
     ) -> srv.FindOrdersResponse:
         """Returns the order of that number, or (0) those that fit the other conditions."""
-        wanted = number, search, state, late, limit, offset
-        return self.call("find_orders", srv.FindOrders, *wanted)
+        fields = number, search, state, late, limit, offset
+        return self.call("find_orders", srv.FindOrders, *fields)
 
     def time(self, seconds: float) -> rospy.Time:
         """Returns a rospy.Time [s]."""

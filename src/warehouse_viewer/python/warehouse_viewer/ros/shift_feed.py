@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift of operations tells, heard all the time: it is little."""
+"""The messages of a shift of operations, subscribed all the time: they are few."""
 
 from types import ModuleType
 from typing import Any
@@ -60,13 +60,13 @@ class ShiftFeed:
 
     def _take_orders(self, message: OrderStatuses) -> None:
         self._count("orders", message)
-        for one in message.orders:
-            self._book.note("orders", one.order_id, one)
+        for order in message.orders:
+            self._book.note("orders", order.order_id, order)
 
     def _take_places(self, message: StockPlaces) -> None:
         self._count("stock", message)
-        for one in message.places:
-            self._book.note("stock", one.item, one)
+        for place in message.places:
+            self._book.note("stock", place.item, place)
 
     def _count(self, topic: str, message: OrderStatuses | StockPlaces) -> None:
         """Notes where a message was missed, or another shift has begun."""

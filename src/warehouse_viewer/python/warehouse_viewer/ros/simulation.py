@@ -99,7 +99,7 @@ class Simulation:
         return self._do("reset" if time_too else "reset_poses")
 
     def step(self, steps: int) -> str:
-        """Advances a paused simulation by so many physics steps."""
+        """Advances a paused simulation by a number of physics steps."""
         return self._do("step", steps=steps)
 
     def speed(self, factor: float) -> str:
@@ -122,7 +122,7 @@ class Simulation:
         return self._do("restore", name=name)
 
     def undo(self, seconds: float) -> str:
-        """Goes back by so many simulated seconds."""
+        """Goes back by a number of simulated seconds."""
         return self._do("undo", seconds=seconds)
 
     def create(self, name: str, number: int, robots: int, items: int, shelves: int) -> str:

@@ -69,11 +69,11 @@ class PathTopics:
     def _send(
         self,
         heard: Collection[int],
-        found: Mapping[int, list[tuple[float, float]]],
+        points_of: Mapping[int, list[tuple[float, float]]],
         stamp: rospy.Time,
     ) -> None:
         for number in heard:
-            points = found.get(number, [])
+            points = points_of.get(number, [])
             if self._sent.get(number) != points:
                 self._sent[number] = points
                 self._topics[number].publish(path(points, stamp))

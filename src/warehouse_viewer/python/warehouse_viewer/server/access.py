@@ -50,7 +50,7 @@ GUESSES, FIRST_GUESSES = 1.0, 10  # wrong tokens a second of each address, and a
 
 
 class RateLimit:
-    """So many requests a second of each address, and at once `burst` (what two seconds bring)."""
+    """Limits requests of each address: `rate` per second, `burst` at once (two seconds' worth)."""
 
     MOST_ADDRESSES = 10000
 
@@ -143,8 +143,8 @@ class AccessControl:
         while more and len(body) <= token_page.MOST_FORM:
             message = await receive()
             body, more = body + message.get("body", b""), message.get("more_body", False)
-        given, to = token_page.parse(body[: token_page.MOST_FORM])
-        if self._is_right(scope, given):
+        token, to = token_page.parse(body[: token_page.MOST_FORM])
+        if self._is_right(scope, token):
             await _keep_token(send, self._token, to)
         else:
             await _ask(scope, send, to, wrong=True)
@@ -161,19 +161,19 @@ class AccessControl:
     def _check_token(self, scope: Scope, headers: Mapping[str, str]) -> None:
         if not self._token:
             return
-        scheme, _, given = headers.get("authorization", "").partition(" ")
+        scheme, _, token = headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer":
-            given = _cookie(headers) or _query_token(scope)
-        if given and self._guesses.left(_address(scope)) < 1:
+            token = _cookie(headers) or _query_token(scope)
+        if token and self._guesses.left(_address(scope)) < 1:
             raise Refusal(429, GUESSED, AGAIN)
-        if not self._is_right(scope, given):
+        if not self._is_right(scope, token):
             challenge = [(b"www-authenticate", b"Bearer")]
             raise Refusal(401, "give the token: ?token=… or Authorization: Bearer …", challenge)
 
-    def _is_right(self, scope: Scope, given: str) -> bool:
+    def _is_right(self, scope: Scope, token: str) -> bool:
         """Whether this is the token; counts it if not."""
-        is_right = hmac.compare_digest(given.encode(), self._token.encode())
-        if given and not is_right:
+        is_right = hmac.compare_digest(token.encode(), self._token.encode())
+        if token and not is_right:
             self._guesses.allows(_address(scope))
         return is_right
 
@@ -262,4 +262,4 @@ async def _limited(app: ASGIApp, scope: Scope, receive: Receive, send: Send) -> 
 def _completed(headers: Headers) -> Headers:
     """Headers with ours, where an answer does not have its own."""
     own = {name.lower() for name, _ in headers}
-    return [*headers, *(one for one in HEADERS if one[0] not in own)]
+    return [*headers, *(header for header in HEADERS if header[0] not in own)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""HTTP connections that end where they ask nothing, and of which there are only so many.
+"""HTTP connections up to a limit, which end where they ask nothing.
 
 uvicorn bounds how long a connection may idle between two requests, but not how long the first, or
 the rest of one that was begun, may take to come; nor how many connections there are.
@@ -31,7 +31,7 @@ class BoundedConnection(H11Protocol):
         super().on_response_complete()
 
     def _waits(self) -> bool:
-        """For its client, to ask or to go on with what it began to ask."""
+        """Whether it waits for its client to ask, or to go on with its request."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
     def _make_room(self) -> None:
@@ -76,7 +76,7 @@ def listen(host: str, port: int) -> socket.socket:
     Raises OSError if the port is taken or the host is not this machine's.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
+    # asyncio does not recognise a TCP socket that doesn't name its protocol; small answers
     # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
     out = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:

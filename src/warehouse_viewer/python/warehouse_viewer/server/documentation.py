@@ -14,7 +14,7 @@ from warehouse_viewer.server.csp import csp_source
 from warehouse_viewer.server.static_files import FreshFiles
 from warehouse_viewer.shared_files import SHARE
 
-# Of an install space, of the package kiva-warehouse-doc, of the source tree.
+# The folders of an install space, of the package kiva-warehouse-doc, and of the source tree.
 FOLDERS = (
     SHARE / "docs",
     Path("/usr/share/doc/kiva-warehouse-doc/html"),
@@ -44,11 +44,12 @@ class Documentation:
         self._folders = folders
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        found = next((one for one in self._folders if (one / "index.html").is_file()), None)
-        if found is None:
+        built = (folder for folder in self._folders if (folder / "index.html").is_file())
+        folder = next(built, None)
+        if folder is None:
             await HTMLResponse(MISSING, 404)(scope, receive, send)
             return
-        policy = content_policy((found / "index.html").read_text()).encode()
+        policy = content_policy((folder / "index.html").read_text()).encode()
 
         async def headed(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -56,7 +57,7 @@ class Documentation:
                 message = message | {"headers": [*message.get("headers", []), own]}
             await send(message)
 
-        await FreshFiles(directory=found, html=True)(scope, receive, headed)
+        await FreshFiles(directory=folder, html=True)(scope, receive, headed)
 
 
 def content_policy(page: str) -> str:
@@ -65,7 +66,7 @@ def content_policy(page: str) -> str:
     Only these scripts run, by their hashes; styles may be inline, since the theme has its colours
     there.
     """
-    scripts = " ".join(dict.fromkeys(csp_source(one) for one in INLINE.findall(page)))
+    scripts = " ".join(dict.fromkeys(csp_source(script) for script in INLINE.findall(page)))
     return (
         "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
         f"script-src 'self' {scripts}; frame-ancestors 'none'"

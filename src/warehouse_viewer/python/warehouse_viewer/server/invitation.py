@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where to watch the warehouse, as its terminal tells it."""
+"""The addresses of the warehouse's pages, as its terminal shows them."""
 
 import io
 import socket

@@ -27,7 +27,7 @@ LABEL = '<li><img src="{picture}" alt=""><span><b>{text}</b><small>{code}</small
 
 
 def page(station: str, totes: int, skus: Sequence[str] = ()) -> str:
-    """Returns the page of a station with so many totes, and the labels of some SKUs."""
+    """Returns the page with a station's label, a label per tote, and the labels of some SKUs."""
     places = [(f"Tote {number}", f"{station}-{number}") for number in range(1, totes + 1)]
     commands = [(text, f"CMD-{name}") for name, text in COMMANDS.items()]
     parts = (("Totes", places), ("Buttons", commands), ("Goods", [(sku, sku) for sku in skus]))

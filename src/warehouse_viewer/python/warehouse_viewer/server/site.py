@@ -45,7 +45,7 @@ class Site:
     def routes(self) -> list[BaseRoute]:
         """Returns the routes of the pages and their files, to be added to an application."""
         return [
-            *(Route(one.path, self._endpoint(one.file)) for one in self._pages if one.file),
+            *(Route(page.path, self._endpoint(page.file)) for page in self._pages if page.file),
             Route("/pages", self._list),
             Route("/fonts/inter.woff2", font.serve),
             Mount("/web", self._files),

@@ -96,6 +96,6 @@ def _taken(scope: Scope) -> Packing | None:
 
 
 @functools.lru_cache(MOST_PACKED)
-def _packed(path: str, version: Hashable, packing: Packing) -> bytes:  # noqa: ARG001 (what tells one content from another)
+def _packed(path: str, version: Hashable, packing: Packing) -> bytes:  # noqa: ARG001 (part of the cache's key)
     """A file's content, compressed once."""
     return packing.pack(Path(path).read_bytes())

@@ -36,7 +36,7 @@ PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Token – Kiva warehouse</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>{style}</style></head>
 <body><main><h1>Kiva warehouse</h1><p>This page is for those who have its token. The terminal in
-which the warehouse was started tells it, or in which file it lies.</p>{wrong}
+which the warehouse was started shows it, or its file.</p>{wrong}
 <form method="post" action="{path}"><label for="token">Token</label>
 <input id="token" name="token" type="password" autocomplete="current-password" required autofocus>
 <input name="to" type="hidden" value="{to}"><button>Come in</button></form></main>
@@ -52,9 +52,9 @@ CONTENT = (
 
 def text(to: str = "/", wrong: bool = False) -> bytes:
     """Returns the page, which leads on to the path `to`; `wrong`: the last token was."""
-    told = '<p role="alert">That is not the token.</p>' if wrong else ""
+    notice = '<p role="alert">That is not the token.</p>' if wrong else ""
     return PAGE.format(
-        style=STYLE, script=SCRIPT, path=PATH, to=html.escape(local(to)), wrong=told
+        style=STYLE, script=SCRIPT, path=PATH, to=html.escape(local(to)), wrong=notice
     ).encode()
 
 

@@ -22,7 +22,7 @@ RECENT = 15  # those of the figure itself
 
 
 class Sample(NamedTuple):
-    """Shares and counts at a time [s]; orders: that came in so far."""
+    """Shares and counts at a time [s]; orders: count of those that have come in."""
 
     time: float
     late: float
@@ -31,7 +31,7 @@ class Sample(NamedTuple):
 
 
 class Figures:
-    """Keeps what the shift's messages do not tell of its last hour. One thread at a time."""
+    """Keeps what the shift's messages leave out about its last hour. One thread at a time."""
 
     def __init__(self) -> None:
         self._samples: deque[Sample] = deque()
@@ -82,7 +82,7 @@ def _figure(
         "target": round(target, 4),
         "of": round(of, 1),
         "times": [round(time, 1) for time in times],
-        "values": [round(one, 4) for one in values],
+        "values": [round(value, 4) for value in values],
     }
 
 

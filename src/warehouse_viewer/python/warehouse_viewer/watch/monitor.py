@@ -41,7 +41,7 @@ class Monitor:
         self.stations, self._figures = StationWatch(), Figures()
         self._moments = troubles.Moments()
         self._event = journal.last_id
-        self._told: dict[str, Any] = {}
+        self._noted: dict[str, Any] = {}
         self._read: dict[str, Any] = {}  # the messages that were taken in last
         self.now = 0.0
 
@@ -52,7 +52,7 @@ class Monitor:
             try:
                 self.look()
             except (ValueError, AttributeError, IndexError):
-                LOG.exception("what the warehouse tells can't be read")
+                LOG.exception("the warehouse's messages can't be read")
             await asyncio.sleep(PERIOD)
 
     def look(self) -> None:
@@ -77,9 +77,9 @@ class Monitor:
             waiting = wait_too_long(self._feed.coordinator)
             does = activity(fleet, waiting)
             self.spans.update(self.now, "robot", names, does)
-            self._told["available"] = _available(does, self._feed.coordinator)
+            self._noted["available"] = _available(does, self._feed.coordinator)
         if stations:
-            names = [one.name for one in stations]
+            names = [station.name for station in stations]
             self.spans.update(self.now, "station", names, self.stations.states(stations))
 
     def _note_alarms(self, fleet: FleetState, stations: Collection[Any]) -> None:
@@ -90,20 +90,20 @@ class Monitor:
         self._note("alarms", self.alarms.told())
 
     def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
-        found: list[Trouble] = []
+        pending: list[Trouble] = []
         state = self._feed.coordinator
         if fleet is not None:
-            found += troubles.of_fleet(fleet)
+            pending += troubles.of_fleet(fleet)
         if state:
             self._moments.take_watchdog(state.watchdog, self.now)
-            found += _without(troubles.of_coordinator(state), bool(stations))
+            pending += _without(troubles.of_coordinator(state), bool(stations))
         elif stations:
-            text = "a shift runs, and no coordinator tells what robots do"
-            found.append(Trouble("NO_COORDINATOR", "coordinator", text))
-        found += troubles.of_stations(stations, self.now, self.stations.starved)
-        found += self._moments.lasting(self.now)
+            text = "a shift runs without a coordinator: what robots do is unknown"
+            pending.append(Trouble("NO_COORDINATOR", "coordinator", text))
+        pending += troubles.of_stations(stations, self.now, self.stations.starved)
+        pending += self._moments.lasting(self.now)
         notices = self._shift["notices"]
-        return found + list(troubles.of_notices(notices.notices if notices else ()))
+        return pending + list(troubles.of_notices(notices.notices if notices else ()))
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm; see AlarmBook.see."""
@@ -116,19 +116,19 @@ class Monitor:
         if not (kpis and throughput) or throughput is self._read.get("throughput"):
             return
         self._read["throughput"] = throughput
-        available, robots = self._told.get("available", (1.0, 0))
+        available, robots = self._noted.get("available", (1.0, 0))
         self._figures.update(self.now, kpis, available)
         self._note("figures", self._figures.told(kpis, throughput, available, robots))
 
-    def _note(self, topic: str, told: object) -> None:
-        """Notes what a topic tells now, if it is something else than before."""
-        if self._told.get(topic) != told:
-            self._told[topic] = told
-            self._book.note(topic, topic, told)
+    def _note(self, topic: str, row: object) -> None:
+        """Notes the newest row of a topic, if it differs from the last."""
+        if self._noted.get(topic) != row:
+            self._noted[topic] = row
+            self._book.note(topic, topic, row)
 
     def figures(self) -> dict[str, Any] | None:
         """Returns the four figures as JSON has them; None if no shift has told any."""
-        return self._told.get("figures")
+        return self._noted.get("figures")
 
     def station(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside its own fields."""
@@ -142,6 +142,10 @@ def _available(does: np.ndarray, coordinator: CoordinatorState | None) -> tuple[
     return max(0.0, 1 - (helpless + away) / max(len(does), 1)), len(does)
 
 
-def _without(found: Iterable[Trouble], has_stations: bool) -> list[Trouble]:
-    """Leaves out what stations tell themselves, more exactly."""
-    return [one for one in found if not (has_stations and one.kind == "STATION_UNATTENDED")]
+def _without(pending: Iterable[Trouble], has_stations: bool) -> list[Trouble]:
+    """Leaves out what stations report themselves, more exactly."""
+    return [
+        trouble
+        for trouble in pending
+        if not (has_stations and trouble.kind == "STATION_UNATTENDED")
+    ]

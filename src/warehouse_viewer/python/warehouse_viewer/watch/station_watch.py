@@ -20,7 +20,7 @@ QUARTER = 900.0  # over which pieces per hour are told [s, simulated]
 SAMPLES = 30.0  # between two counts of pieces [s, simulated]
 QUEUED_TOO_LONG = 120.0  # for a robot with a storage unit to stand in a queue [s, simulated]
 UNIT_TOO_LONG = 60.0  # for a station with orders to be without a unit [s, simulated]
-STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
+STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
 
 
 @dataclass
@@ -94,7 +94,7 @@ class StationWatch:
 
     def states(self, stations: Iterable[Any]) -> np.ndarray:
         """Returns the Activity of each station, (n,) uint8."""
-        return np.array([self._past[one.name].state for one in stations], np.uint8)
+        return np.array([self._past[station.name].state for station in stations], np.uint8)
 
     def told(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside the message's own fields."""

@@ -49,11 +49,11 @@ def main() -> None:
     os.nice(NICE)
     end_with_server()
     try:
-        told = {"done": simulated(Path(sys.argv[1]), int(sys.argv[2]))}
+        result = {"done": simulated(Path(sys.argv[1]), int(sys.argv[2]))}
     except (*ERRORS, LayoutFileError, sweep.SweepError, OSError) as error:
         print(dumps({"error": str(error)}), flush=True)
         sys.exit(1)
-    print(dumps(told), flush=True)
+    print(dumps(result), flush=True)
 
 
 if __name__ == "__main__":

@@ -49,16 +49,16 @@ class Scenario:
     events: list[dict[str, Any]] = field(default_factory=list)
 
     @classmethod
-    def of_json(cls, told: object) -> "Scenario":
+    def of_json(cls, fields_of: object) -> "Scenario":
         """Returns the scenario that a page sends. Raises ScenarioError."""
-        known = {one.name for one in fields(cls)}
-        if not isinstance(told, dict) or not told.keys() <= known:
+        known = {field.name for field in fields(cls)}
+        if not isinstance(fields_of, dict) or not fields_of.keys() <= known:
             raise ScenarioError(f"a scenario with {', '.join(sorted(known))} was expected")
-        for key, value in told.items():
+        for key, value in fields_of.items():
             is_right, expected = EXPECTED[key]
             if not is_right(value):
                 raise ScenarioError(f"{key} is {value!r}; {expected} was expected")
-        out = cls(**told)
+        out = cls(**fields_of)
         if out.realism and not out.physics:
             raise ScenarioError("realism: ideal robots have none; physics was expected")
         return out
@@ -96,8 +96,8 @@ class Scenario:
             raise ScenarioError(f"{path}: `out: .` without a grid was expected")
         data.setdefault("physics", True)
         for key, below in (("layout", LAYOUTS), ("orders", ORDERS)):
-            given = str(data.get(key, ""))
-            data[key] = given.replace(f"../{below}/", "", 1) or getattr(cls, key)
+            text = str(data.get(key, ""))
+            data[key] = text.replace(f"../{below}/", "", 1) or getattr(cls, key)
         try:
             return cls.of_json(data)
         except ScenarioError as error:

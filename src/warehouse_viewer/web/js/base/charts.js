@@ -34,7 +34,7 @@ function library() {
   return loading;
 }
 
-/** A chart on a canvas. `look()` tells its {type, datasets, options} in the colours of now; data come
+/** A chart on a canvas. `look()` returns its {type, datasets, options} in the current colours; data come
  *  by show(). */
 export class Plot {
   constructor(canvas, look) {
@@ -63,7 +63,7 @@ export class Plot {
 
   config() {
     const { datasets, options } = this.look();
-    return { data: { datasets: datasets.map((one, i) => ({ ...one, data: this.data[i] ?? [] })) },
+    return { data: { datasets: datasets.map((dataset, i) => ({ ...dataset, data: this.data[i] ?? [] })) },
       options: { animation: false, responsive: true, maintainAspectRatio: false, events: ['mousemove', 'mouseout', 'touchstart'], ...options } };
   }
 
@@ -76,7 +76,7 @@ export class Plot {
   restyle() {
     if (!this.chart) return;
     Object.assign(this.chart.options, this.config().options);
-    this.look().datasets.forEach((one, i) => Object.assign(this.chart.data.datasets[i], one));
+    this.look().datasets.forEach((dataset, i) => Object.assign(this.chart.data.datasets[i], dataset));
     this.chart.update('none');
   }
 }

@@ -78,7 +78,7 @@ export class Connection {
     this.send({ watch: wishes });
   }
 
-  /** Asks for no update sooner than so many seconds after another. */
+  /** Asks for a least duration between two updates [s]. */
   slowTo(gap) {
     if (Math.abs(gap - this.gap) < NOTABLE * Math.max(gap, this.gap)) return;
     this.gap = gap;

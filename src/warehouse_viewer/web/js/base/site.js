@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from page to page: the server tells which pages it has.
+// The way from page to page: the server lists its pages.
 
 import { make, on } from './dom.js';
 
@@ -16,7 +16,7 @@ async function showPages() {
   pages.forEach(({ count, title }, i) => count && followCount(links[i], title, count));
 }
 
-/** A page's link tells how many things wait there for a person. */
+/** Shows on a page's link how many things wait there for a person. */
 async function followCount(link, title, address) {
   const isHere = link.hasAttribute('aria-current');
   if (isHere) on(window, 'count', ({ detail }) => showCount(link, title, detail)); // sooner than others

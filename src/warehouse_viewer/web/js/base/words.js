@@ -69,7 +69,7 @@ export function counted(counts, none = 'none') {
     .map(([name, count]) => `${count} ${spaced(name)}`).join(', ') || none;
 }
 
-/** {kind: count} of events so far, under the names that the log has for them. */
+/** {kind: count} of events as a text, under the names that the log has for them. */
 export function countedEvents(counts) {
   return Object.entries(counts).filter(([, count]) => count > 0)
     .map(([kind, count]) => `${count} × ${kind}`).join(', ') || 'nothing';

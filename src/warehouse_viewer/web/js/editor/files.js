@@ -50,9 +50,9 @@ export class Files {
     await this.attempt(async () => {
       if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
-      const { drawing, told } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
+      const { drawing, told: notes } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
       this.editor.open(drawing);
-      tellLost(told);
+      tellLost(notes);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
     });
   }
@@ -93,9 +93,9 @@ export class Files {
 }
 
 /** Lists what could not be carried over from a file of another format. */
-export function tellLost(told) {
-  if (!told?.length) return;
-  $('lost').replaceChildren(...told.map((text) => make('li', { textContent: text })));
+export function tellLost(notes) {
+  if (!notes?.length) return;
+  $('lost').replaceChildren(...notes.map((text) => make('li', { textContent: text })));
   $('loser').showModal();
 }
 

@@ -222,7 +222,7 @@ export class Hand extends Tool {
   hover() {}
 }
 
-/** By name: [key, word, what it does, tool]. */
+/** The tools by name: [key, word, what it does, tool]. */
 export const TOOLS = {
   pen: ['d', 'draw', 'Draw freehand', (e) => new Pen(e)],
   line: ['l', 'line', 'Draw a straight line', (e) => new Line(e)],

@@ -84,7 +84,7 @@ export class Figures {
   }
 
   showSmall(kpis) {
-    $('figures').replaceChildren(...SMALL.map(([name, text, told]) => (
-      make('div', {}, make('dt', { textContent: text }), make('dd', { textContent: told(kpis[name]) })))));
+    $('figures').replaceChildren(...SMALL.map(([name, text, format]) => (
+      make('div', {}, make('dt', { textContent: text }), make('dd', { textContent: format(kpis[name]) })))));
   }
 }

@@ -55,7 +55,7 @@ export class Gantt {
     clearTimeout(this.timer);
     if (this.isAsking) return;
     this.isAsking = true;
-    const answer = await fetch(`/api/v1/spans?${this.spans.query}`).catch(() => null); // others tell that the server is away
+    const answer = await fetch(`/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
     if (answer?.ok) this.take(await answer.arrayBuffer());
     this.isAsking = false;
     if (this.isInSight && !document.hidden) this.timer = setTimeout(() => this.poll(), PERIOD);
@@ -72,7 +72,7 @@ export class Gantt {
   resort() {
     const row = this.rows[this.chosen]?.row;
     this.rows = sorted(this.spans, $('gantt-show').value, $('gantt-sort').value);
-    this.chosen = row ? this.rows.findIndex((one) => one.row === row || one.row.name === row.name) : -1;
+    this.chosen = row ? this.rows.findIndex((shown) => shown.row === row || shown.row.name === row.name) : -1;
     this.fit();
   }
 
@@ -195,7 +195,7 @@ export class Gantt {
     return this.span ? this.view.x(this.span.time) : undefined;
   }
 
-  /** The row so many below, at the same time. */
+  /** The row a number of rows below, at the same time. */
   toRow(by) {
     const next = Math.max(0, Math.min(this.rows.length - 1, this.chosen + by));
     this.choose(next, this.rows[next].row.indexAt(this.span?.time ?? this.spans.now));

@@ -83,11 +83,11 @@ class Page {
 
   /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
    *  the answer was no. */
-  async act(sent, told = () => '') {
+  async act(sent, textOf = () => '') {
     this.say('');
     try {
       const { message } = await sent;
-      this.say(told(message), 'done');
+      this.say(textOf(message), 'done');
     } catch (error) {
       this.say(error.message);
     }

@@ -14,7 +14,7 @@ export function sharesOf(activities) {
 }
 
 export class RobotShares {
-  /** `fleet` as the server tells it; null without a coordinator. */
+  /** `fleet` from the server; null without a coordinator. */
   show(fleet) {
     $('fleet').textContent = fleet ? '' : 'no coordinator runs';
     if (!fleet) return;

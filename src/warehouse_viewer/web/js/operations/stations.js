@@ -10,7 +10,7 @@ import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js
 
 const UNATTENDED = 60; // [s], simulated
 const CHIPS = 8; // of a queue that are shown
-const HOLDS = 5000; // [ms] in which the server surely tells of what was set
+const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
 export class Stations {
   /** `act(promise)` waits for what was asked of the server. */
@@ -25,7 +25,7 @@ export class Stations {
       $('stations').replaceChildren(...[...this.rows.values()].map(({ element }) => element));
     }
     for (const station of stations) this.rows.get(station.name).show(station, this.now);
-    const open = stations.filter((one) => one.open).length;
+    const open = stations.filter((station) => station.open).length;
     $('stations-sum').textContent = `${open} of ${stations.length} open`;
   }
 
@@ -36,25 +36,25 @@ export class Stations {
   }
 }
 
-/** What was set last. It counts until the server tells of it: a state that comes before may be older. */
-export class Wanted {
-  /** `wanted` is {open, mode}; it was set at `now` [ms]. */
-  note(wanted, now) {
-    Object.assign(this, { wanted, until: now + HOLDS });
+/** What was set last. It counts until the server sends it: a state that comes before may be older. */
+export class Choice {
+  /** `choice` is {open, mode}; it was set at `now` [ms]. */
+  note(choice, now) {
+    Object.assign(this, { choice, until: now + HOLDS });
   }
 
-  /** A station as the server tells of it at `now` [ms], with what was set. */
+  /** A station's state of `now` [ms] from the server, with what was set. */
   upon(station, now) {
-    const { open, mode } = this.wanted ?? station;
-    if (now >= this.until || (station.open === open && station.mode === mode)) this.wanted = undefined;
-    return { ...station, ...this.wanted };
+    const { open, mode } = this.choice ?? station;
+    if (now >= this.until || (station.open === open && station.mode === mode)) this.choice = undefined;
+    return { ...station, ...this.choice };
   }
 }
 
 /** One that stays where it is: a finger may be on its way to a button. */
 class Row {
   constructor(act) {
-    this.wanted = new Wanted();
+    this.choice = new Choice();
     this.name = make('strong');
     this.kind = make('span', { className: 'dim' });
     this.state = make('span', { className: 'badge' });
@@ -80,7 +80,7 @@ class Row {
     for (const button of [this.gate, this.hand]) button.disabled = true;
     try {
       const answer = await put(`/stations/${this.station.name}`, { open, mode });
-      this.wanted.note({ open, mode }, performance.now());
+      this.choice.note({ open, mode }, performance.now());
       this.show(this.station, this.now);
       return answer;
     } finally {
@@ -88,8 +88,8 @@ class Row {
     }
   }
 
-  show(told, now) {
-    const before = this.station, station = this.wanted.upon(told, performance.now());
+  show(newest, now) {
+    const before = this.station, station = this.choice.upon(newest, performance.now());
     this.station = station;
     this.tick(now);
     if (JSON.stringify(before) === JSON.stringify(station)) return;

@@ -38,7 +38,7 @@ export class ThroughputChart {
     this.plot = new Plot($('chart-throughput'), look);
   }
 
-  /** `throughput` as the server tells it, and the upper bound of what is picked [1/h]. */
+  /** `throughput` from the server, and the upper bound of what is picked [1/h]. */
   show(throughput, bound) {
     const picked = pointsOf(throughput, throughput.items_picked);
     const stored = smoothed(pointsOf(throughput, throughput.pieces_stored));

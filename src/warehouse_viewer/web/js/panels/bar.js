@@ -13,7 +13,7 @@ const NEEDS = { pause: 'pause', step: 'step', speed: 'speed', checkpoint: 'check
   restore: 'restore', undo: 'undo', reset: 'reset' };
 
 export class Bar {
-  /** `say(text, kind)` tells the person at the page; `offer(text, label, act)` adds a button. */
+  /** `say(text, kind)` shows the person at the page a text; `offer(text, label, act)` adds a button. */
   constructor(say, offer) {
     Object.assign(this, { say, offer, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]

@@ -9,7 +9,7 @@ import { confirmed } from '../base/question.js';
 const COUNTS = ['robots', 'shelves', 'items'];
 
 export class Builder extends Placer {
-  /** `say(text, kind, at)` tells the person at the page. */
+  /** `say(text, kind, at)` shows the person at the page a text. */
   constructor(say) {
     super('add', { what: 'a robot', hint: 'click a cell for the new robot' }, say);
     this.sizes = { presets: {}, limits: {} };

@@ -18,7 +18,7 @@ const WAITS = 'sent; the simulation is paused: the robot starts when it resumes,
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
-   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, `fallen` the
+   *  `isPaused()`: whether time stands still; `fleet` is the FleetPanel, `fallen` the
    *  FallenItems, and `wayOf(id)` what the coordinator plans for a robot. */
   constructor(world, select, say, { isPaused, fleet, fallen, wayOf }) {
     Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, name: null, robot: null });
@@ -183,8 +183,8 @@ export class Details {
     answer(this.isPaused() ? WAITS : 'sent', 'sent');
     try {
       const { outcome, events } = await command(numberOf(robot), name, fields);
-      const told = LATE.includes(outcome) ? 'not yet done' : outcome;
-      answer([told, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
+      const text = LATE.includes(outcome) ? 'not yet done' : outcome;
+      answer([text, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
     } catch (error) {
       answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
     }

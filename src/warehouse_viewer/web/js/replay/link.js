@@ -29,7 +29,7 @@ export function timeOf({ t, clock }, chunks) {
   if (!known.length) return clock;
   // The last chunk that begins before that time of its day.
   const late = known.map((chunk) => ({ chunk, after: wrapped(clock - ofDay(chunk.wall)) }));
-  const { chunk, after } = late.reduce((best, one) => (one.after < best.after ? one : best));
+  const { chunk, after } = late.reduce((best, other) => (other.after < best.after ? other : best));
   return Math.min(chunk.begin + after * paceOf(chunk, known), chunk.end);
 }
 

@@ -49,8 +49,8 @@ export class Timeline {
   }
 
   async start() {
-    const found = await this.recording.refresh().catch(() => false);
-    if (!found) return;
+    const isNew = await this.recording.refresh().catch(() => false);
+    if (!isNew) return;
     if (!this.recording.chunks.length) {
       setTimeout(() => this.start(), FIRST);
       return;
@@ -91,7 +91,7 @@ export class Timeline {
 
   /** Shows the past from a time on [s]. */
   async enter(time) {
-    this.wanted = time; // a later wish counts
+    this.target = time; // a later wish counts
     if (this.isLive) {
       this.isLive = false;
       this.page.connection.hold();
@@ -100,7 +100,7 @@ export class Timeline {
     }
     await this.fresh;
     if (this.recording.live && time > this.recording.end) await this.refresh();
-    if (this.wanted === time && !this.isLive) await this.player.seek(time);
+    if (this.target === time && !this.isLive) await this.player.seek(time);
   }
 
   async toggle() {
@@ -149,7 +149,7 @@ export class Timeline {
   }
 
   // --- to the page
-  /** The live warehouse is so far [s]. */
+  /** Takes the time of the live warehouse [s]. */
   note(stamp) {
     if (!this.isLive) return;
     const isNews = Math.floor(stamp) !== Math.floor(this.stamp);
@@ -195,7 +195,7 @@ export class Timeline {
   /** The figures of that moment: pieces an hour, orders done and late, robots at work. */
   drawFigures() {
     const { activity } = this.page.world;
-    const working = activity.reduce((sum, one) => sum + (one > RESTING && one < WAITING), 0);
+    const working = activity.reduce((sum, does) => sum + (does > RESTING && does < WAITING), 0);
     const { kpis } = this;
     const rows = [...(kpis ? [['pieces/h', Math.round(kpis.item_throughput_per_hour)],
       ['orders done', kpis.orders_completed], ['late', kpis.orders_late]] : []),

@@ -9,8 +9,8 @@ const NEAR = 6; // of a mark, which the pointer then means [px]
 
 export class Track {
   /** `seek(time)` is called for a time that a person chose, `told(time)` has it as text. */
-  constructor(box, { seek, told }) {
-    Object.assign(this, { box, seek, told, begin: 0, end: 1, time: 0 });
+  constructor(box, { seek, told: describe }) {
+    Object.assign(this, { box, seek, told: describe, begin: 0, end: 1, time: 0 });
     this.played = box.querySelector('.played');
     this.marks = box.querySelector('.marks');
     this.tip = box.querySelector('.at');
@@ -32,10 +32,10 @@ export class Track {
 
   /** Marks, [{time, kind, model, text}], those that lie on each other once. */
   setMarks(marks) {
-    const seen = new Set();
+    const taken = new Set();
     this.shownMarks = marks.filter(({ time, kind }) => {
       const place = `${Math.round(500 * this.part(time))} ${kind}`;
-      return !seen.has(place) && seen.add(place);
+      return !taken.has(place) && taken.add(place);
     });
     this.marks.replaceChildren(...this.shownMarks.map(({ time, kind }) => {
       const out = make('i', { className: kind === 'ALARM' ? 'alarm' : 'trouble' });

@@ -4,7 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { scaleFor, seeAll } from './fit.js';
 
-const NEAR = 7, CLOSE = 60; // of one thing that is looked at: from so far [m], or so large [px/m]
+const NEAR = 7, CLOSE = 60; // distance [m] and scale [px/m] at which one thing is looked at
 const TILT = 0.75; // from the vertical [rad]
 const ABOVE = 500; // where parallel rays begin [m]
 const HEIGHT = 0.6; // of what stands at the floor's edges [m]
@@ -77,7 +77,7 @@ export class Navigator {
     if (place) this.visit(place());
   }
 
-  /** Before each picture; returns whether the camera is under way. */
+  /** Moves the camera before each picture; returns whether it is under way. */
   advance(now = performance.now()) {
     if (this.flight) this.fly(now);
     else if (this.followed) this.goAlong();

@@ -43,7 +43,7 @@ export class Paint {
   }
 }
 
-/** So far behind what lies on it [steps of depth] that from afar it does not shine through. */
+/** A material's offset behind what lies on it [steps of depth]: it does not shine through from afar. */
 export function behind(steps) {
   return { polygonOffset: true, polygonOffsetFactor: steps, polygonOffsetUnits: steps };
 }

@@ -45,9 +45,9 @@ export class News {
     this.isAsking = true;
     try {
       const answer = await fetch('/api/v1/stations', { signal: AbortSignal.timeout(PATIENCE) });
-      const told = await answer.json();
+      const body = await answer.json();
       this.hear(answer.ok ? 'live' : 'idle');
-      if (answer.ok) this.handlers.take(told.stations);
+      if (answer.ok) this.handlers.take(body.stations);
     } catch {
       if (this.state !== 'away') this.handlers.link('away');
       this.state = 'away';

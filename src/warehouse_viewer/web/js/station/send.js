@@ -15,9 +15,9 @@ export function senderOf(station) {
     const sent = kind === 'undo' ? { method: 'DELETE' }
       : { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
     const answer = await fetch(path, { ...sent, signal: AbortSignal.timeout(PATIENCE) });
-    const told = await answer.json();
-    if (answer.ok) return told;
-    if (FINAL.includes(answer.status)) throw new Refused(reasonOf(told.detail));
+    const reply = await answer.json();
+    if (answer.ok) return reply;
+    if (FINAL.includes(answer.status)) throw new Refused(reasonOf(reply.detail));
     if (answer.status === 401) reloadIfLockedOut();
     throw new Error(`${answer.status} ${answer.statusText}`);
   };

@@ -15,11 +15,11 @@ from warehouse_operations.stock.travel import Travel
 
 def run(fleet, until):
     """All events up to a time [s]."""
-    told = []
+    events = []
     while fleet.time < until:
         fleet.step_until(until)
-        told += fleet.take_events()
-    return told
+        events += fleet.take_events()
+    return events
 
 
 @pytest.fixture
@@ -71,15 +71,15 @@ def test_a_transport_from_the_first_event_to_the_last(where):
     answer = fleet.submit(2, "pick1")
     assert answer.accepted
     assert not fleet.submit(2, "pick1").accepted
-    told = run(fleet, 500)
-    kinds = [event.kind for event in told]
+    events = run(fleet, 500)
+    kinds = [event.kind for event in events]
     assert kinds == [Kind.RECEIVED, Kind.ASSIGNED, Kind.LIFTED, Kind.ARRIVED]
     travel, home, beneath = fleet.travel, where.units[2], where.units[1]
     service = where.plan.stations[0].service_cell
     drive = travel.unloaded([beneath], [home])[0][0, 0]
     there = travel.loaded_to(service).seconds[home]
-    assert told[2].stamp == pytest.approx(drive + 2.2)
-    assert told[3].stamp == pytest.approx(drive + 2.2 + there)
+    assert events[2].stamp == pytest.approx(drive + 2.2)
+    assert events[3].stamp == pytest.approx(drive + 2.2 + there)
     assert fleet.release(answer.transport_id) == (True, "")
     assert [event.kind for event in run(fleet, 1000)] == [Kind.RELEASED, Kind.STORED]
     assert fleet.distance_m > 10 and fleet.waiting("pick1") == 0
@@ -91,7 +91,9 @@ def test_units_are_served_in_the_order_in_which_they_come(where):
     asked = [fleet.submit(unit, "pick1").transport_id for unit in (1, 2, 3, 4)]
     arrived, left = [], None
     for _ in asked:
-        (event,) = [one for one in run(fleet, fleet.time + 300) if one.kind == Kind.ARRIVED]
+        (event,) = [
+            event_ for event_ in run(fleet, fleet.time + 300) if event_.kind == Kind.ARRIVED
+        ]
         if left is not None:  # one drives out of the cell, then the next drives in
             assert event.stamp - left == pytest.approx(np.sqrt(2) + 2.0)
         arrived.append(event.transport_id)
@@ -103,8 +105,8 @@ def test_units_are_served_in_the_order_in_which_they_come(where):
 def test_cancelled_units_are_stored_and_a_closed_station_gets_none(where):
     fleet = fleet_of(where, robots=2)
     first = fleet.submit(1, "pick1").transport_id
-    told = run(fleet, 5)
-    assert told[-1].kind == Kind.LIFTED
+    events = run(fleet, 5)
+    assert events[-1].kind == Kind.LIFTED
     fleet.set_open("pick1", False)
     kinds = [event.kind for event in run(fleet, 300)]
     assert kinds == [Kind.CANCELLED, Kind.STORED]

@@ -24,7 +24,7 @@ def shift(policies):
 
 @pytest.mark.parametrize("role", ROLES)
 def test_what_takes_the_usual_is_the_default_policy(role, monkeypatch):
-    """To the piece: the shortlist has it always."""
+    """The figures are equal to the piece: the shortlist always has the usual choice."""
     monkeypatch.setattr(learned, "best_of", lambda scorer: lambda decision: decision.usual)
     figures = shift({role: "learned"})
     assert figures["items_picked"] > 30
@@ -36,8 +36,8 @@ def test_a_file_decides(role, tmp_path):
     scorer.linear(np.random.default_rng(1).standard_normal(decisions.FEATURES)).save(
         tmp_path / "mine.npz", role
     )
-    told = {role: {"name": "learned", "file": str(tmp_path / "mine.npz")}}
-    assert shift(told) != shift({})
+    policies = {role: {"name": "learned", "file": str(tmp_path / "mine.npz")}}
+    assert shift(policies) != shift({})
 
 
 def test_a_file_lies_beside_the_policies(tmp_path, monkeypatch):

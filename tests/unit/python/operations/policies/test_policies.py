@@ -19,7 +19,7 @@ def test_a_shift_with(role, name):
     ops.run(minutes=30)
     figures = ops.kpis()
     assert figures["items_picked"] > 120
-    reserved = sum(one.reserved for one in ops.shift.inventory.bins.values())
+    reserved = sum(bin_.reserved for bin_ in ops.shift.inventory.bins.values())
     allotted = sum(line.allotted for o in ops.shift.orders.values() for line in o.lines)
     assert reserved == allotted
     if name != "never":

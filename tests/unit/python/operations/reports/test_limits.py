@@ -64,7 +64,7 @@ def test_each_hour_has_its_limit(day):
     hours = limits.hours(parts)
     assert [limit for _, limit in hours][:2] == ["the orders and the stock"] * 2
     assert [limit for _, limit in hours][2:4] == ["the picking stations"] * 2
-    assert sum(one.late for one, _ in hours) == pytest.approx(
+    assert sum(hour.late for hour, _ in hours) == pytest.approx(
         group.estimate("late_orders_fraction").mean * (2 * PEAK + 4 * QUIET), rel=0.05
     )
     assert limits.share_of_late(parts, limits.limiting(parts)) > 0.9

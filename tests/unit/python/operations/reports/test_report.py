@@ -95,19 +95,19 @@ def test_simulate_check_and_report(tmp_path, instance, monkeypatch):
     with contextlib.closing(sqlite3.connect(out / "run.db")) as database:
         database.execute("UPDATE bin SET quantity = quantity + 1 WHERE id = 1")
         database.commit()
-    told = node("check", out / "run.db")
-    assert told.returncode == 1 and "its moves add up to" in told.stderr
+    checked = node("check", out / "run.db")
+    assert checked.returncode == 1 and "its moves add up to" in checked.stderr
 
     compared = node("report", out, tmp_path / "again", "--out", tmp_path / "both.html")
     assert compared.returncode == 0 and (tmp_path / "both.html").exists()
     assert node("report", tmp_path / "nothing").stderr.startswith("report: ")
 
     # Without --out none of what is there is written over.
-    one = tmp_path / "comparison.html"
-    one.write_text("kept")
+    path = tmp_path / "comparison.html"
+    path.write_text("kept")
     compared = node("report", out, tmp_path / "again", cwd=tmp_path)
     assert compared.stdout.splitlines()[-1] == "comparison-2.html", compared.stderr
-    assert "<svg" in (tmp_path / "comparison-2.html").read_text() and one.read_text() == "kept"
+    assert "<svg" in (tmp_path / "comparison-2.html").read_text() and path.read_text() == "kept"
     monkeypatch.chdir(out)
     assert report.default_path([out, tmp_path / "again"]) == Path("comparison.html")
     assert (out / "report.html").read_text() == page
@@ -121,16 +121,16 @@ def test_the_days_troubles_are_told_with_what_each_cost(tmp_path, instance):
     assert node("simulate", *common, "--out", out).returncode == 0
     kpis, data = (json.loads((out / name).read_text()) for name in ("kpis.json", "run.json"))
     assert data["robot_h"] == pytest.approx(3 * 3 / 60, rel=0.01)
-    down = sum(one["down_h"] for one in data["failures"])
+    down = sum(failure["down_h"] for failure in data["failures"])
     # Robots with two failures at once are down once.
     assert down >= (1 - kpis["availability"]) * data["robot_h"] > 0
     page = (out / "report.html").read_text()
     section = page[page.index("Troubles of the day") :]
     at_work = data["robot_h"] * (1 - kpis["charging_fraction"]) - down
-    for one in data["failures"]:
-        pieces = kpis["items_picked"] * one["down_h"] / at_work
-        row = f">{one['kind']}</th><td>{one['count']}</td>.*?"
-        row += f"<td>{one['robot_h']:.2f}</td><td>{pieces:.0f}</td></tr>"
+    for failure in data["failures"]:
+        pieces = kpis["items_picked"] * failure["down_h"] / at_work
+        row = f">{failure['kind']}</th><td>{failure['count']}</td>.*?"
+        row += f"<td>{failure['robot_h']:.2f}</td><td>{pieces:.0f}</td></tr>"
         assert re.search(row, section), row
 
 
@@ -185,18 +185,18 @@ grid: {policies.orders: [random, pile-on]}
 
 def test_a_sweep_compares_and_goes_on_after_an_interruption(tmp_path, instance):
     (tmp_path / "sweep.yaml").write_text(SWEEP)
-    wanted = sweep.read(tmp_path / "sweep.yaml")
-    assert len(wanted.jobs) == 8
-    simulate(*wanted.jobs[0])
-    untouched = (wanted.jobs[0][1] / "run.json").stat().st_mtime_ns
+    shifts = sweep.read(tmp_path / "sweep.yaml")
+    assert len(shifts.jobs) == 8
+    simulate(*shifts.jobs[0])
+    untouched = (shifts.jobs[0][1] / "run.json").stat().st_mtime_ns
     done = node("sweep", tmp_path / "sweep.yaml")
     assert done.returncode == 0, done.stderr
     assert "7 of 8 shifts" in done.stderr and "8 of 8 shifts" in done.stderr
     assert "1 of 8 shifts" not in done.stderr
-    assert (wanted.jobs[0][1] / "run.json").stat().st_mtime_ns == untouched
-    found, left = wanted.done()
-    assert len(found) == 8 and not left
-    first, second = comparison.grouped(found)
+    assert (shifts.jobs[0][1] / "run.json").stat().st_mtime_ns == untouched
+    complete, left = shifts.done()
+    assert len(complete) == 8 and not left
+    first, second = comparison.grouped(complete)
     assert (first.label, second.label) == ("orders: random", "orders: pile-on")
     difference = comparison.difference(first, second, "item_throughput_per_hour")
     assert difference.significant and difference.paired and difference.relative > 0.05
@@ -212,9 +212,9 @@ def test_a_sweep_on_a_local_ray_cluster_is_the_same(tmp_path, instance):
         (tmp_path / f"{name}.yaml").write_text(text.replace("results", name))
         done = node("sweep", tmp_path / f"{name}.yaml", *options)
         assert done.returncode == 0, done.stderr
-        found, left = sweep.read(tmp_path / f"{name}.yaml").done()
-        assert len(found) == 2 and not left
-        hashes.append([run.kpis["state_hash"] for run in found])
+        complete, left = sweep.read(tmp_path / f"{name}.yaml").done()
+        assert len(complete) == 2 and not left
+        hashes.append([run.kpis["state_hash"] for run in complete])
     assert hashes[0] == hashes[1]
 
 
@@ -250,9 +250,9 @@ def test_intervals_and_differences_are_students():
     first, second = comparison.grouped([*a, *b])
     estimate = first.estimate("item_throughput_per_hour")
     assert estimate.mean == 12 and estimate.half == pytest.approx(4.3027 * 2 / np.sqrt(3), rel=1e-4)
-    found = comparison.difference(first, second, "item_throughput_per_hour")
-    assert found.estimate.mean == pytest.approx(3.5 / 3) and found.paired
-    assert found.p_value == pytest.approx(0.0198, abs=1e-3) and found.significant
+    difference = comparison.difference(first, second, "item_throughput_per_hour")
+    assert difference.estimate.mean == pytest.approx(3.5 / 3) and difference.paired
+    assert difference.p_value == pytest.approx(0.0198, abs=1e-3) and difference.significant
     assert comparison.difference(*comparison.grouped([a[0], b[0]]), "item_score") is None
     lines = list(report.verdicts(comparison.grouped([a[0], b[0]])))
     assert lines == [
@@ -325,8 +325,8 @@ def test_what_ideal_robots_have_none_of_is_no_figure_of_theirs():
 
 
 def test_ideal_and_simulated_robots_are_told_apart():
-    one, other = (Description(physics=physics).config for physics in (True, False))
-    assert one != other
+    with_physics, other = (Description(physics=physics).config for physics in (True, False))
+    assert with_physics != other
 
 
 @pytest.mark.parametrize(
@@ -354,10 +354,10 @@ def test_the_reports_figures_open_in_a_spreadsheet(tmp_path, instance):
     description = Description(instance=str(instance), seconds=600, physics=False)
     run, _ = simulate(description, tmp_path / "out", write_report=report.write)
     html = (tmp_path / "out" / "report.html").read_text()
-    found = dict(re.findall(r'download="([a-z.]+)" href="data:text/csv;base64,([^"]+)"', html))
+    tables = dict(re.findall(r'download="([a-z.]+)" href="data:text/csv;base64,([^"]+)"', html))
     files = {
         name: list(csv.DictReader(base64.b64decode(content).decode().splitlines()))
-        for name, content in found.items()
+        for name, content in tables.items()
     }
     (row,) = files["figures.csv"]
     assert float(row["item_throughput_per_hour"]) == run.kpis["item_throughput_per_hour"]

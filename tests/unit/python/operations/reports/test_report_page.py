@@ -51,14 +51,14 @@ def file(request, runs, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def chromium():
-    with browser(PATIENCE, (1024, 768)) as one:
-        yield one
+    with browser(PATIENCE, (1024, 768)) as page_:
+        yield page_
 
 
 def printed(chromium, path):
     """The text of each sheet of a page that is printed."""
-    told = chromium.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})
-    path.write_bytes(base64.b64decode(told["data"]))
+    printed_page = chromium.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})
+    path.write_bytes(base64.b64decode(printed_page["data"]))
     text = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, check=True)
     return text.stdout.decode().split("\f")[:-1]
 
@@ -77,8 +77,10 @@ def test_reports_are_for_all_and_look_as_they_did(chromium, file):
 
 
 def test_a_sizing_report_is_for_all(chromium, tmp_path):
-    wanted = "--layout small --orders-per-hour 120 --hours 1 --seeds 2 --late 20% --robots 6 --out"
-    subprocess.run([SIZE, *wanted.split(), tmp_path], check=True, capture_output=True)
+    arguments = (
+        "--layout small --orders-per-hour 120 --hours 1 --seeds 2 --late 20% --robots 6 --out"
+    )
+    subprocess.run([SIZE, *arguments.split(), tmp_path], check=True, capture_output=True)
     chromium.open((tmp_path / "report.html").as_uri())
     assert axe.findings(chromium) == []
 
@@ -87,14 +89,14 @@ def test_the_first_sheet_is_printed_alone_and_no_chart_is_cut(chromium, file, tm
     if not shutil.which("pdftotext"):
         pytest.skip("pdftotext is missing; poppler-utils has it")
     chromium.open(file.as_uri())
-    found = printed(chromium, tmp_path / "report.pdf")
-    assert "Assumptions" in found[0] and "Warm-up" in found[0] and "Seeds" in found[0]
-    assert "Figures" not in found[0] and "Figures" in found[1]
-    assert all(len(text.split()) > 20 for text in found), "a sheet is empty"
+    pages = printed(chromium, tmp_path / "report.pdf")
+    assert "Assumptions" in pages[0] and "Warm-up" in pages[0] and "Seeds" in pages[0]
+    assert "Figures" not in pages[0] and "Figures" in pages[1]
+    assert all(len(text.split()) > 20 for text in pages), "a sheet is empty"
     # What is above a chart and what is below it are on the same sheet.
-    sheet = {words: [i for i, text in enumerate(found) if words in text] for words in ENDS}
+    sheet = {words: [i for i, text in enumerate(pages) if words in text] for words in ENDS}
     for above, below in ENDS.items():
-        below_it = [i for i, text in enumerate(found) if below in text]
+        below_it = [i for i, text in enumerate(pages) if below in text]
         assert sheet[above] and set(sheet[above]) <= set(below_it), (above, sheet[above], below_it)
 
 
@@ -132,10 +134,10 @@ def test_letters_at_the_ends_of_lines_do_not_cover_each_other():
 
 
 def test_what_is_told_is_no_markup():
-    told = page.document(
+    html = page.document(
         "<b>", "<b>", "<b>", page.opening("<b>", "<b>"), page.facts([("<b>", "<i>")])
     )
-    assert "<b>" not in told and "<i>" not in told
+    assert "<b>" not in html and "<i>" not in html
 
 
 def test_a_report_without_the_font_is_a_report(monkeypatch, tmp_path):

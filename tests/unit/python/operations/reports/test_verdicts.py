@@ -40,29 +40,29 @@ def groups(other):
 
 
 def test_the_warm_up_is_left_out():
-    found = groups((11.0, 9.0, 20.0))
-    cut = verdicts.warm_up(found)
+    configurations = groups((11.0, 9.0, 20.0))
+    cut = verdicts.warm_up(configurations)
     assert FILLS - 5 <= cut <= 60
-    figures = verdicts.figures_of(found[0].runs[0], cut)
+    figures = verdicts.figures_of(configurations[0].runs[0], cut)
     assert figures["pieces_per_hour"] == pytest.approx(600, rel=0.01)
     assert figures["metres_per_piece"] == pytest.approx(12, rel=0.03)
     assert figures["turnover_s"] == pytest.approx(13 * 60, rel=0.01)
 
 
 def test_each_figure_has_a_verdict_corrected_for_all():
-    found = groups((11.0, 12.0, 13.0))
-    told = {one.figure: one for one in verdicts.verdicts(found)}
-    assert list(told) == ["pieces_per_hour", "metres_per_piece", "turnover_s"]
-    cut = verdicts.warm_up(found)
+    configurations = groups((11.0, 12.0, 13.0))
+    by_figure = {verdict.figure: verdict for verdict in verdicts.verdicts(configurations)}
+    assert list(by_figure) == ["pieces_per_hour", "metres_per_piece", "turnover_s"]
+    cut = verdicts.warm_up(configurations)
     alone = []
-    for name in told:
-        a, b = ([verdicts.figures_of(r, cut)[name] for r in group.runs] for group in found)
+    for name in by_figure:
+        a, b = ([verdicts.figures_of(r, cut)[name] for r in group.runs] for group in configurations)
         alone.append(float(stats.ttest_ind(b, a, equal_var=False).pvalue))
     corrected = comparison.holm(alone)
-    assert [one.p_value for one in told.values()] == pytest.approx(corrected)
-    assert told["pieces_per_hour"].difference.significant
-    assert not told["turnover_s"].difference.significant
-    text = str(told["pieces_per_hour"])
+    assert [verdict.p_value for verdict in by_figure.values()] == pytest.approx(corrected)
+    assert by_figure["pieces_per_hour"].difference.significant
+    assert not by_figure["turnover_s"].difference.significant
+    text = str(by_figure["pieces_per_hour"])
     assert text.startswith("orders: b: +10.") and "pieces an hour against orders: a (sign" in text
     assert "p < 1e-6" in text and "95 %: +" in text and "effect +" in text
 
@@ -71,32 +71,32 @@ def test_corrected_p_and_interval_say_the_same():
     rng = np.random.default_rng(2)
     checked = set()
     for _ in range(200):
-        found = [
+        differences = [
             comparison.difference_of(
                 dict(enumerate(rng.normal(10, 1, 5))), dict(enumerate(rng.normal(10 + d, 1, 5)))
             )
             for d in (0.0, 1.5, 3.0)
         ]
-        corrected = comparison.holm([one.p_value for one in found])
-        for one, p_value in zip(found, corrected):
-            now = one.corrected(p_value)
+        corrected = comparison.holm([difference.p_value for difference in differences])
+        for difference, p_value in zip(differences, corrected):
+            now = difference.corrected(p_value)
             assert now.significant == (abs(now.estimate.mean) > now.estimate.half)
-            checked.add((one.significant, now.significant))
+            checked.add((difference.significant, now.significant))
     # Some are significant alone, and no more among others: their interval reaches 0, too.
     assert {(True, True), (True, False), (False, False)} <= checked
     # Nothing else is corrected with it: Student's own.
-    alone = found[0].corrected(found[0].p_value)
-    assert alone.estimate.half == pytest.approx(found[0].estimate.half)
+    alone = differences[0].corrected(differences[0].p_value)
+    assert alone.estimate.half == pytest.approx(differences[0].estimate.half)
 
 
 def test_two_seeds_have_no_interval_and_no_significance():
     first = [run("a", seed, 10.0, 12.0, 13.0) for seed in (1, 2)]
     other = [run("b", seed, 17.8, 12.0, 13.0) for seed in (1, 2)]
-    found = comparison.grouped([*first, *other])
-    assert verdicts.verdicts(found) == []
-    assert np.isnan(found[0].estimate("item_throughput_per_hour").half)
-    told = list(report.verdicts(found))
-    assert told == [
+    configurations = comparison.grouped([*first, *other])
+    assert verdicts.verdicts(configurations) == []
+    assert np.isnan(configurations[0].estimate("item_throughput_per_hour").half)
+    sentences = list(report.verdicts(configurations))
+    assert sentences == [
         "orders: b: +0.0 % pieces an hour against orders: a"
         " (2 runs: chance can't be told apart; 3 seeds or more can)"
     ]
@@ -118,8 +118,10 @@ def test_equal_shifts_do_not_differ(tmp_path):
     first, second = (
         comparison.Group(name, tuple(made[i : i + 3])) for i, name in ((0, "a"), (3, "b"))
     )
-    told = verdicts.verdicts([first, second])
-    assert len(told) == 3 and all(one.p_value == 1 and not one.difference.effect for one in told)
+    all_verdicts = verdicts.verdicts([first, second])
+    assert len(all_verdicts) == 3 and all(
+        verdict.p_value == 1 and not verdict.difference.effect for verdict in all_verdicts
+    )
     assert all("not significant, p = 1" in line for line in report.verdicts([first, second]))
     # What is left after the warm-up adds up to what kpis.json has of the whole shift.
     shift = made[0]

@@ -60,10 +60,10 @@ def _token(data, random):
     tokens = list(TOKEN.finditer(text))
     if not tokens:
         return data
-    one = tokens[random.integers(len(tokens))]
+    token = tokens[random.integers(len(tokens))]
     other = tokens[random.integers(len(tokens))].group()
     new = other if random.random() < 0.3 else ODD[random.integers(len(ODD))]
-    return (text[: one.start()] + new + text[one.end() :]).encode(errors="surrogateescape")
+    return (text[: token.start()] + new + text[token.end() :]).encode(errors="surrogateescape")
 
 
 def _line(data, random):

@@ -20,8 +20,8 @@ from warehouse_operations.store.locks import InUseError
 NORTH = str(ROOT / "tests" / "layouts" / "north.layout.yaml")
 
 
-def opened(**given):
-    return open_operations(Description(size="", physics=False, **given))
+def opened(**options):
+    return open_operations(Description(size="", physics=False, **options))
 
 
 def test_the_file_says_how_stations_work():
@@ -33,10 +33,10 @@ def test_the_file_says_how_stations_work():
 
 def test_a_station_of_both_kinds_has_pickers_and_hours(tmp_path):
     text = Path(NORTH).read_text(encoding="utf-8").replace("{stock: north.csv}", "40")
-    told = "name: pick1, kind: both, pickers: 2, seconds_a_line: 3, hours: [[0, 1.5]],"
+    settings = "name: pick1, kind: both, pickers: 2, seconds_a_line: 3, hours: [[0, 1.5]],"
     assert "name: pick1, kind: pick," in text
     path = tmp_path / "both.layout.yaml"
-    path.write_text(text.replace("name: pick1, kind: pick,", told), encoding="utf-8")
+    path.write_text(text.replace("name: pick1, kind: pick,", settings), encoding="utf-8")
     with opened(layout=str(path), orders="none") as ops:
         station = ops.shift.station("pick1")
         assert (station.pickers, station.seconds_a_line) == (2, 3)
@@ -62,8 +62,8 @@ def test_the_stock_is_that_of_its_file():
 
 def test_policies_that_are_told_win_over_those_of_the_file():
     assert Description(layout=NORTH).config["policies"]["orders"] == "random"
-    told = Description(layout=NORTH, policies={"orders": "pile-on"}).config["policies"]
-    assert told["orders"] == "pile-on"
+    policies = Description(layout=NORTH, policies={"orders": "pile-on"}).config["policies"]
+    assert policies["orders"] == "pile-on"
 
 
 def test_orders_are_picked_with_physics(tmp_path):
@@ -82,14 +82,14 @@ def test_robots_and_open_stations_vary():
         assert (kpis["robots"], kpis["pick_stations"]) == (30, 2)
         assert kpis["items_picked"] > 100
         assert not any(s.visits for s in ops.shift.picking.stations[2:])
-    for given, error, sentence in (
+    for options, error, sentence in (
         ({"layout": NORTH, "robots": 99}, LayoutFileError, "99 robots, but there is room for 23"),
         ({"layout": NORTH, "stations": 2}, InstanceError, "stations is 2; north hall has 1"),
         ({"instance": "x", "robots": 2}, InstanceError, "robots: an instance has its own"),
         ({"layout": "nix.layout.yaml"}, LayoutFileError, "nix.layout.yaml: No such file"),
     ):
         with pytest.raises(error, match=sentence):
-            opened(**given)
+            opened(**options)
 
 
 def test_a_sweep_varies_layouts_robots_and_stations(tmp_path):
@@ -99,16 +99,16 @@ def test_a_sweep_varies_layouts_robots_and_stations(tmp_path):
         f"  layout: [{NORTH}, medium]\n  robots: [2, 4]\n  stations: [1]\n"
     )
     path.write_text(text)
-    wanted = sweep.read(path)
-    found, failures = sweep.run_all(wanted, 2)
+    shifts = sweep.read(path)
+    complete, failures = sweep.run_all(shifts, 2)
     assert failures == []
-    assert [(r.config["site"], r.kpis["robots"], r.kpis["pick_stations"]) for r in found] == [
+    assert [(r.config["site"], r.kpis["robots"], r.kpis["pick_stations"]) for r in complete] == [
         ("north hall", 2, 1),
         ("north hall", 4, 1),
         ("medium", 2, 1),
         ("medium", 4, 1),
     ]
-    assert not wanted.done()[1]
+    assert not shifts.done()[1]
 
 
 @pytest.mark.parametrize(

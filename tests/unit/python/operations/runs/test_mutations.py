@@ -97,8 +97,8 @@ def complaint(path, content):
     path.write_bytes(content)
     try:
         read(path)
-    except error as told:
-        return str(told)
+    except error as refusal:
+        return str(refusal)
     return ""
 
 
@@ -109,11 +109,13 @@ def test_a_damaged_file_is_read_or_refused_in_words(tmp_path, name):
     for seed in range(COUNT):
         content = mutated(text, np.random.default_rng(seed))
         try:
-            told = complaint(path, content)
+            text_of_error = complaint(path, content)
         except Exception as error:
             raise AssertionError(f"seed {seed}: {content.decode(errors='replace')}") from error
-        assert not told or name in told, f"seed {seed}: {told}"
-        assert "Traceback" not in told and " object at 0x" not in told, f"seed {seed}: {told}"
+        assert not text_of_error or name in text_of_error, f"seed {seed}: {text_of_error}"
+        assert "Traceback" not in text_of_error and " object at 0x" not in text_of_error, (
+            f"seed {seed}: {text_of_error}"
+        )
 
 
 @pytest.mark.parametrize(
@@ -141,8 +143,8 @@ def test_a_damaged_file_is_read_or_refused_in_words(tmp_path, name):
 )
 def test_what_is_wrong_is_said_in_a_sentence(tmp_path, name, old, new, message):
     text = text_of(name, tmp_path).replace(old, new, 1)
-    told = complaint(tmp_path / name, text.encode(errors="surrogateescape"))
-    assert message in told and (told == "") == (message == ""), told
+    text_of_error = complaint(tmp_path / name, text.encode(errors="surrogateescape"))
+    assert message in text_of_error and (text_of_error == "") == (message == ""), text_of_error
 
 
 def test_an_instance_in_an_encoding_that_nobody_knows(tmp_path):

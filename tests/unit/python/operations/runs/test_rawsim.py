@@ -39,14 +39,14 @@ def test_an_instance(tmp_path, spacing, old):
 def test_twenty_shifts_of_ten_minutes_are_above_the_published_one(tmp_path):
     """16 bots, 2 + 2 stations, 600 s: RAWSim-O picks 110 pieces, 96 lines, 68 orders."""
     site = read_instance(write_instance(tmp_path / "a.xinst"))
-    found = []
+    rows = []
     for seed in range(1, 21):
         ops = Operations(site=site, seed=seed, physics=False)
         ops.run(seconds=600)
         figures = ops.kpis()
-        found.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
+        rows.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
         assert figures["item_upper_bound_per_hour"] == pytest.approx(720)
-    assert (np.mean(found, axis=0) > (110, 96, 68)).all()
+    assert (np.mean(rows, axis=0) > (110, 96, 68)).all()
 
 
 SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration><Seed>3</Seed>
@@ -60,9 +60,14 @@ SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration>
 def test_settings(tmp_path):
     path = tmp_path / "a.xsett"
     path.write_text(SETTINGS.format(mode="Fill", begin=0.5))
-    told = read_settings(path)
-    assert (told.orders, told.duration_s, told.seed, told.level) == ("fill:50", 600, 3, 0.6)
-    assert told.policies["replenishment"] == {
+    settings = read_settings(path)
+    assert (settings.orders, settings.duration_s, settings.seed, settings.level) == (
+        "fill:50",
+        600,
+        3,
+        0.6,
+    )
+    assert settings.policies["replenishment"] == {
         "name": "threshold",
         "begin": 0.5,
         "stop": 0.8,
@@ -178,9 +183,9 @@ def with_physics(path, seed, minutes=10):
 def test_shifts_with_physics_are_above_the_published_one(tmp_path):
     path = write_instance(tmp_path / "a.xinst", spacing=1.04)
     seeds = range(1, int(os.environ.get("INSTANCE_SEEDS", "3")) + 1)
-    found = [with_physics(path, seed) for seed in seeds]
-    assert np.mean([figures["items_picked"] for figures in found]) > 110
-    assert np.mean([figures["bundles_stored"] for figures in found]) > 60
+    runs = [with_physics(path, seed) for seed in seeds]
+    assert np.mean([figures["items_picked"] for figures in runs]) > 110
+    assert np.mean([figures["bundles_stored"] for figures in runs]) > 60
 
 
 def test_halls_buffers_and_winding_queues(tmp_path):

@@ -23,18 +23,18 @@ def test_changes_are_those_that_the_database_keeps(tmp_path):
     ) as ops:
         shift = ops.shift
         changes = shift.journal = ChangeJournal(shift.journal)
-        stock = {one.item: one.quantity for one in shift.inventory.bins.values()}
+        stock = {bin_.item: bin_.quantity for bin_ in shift.inventory.bins.values()}
         orders = {}
         for _ in range(60):
             ops.run(minutes=1)
             for order in changes.take_orders():
                 picked = tuple(line.picked for line in order.lines)
                 orders[order.order_id] = int(order.state), order.station, picked
-            stock.update((one.item, one.quantity) for one in changes.take_bins())
+            stock.update((bin_.item, bin_.quantity) for bin_ in changes.take_bins())
         assert (changes.take_orders(), changes.take_bins()) == ([], [])
     engine = open_engine(tmp_path / "a.db")
-    total, found = find_orders(engine, limit=10_000)
-    kept = {row.id: (row.state, row.station, tuple(ln.picked for ln in ls)) for row, ls in found}
+    total, rows = find_orders(engine, limit=10_000)
+    kept = {row.id: (row.state, row.station, tuple(ln.picked for ln in ls)) for row, ls in rows}
     first = min(orders)  # those before were there when it began
     assert total > 200 and {n: o for n, o in kept.items() if n >= first} == orders
     with engine.connect() as connection:
@@ -67,13 +67,13 @@ def test_what_does_not_come_to_be_put_in_stays_out_of_the_stock(tmp_path, damage
         ops.run(minutes=10)
         visit = shift.station(REPLENISH).here
         bundle = visit.puts[0]
-        stock, one, told = bundle.bin.quantity, bundle.bin, bundle.quantity
-        assert shift.report_short(REPLENISH, bundle.sku, told + 1, damaged)[0] is False
+        stock, bin_, quantity = bundle.bin.quantity, bundle.bin, bundle.quantity
+        assert shift.report_short(REPLENISH, bundle.sku, quantity + 1, damaged)[0] is False
         assert shift.report_short(REPLENISH, "sku-none", 1, damaged)[0] is False
         assert shift.report_short("nowhere", bundle.sku, 1, damaged)[0] is False
         assert shift.report_short(REPLENISH, bundle.sku, 1, damaged) == (True, "")
-        assert shift.confirm_pick(REPLENISH, bundle.sku, told - 1) == (True, "")
-        assert one.quantity == stock + told - 1
+        assert shift.confirm_pick(REPLENISH, bundle.sku, quantity - 1) == (True, "")
+        assert bin_.quantity == stock + quantity - 1
         while visit.here:  # nothing of the others has come
             last = visit.puts[0]
             assert shift.report_short(REPLENISH, last.sku, last.quantity, damaged) == (True, "")

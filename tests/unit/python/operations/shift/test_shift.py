@@ -35,16 +35,16 @@ def shift_on(database=None, **options):
 
 def events_of(ops):
     """What is told of orders from now on: (order id, kind, sku, quantity, station, unit, text)."""
-    told = []
-    ops.shift.on_order_event = lambda order, *rest: told.append((order.order_id, *rest))
-    return told
+    events = []
+    ops.shift.on_order_event = lambda order, *rest: events.append((order.order_id, *rest))
+    return events
 
 
 def promised(ops):
     """Pieces that bins promise, and pieces that order lines were promised."""
     lines = [line for order in ops.shift.orders.values() for line in order.lines]
     bins = ops.shift.inventory.bins.values()
-    return sum(one.reserved for one in bins), sum(line.allotted for line in lines)
+    return sum(bin_.reserved for bin_ in bins), sum(line.allotted for line in lines)
 
 
 def test_an_hour_balances_to_the_piece_and_repeats_to_the_last_event(tmp_path):
@@ -58,8 +58,8 @@ def test_an_hour_balances_to_the_piece_and_repeats_to_the_last_event(tmp_path):
             assert promised(ops)[0] == promised(ops)[1]
         engine = open_engine(tmp_path / name)
         assert check.faults(engine) == []
-        found = check.summary(engine)
-        assert (found["pieces"], found["completed"]) == (pieces, tally.orders_completed)
+        summary = check.summary(engine)
+        assert (summary["pieces"], summary["completed"]) == (pieces, tally.orders_completed)
     assert hashes[0] == hashes[1] != hashes[2]
     assert tally.items_picked > 600 and tally.bundles_stored > 50
 
@@ -169,8 +169,8 @@ def test_times_of_orders_go_on_in_the_next_run(tmp_path):
 
 
 def is_late(engine, now):
-    _, found = queries.find_orders(engine, late_at=now)
-    return [row.reference for row, _ in found]
+    _, late = queries.find_orders(engine, late_at=now)
+    return [row.reference for row, _ in late]
 
 
 def test_what_was_done_is_known_to_the_next_run(tmp_path):
@@ -217,7 +217,7 @@ def test_storage_units_that_are_gone_are_written_off_and_new_ones_taken_in(
     path, whole = tmp_path / "run.db", site()
     with Operations(site=whole, database=path, orders="fill:40") as ops:
         ops.run(minutes=7)
-        lost = sum(one.quantity for unit in (3, 8) for one in ops.shift.inventory.of_unit[unit])
+        lost = sum(bin_.quantity for unit in (3, 8) for bin_ in ops.shift.inventory.of_unit[unit])
     engine = open_engine(path)
     if not layout_is_known:
         with engine.begin() as connection:
@@ -242,7 +242,7 @@ def test_storage_units_that_are_gone_are_written_off_and_new_ones_taken_in(
         assert notice == "6 bins of storage units 8, 999 are new, and still empty"
         assert not any(ops.shift.inventory.of_unit[8][i].quantity for i in range(5))
         ops.run(hours=3)
-        assert any(one.quantity for one in ops.shift.inventory.of_unit[8])
+        assert any(bin_.quantity for bin_ in ops.shift.inventory.of_unit[8])
     assert check.faults(engine) == []
 
 
@@ -250,8 +250,8 @@ def test_a_sku_that_lost_all_its_bins_finds_another(tmp_path):
     path, whole = tmp_path / "run.db", site()
     with Operations(site=whole, database=path, orders="none") as ops:
         homes = {}
-        for one in ops.shift.inventory.bins.values():
-            homes.setdefault(one.sku, set()).add(one.unit)
+        for bin_ in ops.shift.inventory.bins.values():
+            homes.setdefault(bin_.sku, set()).add(bin_.unit)
     sku, units = min(homes.items(), key=lambda pair: len(pair[1]))
     with Operations(site=without(whole, units), database=path, orders="fill:60") as ops:
         order, _ = ops.shift.submit([(sku, 2)])
@@ -263,14 +263,14 @@ def test_a_sku_that_lost_all_its_bins_finds_another(tmp_path):
 def test_an_item_on_another_unit_keeps_its_pieces(tmp_path):
     path, whole = tmp_path / "run.db", site()
     with Operations(site=whole, database=path, orders="none") as ops:
-        (one,) = [one for one in ops.shift.inventory.bins.values() if one.item == "item7"]
-        pieces = one.quantity
+        (bin_,) = [bin_ for bin_ in ops.shift.inventory.bins.values() if bin_.item == "item7"]
+        pieces = bin_.quantity
     items = [(item, 11 if item == "item7" else unit) for item, unit in whole.items]
     with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
         (notice,) = ops.shift.notices
         assert notice == "item7 of storage unit 11 is on another storage unit than before"
-        (one,) = [one for one in ops.shift.inventory.of_unit[11] if one.item == "item7"]
-        assert one.quantity == pieces
+        (bin_,) = [bin_ for bin_ in ops.shift.inventory.of_unit[11] if bin_.item == "item7"]
+        assert bin_.quantity == pieces
     with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
         assert not list(ops.shift.notices)
     assert check.faults(open_engine(path)) == []
@@ -286,8 +286,8 @@ def test_a_bin_that_is_gone_from_the_floor_is_written_off(tmp_path):
         assert "item7 of storage unit 2 is gone: " in next(iter(ops.shift.notices))
     engine = open_engine(path)
     with Operations(site=whole, database=path, orders="none") as ops:
-        (one,) = [one for one in ops.shift.inventory.of_unit[2] if one.item == "item7"]
-        assert (one.quantity, one.fallen) == (0, None)
+        (bin_,) = [bin_ for bin_ in ops.shift.inventory.of_unit[2] if bin_.item == "item7"]
+        assert (bin_.quantity, bin_.fallen) == (0, None)
     assert check.faults(engine) == []
 
 
@@ -305,13 +305,13 @@ def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_pat
 
 def test_an_order_is_picked_told_and_complete():
     ops = shift_on(orders="none")
-    told = events_of(ops)
+    events = events_of(ops)
     order, message = ops.shift.submit([("sku-1", 2), ("sku-2", 1)], reference="A-1")
     ops.run(minutes=10)
     assert message == "" and order.state == OrderState.COMPLETED
-    kinds = [kind for _, kind, *_ in told]
+    kinds = [kind for _, kind, *_ in events]
     assert kinds == [0, 1, 2, 2, 2, 3]
-    assert sum(quantity for _, kind, _, quantity, *_ in told if kind == 2) == 3
+    assert sum(quantity for _, kind, _, quantity, *_ in events if kind == 2) == 3
 
 
 @pytest.mark.parametrize(
@@ -423,11 +423,11 @@ def test_the_orders_of_a_file_come_in_parts(tmp_path, monkeypatch):
 
 def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():
     ops = shift_on(orders="none")
-    told = events_of(ops)
+    events = events_of(ops)
     there = ops.shift.inventory.available("sku-1")
     greedy, message = ops.shift.submit([("sku-1", there + 5)])
     assert message == "waits for replenishment of sku-1"
-    assert told[-1][1] == OrderEventKind.SHORT
+    assert events[-1][1] == OrderEventKind.SHORT
     modest, _ = ops.shift.submit([("sku-2", 1)])
     ops.run(minutes=15)
     assert modest.state == OrderState.COMPLETED
@@ -507,13 +507,13 @@ def test_a_person_confirms_what_was_picked():
 def test_what_is_not_there_is_written_off_and_brought_from_elsewhere(tmp_path, damaged):
     ops = shift_on(tmp_path / "run.db", orders="fill:30")
     station, pick = by_hand(ops)
-    told = events_of(ops)
-    one, order, stock = pick.bin, pick.line.order, pick.bin.quantity
+    events = events_of(ops)
+    bin_, order, stock = pick.bin, pick.line.order, pick.bin.quantity
     assert ops.shift.report_short(PICK, pick.line.sku, stock + 1)[0] is False
     assert ops.shift.report_short(PICK, pick.line.sku, stock, damaged) == (True, "")
-    assert one.quantity == 0 and promised(ops)[0] == promised(ops)[1]
-    assert told[0][1] == OrderEventKind.SHORT
-    assert told[0][-1] == ("damaged" if damaged else "short")
+    assert bin_.quantity == 0 and promised(ops)[0] == promised(ops)[1]
+    assert events[0][1] == OrderEventKind.SHORT
+    assert events[0][-1] == ("damaged" if damaged else "short")
     ops.shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=1)
     assert order.state == OrderState.COMPLETED
@@ -581,7 +581,7 @@ def test_policies_decide_for_simulated_robots():
     now = np.column_stack([ops.fleet.world.fleet.x, ops.fleet.world.fleet.y])
     assert np.allclose(now, parked, atol=0.05)
     assert ops.shift.floor.cells == ops.site.units
-    lanes = {one.name: one.cells for one in ops.site.plan.stations}
+    lanes = {station.name: station.cells for station in ops.site.plan.stations}
     passed = ops.fleet.passages().ravel()
     assert sum(passed[cells].min() for cells in lanes.values()) == ops.kpis()["trips"] > 0
     assert ops.fleet.waiting_map().sum() > 0
@@ -600,11 +600,11 @@ def test_when_no_more_orders_come_all_are_completed(seed):
 def test_a_sku_that_is_sold_out_keeps_a_bin_to_be_refilled_in():
     ops = shift_on(orders="none")
     inventory = ops.shift.inventory
-    own = [one for one in inventory.bins.values() if one.sku == "sku-26"]
-    for one in own:
-        inventory.move(one, one.sku, -one.quantity, Reason.DAMAGED)
-    for one in own[1:]:
-        inventory.expect(one, "sku-1", 1)
+    own = [bin_ for bin_ in inventory.bins.values() if bin_.sku == "sku-26"]
+    for bin_ in own:
+        inventory.move(bin_, bin_.sku, -bin_.quantity, Reason.DAMAGED)
+    for bin_ in own[1:]:
+        inventory.expect(bin_, "sku-1", 1)
     assert not inventory.takes(own[0], "sku-1", 1) and inventory.takes(own[0], "sku-26", 12)
 
 

@@ -40,7 +40,7 @@ def report_of(pick, quantity=None, outcome=PickOutcome.DONE):
 def promised(ops):
     lines = [line for order in ops.shift.orders.values() for line in order.lines]
     bins = ops.shift.inventory.bins.values()
-    return sum(one.reserved for one in bins), sum(line.allotted for line in lines)
+    return sum(bin_.reserved for bin_ in bins), sum(line.allotted for line in lines)
 
 
 def test_a_report_that_comes_twice_is_carried_out_once():
@@ -96,17 +96,17 @@ def test_what_is_left_of_a_pick_is_another_one():
 def test_a_write_off_is_taken_back_by_a_move_of_its_own(tmp_path, outcome):
     ops, station = by_hand(tmp_path / "run.db", least=2)
     pick = station.here.picks[0]
-    one, order, stock = pick.bin, pick.line.order, pick.bin.quantity
+    bin_, order, stock = pick.bin, pick.line.order, pick.bin.quantity
     report = report_of(pick, 0 if outcome == PickOutcome.SHORT else 1, outcome)
     answer = ops.shift.tasks.report(report)
     lacking = stock if outcome == PickOutcome.SHORT else 1
     assert (answer.success, answer.quantity) == (True, lacking), answer
-    assert one.quantity == stock - lacking
+    assert bin_.quantity == stock - lacking
     for _ in range(2):
         assert ops.shift.tasks.undo(PICK, report.sequence) == (True, "")
-        assert one.quantity == stock and promised(ops)[0] == promised(ops)[1]
+        assert bin_.quantity == stock and promised(ops)[0] == promised(ops)[1]
     again = station.here.picks[0]
-    assert (again.bin, again.line.order) == (one, order)  # it is asked for again, the next thing
+    assert (again.bin, again.line.order) == (bin_, order)  # it is asked for again, the next thing
     assert again.sequence != report.sequence
     assert ops.shift.tasks.undo(PICK, again.sequence)[0] is False
     assert ops.shift.tasks.undo("pick2", report.sequence)[0] is False
@@ -130,15 +130,15 @@ def test_a_write_off_is_for_good_after_a_while_and_where_the_place_is_taken():
     pick = station.here.picks[0]
     report = report_of(pick, 1, PickOutcome.DAMAGED)
     assert ops.shift.tasks.report(report).success
-    one, stock = pick.bin, pick.bin.quantity
-    one.capacity = stock
+    bin_, stock = pick.bin, pick.bin.quantity
+    bin_.capacity = stock
     refused, text = ops.shift.tasks.undo(PICK, report.sequence)
-    assert not refused and text == f"{one.item} has no room for 1 of {one.sku} any more"
-    one.capacity += 1
+    assert not refused and text == f"{bin_.item} has no room for 1 of {bin_.sku} any more"
+    bin_.capacity += 1
     ops.run(minutes=(UNDO_WITHIN + 1) / 60)
     refused, text = ops.shift.tasks.undo(PICK, report.sequence)
     assert not refused and text == "it was written off more than 60 s ago"
-    assert one.quantity == stock
+    assert bin_.quantity == stock
 
 
 def test_of_a_bundle_what_stays_out_can_go_in_after_all():
@@ -209,8 +209,8 @@ def test_a_report_is_known_after_a_restart(tmp_path):
     engine = open_engine(database)
     tasks = Operations(site=site(), physics=False, orders="none").shift.tasks
     tasks.remember(stored.reports(engine, most=10))
-    found = tasks.report(report)
-    assert (found.success, found.quantity) == (True, answer.quantity)
+    repeated = tasks.report(report)
+    assert (repeated.success, repeated.quantity) == (True, answer.quantity)
     assert stored.reports(engine, most=0) == [] and check.faults(engine) == []
     engine.dispose()
 
@@ -219,17 +219,17 @@ def test_what_was_picked_is_taken_back_while_its_unit_is_there(tmp_path):
     ops, station = by_hand(tmp_path / "run.db", least=2)
     shift, unit = ops.shift, station.here.unit
     pick = station.here.picks[0]
-    order, one, pieces, tote = pick.line.order, pick.bin, pick.quantity, pick.line.order.tote
-    before = one.quantity, station.pieces, shift.tally.items_picked, promised(ops)
+    order, bin_, pieces, tote = pick.line.order, pick.bin, pick.quantity, pick.line.order.tote
+    before = bin_.quantity, station.pieces, shift.tally.items_picked, promised(ops)
     report = report_of(pick)
     assert shift.tasks.report(report).success
     for _ in range(2):  # a repetition changes nothing
         assert shift.tasks.undo(PICK, report.sequence) == (True, "")
         assert before == (
-            one.quantity, station.pieces, shift.tally.items_picked, promised(ops)
+            bin_.quantity, station.pieces, shift.tally.items_picked, promised(ops)
         )  # fmt: skip
     again = station.here.picks[0]
-    assert (again.line.order, again.bin, again.quantity) == (order, one, pieces)
+    assert (again.line.order, again.bin, again.quantity) == (order, bin_, pieces)
     assert order.state == OrderState.ASSIGNED and order.tote == tote
     assert again.sequence != report.sequence
     last = None
@@ -268,7 +268,7 @@ def test_an_order_that_was_completed_is_open_again_in_its_tote(tmp_path):
     assert (order.state, order.completed, shift.tally.orders_completed) == (1, 0.0, done - 1)
     assert station.orders[order.order_id] is order and station.totes.at(tote) is order
     assert len(station.orders) <= station.capacity
-    assert len({one.tote for one in station.orders.values()}) == len(station.orders)
+    assert len({each.tote for each in station.orders.values()}) == len(station.orders)
     shift.set_station(PICK, True, StationMode.AUTOMATIC)
     ops.run(hours=2)
     assert order.state == OrderState.COMPLETED
@@ -286,9 +286,9 @@ def test_a_complete_order_stays_so_once_another_one_has_pieces_in_its_place():
         taken.tote = order.tote
         station.totes.take_again(taken)
     taken.lines[0].picked = 1
-    told = ops.shift.tasks.undo(PICK, report.sequence)
+    undone = ops.shift.tasks.undo(PICK, report.sequence)
     text = f"{order.reference} is complete; tote {order.tote} is {taken.reference}'s by now"
-    assert told == (False, text)
+    assert undone == (False, text)
 
 
 def test_a_bundle_that_was_put_in_comes_out_again(tmp_path):
@@ -325,7 +325,7 @@ def test_totes_keep_their_places_and_are_changed_in_turn():
     assert [order.tote for order in orders[:4]] == [1, 2, 3, 0]
     totes.leave(orders[1])
     totes.leave(orders[0])
-    assert [one.order_id for one in totes] == [3] and totes.at(2) is None
+    assert [order.order_id for order in totes] == [3] and totes.at(2) is None
     totes.take(orders[4])
     assert orders[4].tote == 2  # free for longer than 1
     assert orders[0].tote == 1

@@ -73,8 +73,8 @@ def test_the_search_finds_the_fewest_robots_and_asks_little(needs, expected):
         need = needs[stations]
         return Response(need is not None and robots >= need, 0.6 * robots)
 
-    found = Search(judge, lambda _: 60).run(min(needs), max(needs))
-    assert found == expected
+    frontier = Search(judge, lambda _: 60).run(min(needs), max(needs))
+    assert frontier == expected
     # Both ends, a guess, and a bisection for each number of stations.
     assert len(asked) <= len(needs) * (2 + math.ceil(math.log2(60)))
 
@@ -99,13 +99,13 @@ class Capacity(Executor):
     def __init__(self):
         self.points = []
 
-    def submit(self, _, wanted):
-        self.points.append(wanted)
-        rate = float(wanted.orders.split(":")[1])
-        rng = np.random.default_rng((wanted.seed, 7))
-        capacity = min(10 * wanted.robots, 250 * wanted.stations) * (0.9 if wanted.physics else 1)
+    def submit(self, _, point_):
+        self.points.append(point_)
+        rate = float(point_.orders.split(":")[1])
+        rng = np.random.default_rng((point_.seed, 7))
+        capacity = min(10 * point_.robots, 250 * point_.stations) * (0.9 if point_.physics else 1)
         done = min(rate, capacity) / 60 * (1 + 0.001 * rng.standard_normal())
-        minutes = wanted.run_in + wanted.minutes
+        minutes = point_.run_in + point_.minutes
         series = dict.fromkeys(SERIES, [1.0] * minutes)
         series |= {
             "arrived": [rate / 60] * minutes,
@@ -114,7 +114,7 @@ class Capacity(Executor):
             "missed": [max(rate / 60 - done, 0.0)] * minutes,
         }
         future = Future()
-        head = (wanted.robots, wanted.stations, wanted.seed, wanted.physics)
+        head = (point_.robots, point_.stations, point_.seed, point_.physics)
         future.set_result(Record(*head, series, [], 0.1))
         return future
 
@@ -132,7 +132,7 @@ def test_a_study_answers_a_known_capacity_with_few_shifts(tmp_path):
     assert study.verdicts[40, 2].met and not study.verdicts[39, 2].met
     assert len(pool.points) < 40 and study.shifts == len(pool.points)
     # All points had the same seeds: those of 1 to 3, at least.
-    assert {one.seed for one in pool.points if one.robots == 40} >= {1, 2, 3}
+    assert {point_.seed for point_ in pool.points if point_.robots == 40} >= {1, 2, 3}
 
     # Simulated robots do a tenth less; a few more are tried.
     assert study.check(40, 2, 1.0) == 44 and list(study.checks) == [(40, 2), (42, 2), (44, 2)]
@@ -235,13 +235,13 @@ def test_holm_corrects_as_by_hand():
 
 def test_differences_of_pairs_and_samples():
     a, b = {1: 10.0, 2: 12.0, 3: 14.0}, {1: 11.0, 2: 13.0, 3: 15.5}
-    found = comparison.difference_of(a, b)
-    told = stats.ttest_rel(list(b.values()), list(a.values()))
-    assert found.p_value == pytest.approx(told.pvalue)
-    interval = told.confidence_interval(0.95)
-    assert found.estimate.half == pytest.approx((interval.high - interval.low) / 2)
+    difference = comparison.difference_of(a, b)
+    by_scipy = stats.ttest_rel(list(b.values()), list(a.values()))
+    assert difference.p_value == pytest.approx(by_scipy.pvalue)
+    interval = by_scipy.confidence_interval(0.95)
+    assert difference.estimate.half == pytest.approx((interval.high - interval.low) / 2)
     deltas = np.array([1.0, 1.0, 1.5])
-    assert found.effect == pytest.approx(deltas.mean() / deltas.std(ddof=1) * (1 - 3 / 7))
+    assert difference.effect == pytest.approx(deltas.mean() / deltas.std(ddof=1) * (1 - 3 / 7))
     # Pairs that all differ alike: their signs are all that can be tested.
     alike = comparison.difference_of(a, {seed: value + 1 for seed, value in a.items()})
     assert alike.p_value == 0.25 and alike.effect == math.inf
@@ -250,9 +250,11 @@ def test_differences_of_pairs_and_samples():
     # Without common seeds Welch's test says the same as scipy's, with its interval.
     other = {seed + 10: value for seed, value in b.items()}
     welch = comparison.difference_of(a, other)
-    told = stats.ttest_ind(list(b.values()), list(a.values()), equal_var=False)
-    interval = told.confidence_interval(0.95) if hasattr(told, "confidence_interval") else None
-    assert welch.p_value == pytest.approx(told.pvalue) and not welch.paired
+    by_scipy = stats.ttest_ind(list(b.values()), list(a.values()), equal_var=False)
+    interval = (
+        by_scipy.confidence_interval(0.95) if hasattr(by_scipy, "confidence_interval") else None
+    )
+    assert welch.p_value == pytest.approx(by_scipy.pvalue) and not welch.paired
     if interval:
         assert welch.estimate.half == pytest.approx((interval.high - interval.low) / 2)
 
@@ -266,8 +268,8 @@ def test_the_mix_of_orders():
 
     orders = draw(order_mix.text_of(300, 2.5, 1.4))
     assert len(orders) == pytest.approx(6000, rel=0.05)
-    lines = [len(one.lines) for one in orders]
-    pieces = [n for one in orders for _, n in one.lines]
+    lines = [len(draft.lines) for draft in orders]
+    pieces = [n for draft in orders for _, n in draft.lines]
     assert np.mean(lines) == pytest.approx(2.5, rel=0.03)
     assert np.mean(pieces) == pytest.approx(1.4, rel=0.03)
     with pytest.raises(DemandError, match="mix:PER_HOUR:LINESxPIECES"):
@@ -281,9 +283,9 @@ def test_the_same_orders_come_whatever_the_stock_is():
     scarce = assortment.skus[int(np.argmax(assortment.popularity))]
     ample = list(both[0].due(7200, [], lambda _: 100))
     short = list(both[1].due(7200, [], lambda sku: 0 if sku == scarce else 100))
-    assert [one.at for one in ample] == [one.at for one in short]
+    assert [draft.at for draft in ample] == [draft.at for draft in short]
     changed = [a for a, b in zip(ample, short) if a.lines != b.lines]
-    assert changed and all(scarce in dict(one.lines) for one in changed)
+    assert changed and all(scarce in dict(draft.lines) for draft in changed)
 
 
 def test_orders_like_those_of_a_file(tmp_path):
@@ -294,8 +296,8 @@ def test_orders_like_those_of_a_file(tmp_path):
     demand = make_demand(text, assortment, (2, 1), np.random.default_rng(1))
     orders = list(demand.due(36000, [], lambda _: 0))
     assert len(orders) == pytest.approx(600, rel=0.2)
-    assert {one.lines for one in orders} == {(("sku-1", 2), ("sku-2", 1))}
-    assert all(one.due - one.at == pytest.approx(300) for one in orders)
+    assert {draft.lines for draft in orders} == {(("sku-1", 2), ("sku-2", 1))}
+    assert all(draft.due - draft.at == pytest.approx(300) for draft in orders)
     assert wish(orders_file=str(file)).pieces_per_order == 3
 
 
@@ -303,9 +305,9 @@ def test_orders_like_those_of_a_file(tmp_path):
 
 
 def test_a_wish_that_can_not_be_met_by_its_bound():
-    with pytest.raises(ImpossibleError) as told:
+    with pytest.raises(ImpossibleError) as raised:
         wish(orders_per_hour=1000, lines=1.9, pieces=1.0).least_stations()
-    assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked for"
+    assert str(raised.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked for"
     assert wish(orders_per_hour=1000, lines=1.4, pieces=1.0).least_stations() == 4
     with pytest.raises(WishError, match="items is 0; there is nothing to pick"):
         Wish(generator.of_request(Request(4, 24, 0, 2), "bare"), 100)
@@ -323,31 +325,31 @@ def test_a_stock_and_skus_of_ones_own_are_sized(tmp_path):
     drawn = layout_choice.chosen("small")
     layout_file.write(replace(drawn, stock="stock.csv"), tmp_path / "own.layout.yaml")
     for file in (layout_file.read(tmp_path / "own.layout.yaml"), drawn):
-        wanted = Wish(file, 60, orders_file=str(tmp_path / "orders.csv"), hours=0.25)
-        (one,) = wanted.points(3, 1, [1])
-        record = point.simulate(replace(one, run_in=5))
+        wish = Wish(file, 60, orders_file=str(tmp_path / "orders.csv"), hours=0.25)
+        (point_,) = wish.points(3, 1, [1])
+        record = point.simulate(replace(point_, run_in=5))
         assert sum(record.series["completed"]) > 5
     # What the stock lacks is named once, in whichever number of lines it is asked for.
     (tmp_path / "orders.csv").write_text(OWN.replace("bolt-m8", "nut"))
-    wanted = Wish(
+    wish = Wish(
         layout_file.read(tmp_path / "own.layout.yaml"), 60, orders_file=str(tmp_path / "orders.csv")
     )
-    with pytest.raises(DemandError) as told:
-        point.simulate(wanted.points(3, 1, [1])[0])
-    assert str(told.value).count("sku 'nut' is unknown") == 1 and "\n" not in str(told.value)
+    with pytest.raises(DemandError) as raised:
+        point.simulate(wish.points(3, 1, [1])[0])
+    assert str(raised.value).count("sku 'nut' is unknown") == 1 and "\n" not in str(raised.value)
 
 
 def test_a_point_is_the_shift_that_simulate_would_run():
     file = layout_choice.chosen("small")
     orders = order_mix.text_of(150, 1.5, 1.0)
-    wanted = point.Point(3, 1, 4, False, layout_file.text_of(file), orders, 10, 20)
-    first, again = point.simulate(wanted), point.simulate(wanted)
+    point_ = point.Point(3, 1, 4, False, layout_file.text_of(file), orders, 10, 20)
+    first, again = point.simulate(point_), point.simulate(point_)
     assert first.series == again.series
     with sites.open_shift(file, robots=3, stations=1, orders=orders, seed=4, physics=False) as ops:
         ops.run(minutes=30)
         figures = ops.kpis()
-        one, other = sites.picking_stations(file)
-        assert ops.shift.station(one).pieces == figures["items_picked"] > 50
+        station, other = sites.picking_stations(file)
+        assert ops.shift.station(station).pieces == figures["items_picked"] > 50
         assert not ops.shift.station(other).is_open and not ops.shift.station(other).pieces
     assert figures["robots"] == 3
     assert sum(first.series["pieces"]) == figures["items_picked"]
@@ -443,9 +445,9 @@ def test_an_interrupted_sizing_goes_on(tmp_path):
             assert time.monotonic() < deadline
             time.sleep(0.01)
         running.send_signal(signal.SIGINT)
-        _, told = running.communicate(timeout=60)
+        _, raised = running.communicate(timeout=60)
     assert running.returncode == 130
-    assert f"started again, it goes on from {out}" in told and "Traceback" not in told
+    assert f"started again, it goes on from {out}" in raised and "Traceback" not in raised
     kept = {path: path.stat().st_mtime_ns for path in out.glob("points/*.json")}
     assert kept
     done = size(*arguments)

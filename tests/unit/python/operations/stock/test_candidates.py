@@ -19,22 +19,22 @@ def stocked(rng):
         for i in range(60)
     ]
     inventory = Inventory(bins)
-    for one in bins:
+    for bin_ in bins:
         if pieces := int(rng.integers(0, 6)):
-            inventory.move(one, one.sku, pieces, Reason.INITIAL)
-        if one.quantity:
-            inventory.reserve(one, int(rng.integers(0, one.quantity + 1)))
+            inventory.move(bin_, bin_.sku, pieces, Reason.INITIAL)
+        if bin_.quantity:
+            inventory.reserve(bin_, int(rng.integers(0, bin_.quantity + 1)))
     return inventory
 
 
 def looked_up(lines, inventory, free):
-    found = {}
+    by_unit = {}
     for line in lines:
-        for one in inventory.bins.values():
-            if one.sku == line.sku and one.available and one.unit in free:
-                there = found.setdefault(one.unit, {})
-                there[line] = min(line.missing, there.get(line, 0) + one.available)
-    return found
+        for bin_ in inventory.bins.values():
+            if bin_.sku == line.sku and bin_.available and bin_.unit in free:
+                there = by_unit.setdefault(bin_.unit, {})
+                there[line] = min(line.missing, there.get(line, 0) + bin_.available)
+    return by_unit
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -44,14 +44,14 @@ def test_candidates_are_those_of_the_bins(seed):
     free = UnitSet((*range(1, 15, 2), 4, 8))
     lines = Order(1, [(sku, int(rng.integers(1, 5))) for sku in SKUS[:4]], 0.0).lines
     for _ in range(3):
-        wanted, found = looked_up(lines, inventory, free), Candidates(lines, inventory, free)
-        assert {unit: dict(found[unit]) for unit in found} == wanted
-        assert len(found) == len(wanted)
-        completed = [sum(n >= line.missing for line, n in wanted[u].items()) for u in found]
-        assert found.completes.tolist() == completed
-        assert found.pieces.tolist() == [sum(wanted[unit].values()) for unit in found]
-        for one in list(inventory.bins.values())[::7]:  # what changes later is seen
-            inventory.move(one, one.sku, one.reserved - one.quantity, Reason.SHORT)
+        expected, candidates = looked_up(lines, inventory, free), Candidates(lines, inventory, free)
+        assert {unit: dict(candidates[unit]) for unit in candidates} == expected
+        assert len(candidates) == len(expected)
+        completed = [sum(n >= line.missing for line, n in expected[u].items()) for u in candidates]
+        assert candidates.completes.tolist() == completed
+        assert candidates.pieces.tolist() == [sum(expected[unit].values()) for unit in candidates]
+        for bin_ in list(inventory.bins.values())[::7]:  # what changes later is seen
+            inventory.move(bin_, bin_.sku, bin_.reserved - bin_.quantity, Reason.SHORT)
 
 
 def test_units_without_the_pieces_are_none():

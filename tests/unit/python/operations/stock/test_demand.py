@@ -157,7 +157,11 @@ def test_what_is_no_demand_is_told(assortment, text):
 def test_a_text_tells_the_line_and_the_column_of_each_fault():
     text = "reference,sku,quantity\nA,sku-1,2\nB,sku-9,1\nC,sku-1,none\nD,sku-1,1,2\n"
     _, faults = parse_csv(text, {"sku-1"})
-    assert [(one.line, one.column) for one in faults] == [(3, "sku"), (4, "quantity"), (5, "")]
+    assert [(fault.line, fault.column) for fault in faults] == [
+        (3, "sku"),
+        (4, "quantity"),
+        (5, ""),
+    ]
     assert "sku-9" in faults[0].text and not faults[0].text.startswith("orders")
 
 

@@ -10,16 +10,16 @@ from warehouse_operations.stock.units_by_id import UnitCells, UnitSet
 @pytest.mark.parametrize("seed", range(5))
 def test_a_set_of_units_is_a_set(seed):
     rng = np.random.default_rng(seed)
-    wanted, units = {3, 7}, UnitSet([3, 7])
+    plain, units = {3, 7}, UnitSet([3, 7])
     for unit in rng.integers(1, 40, 100).tolist():
         chosen = rng.choice(["add", "discard"])
-        getattr(wanted, chosen)(unit)
+        getattr(plain, chosen)(unit)
         getattr(units, chosen)(unit)
-        assert units == wanted and len(units) == len(wanted) and list(units) == sorted(wanted)
+        assert units == plain and len(units) == len(plain) and list(units) == sorted(plain)
     asked = np.arange(60)
-    assert units.among(asked).tolist() == [unit in wanted for unit in asked.tolist()]
+    assert units.among(asked).tolist() == [unit in plain for unit in asked.tolist()]
     units -= {3, *range(20)}
-    assert units == wanted - {3, *range(20)} and -1 not in units
+    assert units == plain - {3, *range(20)} and -1 not in units
 
 
 def test_cells_of_units_are_a_dictionary():

@@ -168,7 +168,7 @@ def test_a_new_database_is_its_owners_alone(tmp_path):
         engine = open_engine(path)
         with lock(engine, path), engine.begin() as connection:
             connection.exec_driver_sql("CREATE TABLE other (number INTEGER)")
-            modes = {one.name: one.stat().st_mode & 0o777 for one in tmp_path.iterdir()}
+            modes = {file.name: file.stat().st_mode & 0o777 for file in tmp_path.iterdir()}
     finally:
         os.umask(before)
     assert len(modes) == 4, modes  # -wal, -shm and the lock beside it

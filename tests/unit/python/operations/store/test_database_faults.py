@@ -72,11 +72,11 @@ def test_a_server_that_goes_is_told_and_work_goes_on_when_it_is_back():
         moves = rows(postgres.url, schema.move)
         ops = Operations(site=site(), database=postgres.url, orders="fill:40")
         postgres.stop()
-        with pytest.raises(DatabaseError, match="postgresql://") as told:
+        with pytest.raises(DatabaseError, match="postgresql://") as raised:
             for _ in range(20):
                 ops.run(seconds=30)
                 ops.database.flush()
-        assert "\n" not in str(told.value)
+        assert "\n" not in str(raised.value)
         with pytest.raises(DatabaseError):
             ops.close()
         with pytest.raises(DatabaseError, match="postgresql://"):

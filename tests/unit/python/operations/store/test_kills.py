@@ -82,11 +82,11 @@ class Warehouse:
 
 
 def _descendants(pid):
-    found = []
+    processes = []
     for task in Path(f"/proc/{pid}/task").iterdir():
         for child in (task / "children").read_text().split():
-            found += [int(child), *_descendants(int(child))]
-    return found
+            processes += [int(child), *_descendants(int(child))]
+    return processes
 
 
 def _node(pid):

@@ -59,9 +59,11 @@ def test_a_second_shift_on_a_file_is_refused_and_the_first_goes_on(tmp_path, hol
     link = tmp_path / "link.db"
     link.symlink_to(database)
     first = hold(database)
-    told = rf"run.db: is in use by -c \(process {first.pid} on \S+\), {SINCE}; end that first, or"
+    sentence = (
+        rf"run.db: is in use by -c \(process {first.pid} on \S+\), {SINCE}; end that first, or"
+    )
     for name in (database, link, f"sqlite:///{database}"):
-        with pytest.raises(DatabaseError, match=told):
+        with pytest.raises(DatabaseError, match=sentence):
             Operations(site=site(), database=name)
     assert runs_on(first)
     assert check.faults(open_engine(database)) == []  # who reads alone may do so
@@ -76,8 +78,8 @@ def test_a_second_shift_on_a_file_is_refused_and_the_first_goes_on(tmp_path, hol
 def test_a_second_shift_on_a_server_is_refused(hold):
     with server() as url:
         first = hold(url)
-        told = rf"is in use by -c \(process {first.pid} on \S+\), {SINCE}; end that first"
-        with pytest.raises(DatabaseError, match=told):
+        sentence = rf"is in use by -c \(process {first.pid} on \S+\), {SINCE}; end that first"
+        with pytest.raises(DatabaseError, match=sentence):
             Operations(site=site(), database=url)
         assert runs_on(first)
         os.kill(first.pid, signal.SIGKILL)
@@ -115,8 +117,8 @@ def test_two_simulations_do_not_share_a_folder(tmp_path):
         assert second.returncode == 1 and "Traceback" not in said
         assert f"{tmp_path}: is in use by " in said and f"(process {os.getpid()} on " in said
     assert not list(tmp_path.iterdir())
-    with simulate(out, "--minutes", "10") as one:
-        assert one.communicate()[1] is not None and one.returncode == 0
+    with simulate(out, "--minutes", "10") as running:
+        assert running.communicate()[1] is not None and running.returncode == 0
     with FileLock(out / "run.db"), simulate(out, "--minutes", "1") as other:
         said = other.communicate()[1].decode()
         assert other.returncode == 1 and "run.db: is in use by" in said

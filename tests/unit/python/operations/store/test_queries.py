@@ -24,9 +24,9 @@ def engine(tmp_path_factory):
 
 
 def test_orders_are_found(engine):
-    total, found = find_orders(engine)
-    assert total == 3 and [row.reference for row, _ in found] == ["late", "AB1", "A_1"]
-    assert [(line.sku, line.quantity, line.picked) for line in found[2][1]] == [
+    total, orders = find_orders(engine)
+    assert total == 3 and [row.reference for row, _ in orders] == ["late", "AB1", "A_1"]
+    assert [(line.sku, line.quantity, line.picked) for line in orders[2][1]] == [
         ("sku-1", 1, 1),
         ("sku-2", 2, 2),
     ]
@@ -35,8 +35,8 @@ def test_orders_are_found(engine):
     assert find_orders(engine, search="%a" * 20000)[0] == 0  # SQLite refuses such a pattern
     assert find_orders(engine, state=int(OrderState.COMPLETED))[0] == 2
     assert find_orders(engine, order_id=3)[1][0][0].reference == "late"
-    total, found = find_orders(engine, limit=1, offset=1)
-    assert (total, found[0][0].reference) == (3, "AB1")
+    total, orders = find_orders(engine, limit=1, offset=1)
+    assert (total, orders[0][0].reference) == (3, "AB1")
 
 
 def test_stock_is_found(engine):

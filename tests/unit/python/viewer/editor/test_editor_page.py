@@ -42,8 +42,8 @@ def address():
 
 @pytest.fixture(scope="module")
 def chromium():
-    with browser(PATIENCE, (1280, 800)) as one:
-        yield one
+    with browser(PATIENCE, (1280, 800)) as opened:
+        yield opened
 
 
 @pytest.fixture
@@ -138,8 +138,8 @@ def test_tools_keys_and_lanes(page):
     drag(page, (6, 3), (8, 3))
     keys(page, "e")
     drag(page, (9, 3), (9, 5))
-    told = page.read("page.editor.station")
-    assert told["queue"] == [[6, 3], [7, 3], [8, 3]] and told["exit"] == [[9, 4], [9, 5]]
+    station = page.read("page.editor.station")
+    assert station["queue"] == [[6, 3], [7, 3], [8, 3]] and station["exit"] == [[9, 4], [9, 5]]
 
 
 def test_keys_alone_draw(page):

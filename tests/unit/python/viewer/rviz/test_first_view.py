@@ -33,8 +33,8 @@ def seen(view, points):
 
 
 def view_of(points, floor=(-5, 5, -5, 5)):
-    told = yaml.safe_load(first_view.config(CONFIG, first_view.around(points, floor)))
-    return told["Visualization Manager"]["Views"]["Current"]
+    result = yaml.safe_load(first_view.config(CONFIG, first_view.around(points, floor)))
+    return result["Visualization Manager"]["Views"]["Current"]
 
 
 def points_of(name):

@@ -15,7 +15,7 @@ router = APIRouter()
 
 @router.get("/kpis", response_model=None, responses=problems())
 async def get_kpis(backend: ApiBackend = BACKEND) -> object:
-    """The figures of the shift so far, named as in kpis.json."""
+    """The figures of the running shift, named as in kpis.json."""
     return await _latest(backend, "kpis")
 
 

@@ -59,9 +59,9 @@ async def get_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> objec
 
 
 def _page(tracked: Tracked, name: str, unit: str, limit: int, offset: int) -> dict[str, Any]:
-    found = catalogue.find(tracked, name, unit)
-    rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
-    return {"total": len(found), "things": rows}
+    indices = catalogue.find(tracked, name, unit)
+    rows = [catalogue.thing(tracked, i) for i in indices[offset : offset + limit]]
+    return {"total": len(indices), "things": rows}
 
 
 def _one(tracked: Tracked, name: str) -> Thing:

@@ -54,10 +54,10 @@ async def get_orders(
 ) -> object:
     """Orders, the newest first."""
     which = ANY if state is None else STATES.index(state)
-    found = await backend.call(
+    answer = await backend.call(
         backend.operations.find_orders, 0, search, which, late, limit, offset
     )
-    return {"total": found.total, "orders": [order(one) for one in found.orders]}
+    return {"total": answer.total, "orders": [order(row) for row in answer.orders]}
 
 
 async def exported(
@@ -69,16 +69,16 @@ async def exported(
     """Returns all orders of a search as JSON has them; 409 if they are more than a sheet should
     have."""
     which = ANY if state is None else STATES.index(state)
-    found: list[Any] = []
+    orders: list[Any] = []
     while True:
-        fields = 0, search, which, late, AT_ONCE, len(found)
+        fields = 0, search, which, late, AT_ONCE, len(orders)
         some = await backend.call(backend.operations.find_orders, *fields)
         if some.total > MOST_EXPORTED:
             text = f"{some.total} orders; {MOST_EXPORTED} or fewer were expected: search for some"
             raise HTTPException(409, text)
-        found += map(order, some.orders)
-        if len(found) >= some.total or not some.orders:
-            return found
+        orders += map(order, some.orders)
+        if len(orders) >= some.total or not some.orders:
+            return orders
 
 
 EXPORTED = Depends(exported)
@@ -103,9 +103,9 @@ def _file(name: str, content: str | bytes, kind: str) -> Response:
 
 
 @router.post("/orders/table", response_model=TableAnswer, responses=problems(*SENT))
-async def submit_orders(wanted: OrderTable, backend: ApiBackend = BACKEND) -> object:
+async def submit_orders(body: OrderTable, backend: ApiBackend = BACKEND) -> object:
     """New orders as a table in CSV: all of them, or none. `faults` says what is wrong where."""
-    fields = wanted.table, wanted.check_only
+    fields = body.table, body.check_only
     answer = await backend.call(
         backend.operations.request, "submit_orders", srv.SubmitOrders, *fields
     )
@@ -128,25 +128,25 @@ async def get_skus(
 ) -> object:
     """SKUs by name, with their pieces in stock: those that begin with the text first."""
     fields = "find_skus", srv.FindSkus, search, limit
-    found = await backend.call(backend.operations.request, *fields)
-    pairs = zip(found.sku, found.available)
-    return {"total": found.total, "skus": [{"sku": s, "available": n} for s, n in pairs]}
+    answer = await backend.call(backend.operations.request, *fields)
+    pairs = zip(answer.sku, answer.available)
+    return {"total": answer.total, "skus": [{"sku": s, "available": n} for s, n in pairs]}
 
 
 @router.get("/orders/{number}", response_model=Order, responses=problems(404))
 async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
     """One order."""
-    found = await backend.call(backend.operations.find_orders, number)
-    if not found.orders:
+    answer = await backend.call(backend.operations.find_orders, number)
+    if not answer.orders:
         raise HTTPException(404, f"no order {number}")
-    return order(found.orders[0])
+    return order(answer.orders[0])
 
 
 @router.post("/orders", status_code=201, response_model=Accepted, responses=problems(*SENT))
-async def submit_order(wanted: NewOrder, backend: ApiBackend = BACKEND) -> object:
+async def submit_order(body: NewOrder, backend: ApiBackend = BACKEND) -> object:
     """A new order; kept when this answers."""
-    lines = [msg.OrderLine(line.sku, line.quantity) for line in wanted.lines]
-    fields = wanted.reference, lines, backend.operations.time(wanted.due), wanted.priority
+    lines = [msg.OrderLine(line.sku, line.quantity) for line in body.lines]
+    fields = body.reference, lines, backend.operations.time(body.due), body.priority
     answer = await backend.call(backend.operations.call, "submit_order", srv.SubmitOrder, *fields)
     return {"order_id": answer.order_id, "message": answer.message}
 

@@ -23,7 +23,7 @@ async def _check_command(request: Request) -> None:
     try:
         body = await request.json()
     except (ValueError, RecursionError):
-        return  # FastAPI tells what is wrong with it
+        return  # FastAPI answers what is wrong with it
     if isinstance(body, dict) and not isinstance(body.get("command", ""), str):
         raise no_text("body", "command")
 
@@ -37,8 +37,8 @@ async def get_robots(
     backend: ApiBackend = BACKEND,
 ) -> object:
     """Robots with their poses and status."""
-    found = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
-    return {"total": len(found), "robots": found[offset : offset + limit]}
+    rows = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
+    return {"total": len(rows), "robots": rows[offset : offset + limit]}
 
 
 @router.get("/robots/{number}", response_model=Robot, responses=problems(404))
@@ -48,9 +48,9 @@ async def get_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> obje
 
 
 @router.post("/robots", status_code=201, response_model=Robot, responses=problems(*SENT))
-async def add_robot(wanted: NewRobot, backend: ApiBackend = BACKEND) -> object:
+async def add_robot(body: NewRobot, backend: ApiBackend = BACKEND) -> object:
     """Puts a robot on a free grid point; it gets the lowest free number."""
-    number = await backend.change("add_robot", wanted.x, wanted.y, wanted.heading)
+    number = await backend.change("add_robot", body.x, body.y, body.heading)
     return await backend.robot(number)
 
 
@@ -82,7 +82,7 @@ async def command_robot(
 ) -> object:
     """Sends a command. A refused one answers 409 with the reason.
 
-    202 tells that what was waited for has not come in time.
+    202: what was waited for has not come in time.
     """
     await backend.robot(number)
     fields = as_dict(command, exclude={"command"})
@@ -100,6 +100,6 @@ async def command_robot(
 
 
 @router.post("/people", status_code=201, response_model=Walker, responses=problems(*SENT))
-async def send_person(wanted: NewWalk, backend: ApiBackend = BACKEND) -> object:
+async def send_person(body: NewWalk, backend: ApiBackend = BACKEND) -> object:
     """Has a person walk over the floor, around obstacles and never into them."""
-    return {"name": await backend.simulate("walk", *as_dict(wanted).values())}
+    return {"name": await backend.simulate("walk", *as_dict(body).values())}

@@ -31,11 +31,9 @@ async def get_stations(backend: ApiBackend = BACKEND) -> object:
 
 
 @router.put("/stations/{name}", response_model=Done, responses=problems(*SENT))
-async def set_station(
-    wanted: SetStation, name: str = NAME, backend: ApiBackend = BACKEND
-) -> object:
+async def set_station(body: SetStation, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
     """Opens or closes a station; MANUAL: it waits for confirmations."""
-    fields = name, wanted.open, MODES.index(wanted.mode)
+    fields = name, body.open, MODES.index(body.mode)
     return {
         "message": (
             await backend.call(backend.operations.call, "set_station", srv.SetStation, *fields)
@@ -57,10 +55,10 @@ async def confirm_pick(
 
 
 @router.post("/stations/{name}/short", response_model=Done, responses=problems(*SENT))
-async def report_short(found: Short, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
+async def report_short(body: Short, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
     """Pieces are missing or damaged: they are written off and brought from elsewhere, or, where
     they should be put in, stay out."""
-    fields = name, found.sku, found.quantity, found.damaged
+    fields = name, body.sku, body.quantity, body.damaged
     return {
         "message": (
             await backend.call(backend.operations.call, "report_short", srv.ReportShort, *fields)
@@ -72,7 +70,7 @@ async def report_short(found: Short, name: str = NAME, backend: ApiBackend = BAC
 async def report_pick(
     done: PickReport, name: str = NAME, sequence: int = SEQUENCE, backend: ApiBackend = BACKEND
 ) -> object:
-    """What became of a pick that the station tells of: of that one, or of none. Sent again it
+    """Takes the outcome of that pick, or refuses it. Sent again it
     changes nothing."""
     which = done.order_id, done.item, sequence
     fields = name, *which, done.quantity, OUTCOMES.index(done.outcome), done.id

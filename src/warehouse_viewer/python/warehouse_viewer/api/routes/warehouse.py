@@ -45,22 +45,22 @@ async def get_sizes(backend: ApiBackend = BACKEND) -> object:
     return {"presets": presets, "limits": LIMITS}
 
 
-async def _build_layout(wanted: NewWarehouse, backend: ApiBackend) -> Any:
-    if wanted.robots or wanted.items or wanted.shelves:
+async def _build_layout(body: NewWarehouse, backend: ApiBackend) -> Any:
+    if body.robots or body.items or body.shelves:
         raise HTTPException(
             422, "counts and a layout: the layout has its own counts; give one of them"
         )
     try:
-        path = await asyncio.to_thread(layout_store.kept, wanted.layout, wanted.name)
+        path = await asyncio.to_thread(layout_store.kept, body.layout, body.name)
     except LayoutFileError as error:
         raise HTTPException(422, str(error)) from error
-    return await backend.change("create", path, wanted.id, 0, 0, 0)
+    return await backend.change("create", path, body.id, 0, 0, 0)
 
 
 @router.post("/warehouse", response_model=Done, responses=problems(*SENT))
-async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> object:
+async def create_warehouse(body: NewWarehouse, backend: ApiBackend = BACKEND) -> object:
     """Builds a warehouse in place of the one that stands."""
-    if wanted.layout:
-        return {"message": await _build_layout(wanted, backend)}
-    counts = (wanted.robots, wanted.items, wanted.shelves)
-    return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}
+    if body.layout:
+        return {"message": await _build_layout(body, backend)}
+    counts = (body.robots, body.items, body.shelves)
+    return {"message": await backend.change("create", body.name, body.id, *counts)}

@@ -57,10 +57,10 @@ def as_json(model: BaseModel) -> str:
 def faults_of(error: RequestValidationError) -> list[dict[str, Any]]:
     """Returns what is wrong with a request, for its answer.
 
-    pydantic 2 also tells what was given, which JSON may not be able to hold.
+    pydantic 2 adds the input, which JSON may not be able to hold.
     """
-    told = ("loc", "msg", "type", "ctx") if IS_1 else ("loc", "msg", "type")
-    return [{key: one[key] for key in told if key in one} for one in error.errors()]
+    keys = ("loc", "msg", "type", "ctx") if IS_1 else ("loc", "msg", "type")
+    return [{key: fault[key] for key in keys if key in fault} for fault in error.errors()]
 
 
 def _finite(value: Any) -> Any:
@@ -85,7 +85,7 @@ if IS_1:
             yield from super().__get_validators__()
 
     def number(least: float = -MOST, most: float = MOST) -> Any:
-        """Returns the type of finite numbers from `least` to `most`; a text is none."""
+        """Returns the type of finite numbers from `least` to `most`; a text is refused."""
         return type("Number", (_Number,), {"ge": least, "le": most})
 
     def check_all(check: Callable[[Mapping[str, Any]], None]) -> Any:
@@ -110,7 +110,7 @@ else:
     from pydantic.json_schema import models_json_schema
 
     def number(least: float = -MOST, most: float = MOST) -> Any:
-        """Returns the type of finite numbers from `least` to `most`; a text is none."""
+        """Returns the type of finite numbers from `least` to `most`; a text is refused."""
         field = Field(ge=least, le=most, allow_inf_nan=False)
         return Annotated[float, field, BeforeValidator(_finite)]
 

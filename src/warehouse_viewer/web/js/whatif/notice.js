@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line that tells what became of something, and offers for a while to take it back. It
+// A line with what became of something, which can be taken back for a while. It
 // stays when what is around it is drawn again.
 
 import { make } from '../base/dom.js';
@@ -7,7 +7,7 @@ import { make } from '../base/dom.js';
 const OFFERED = 10; // [s]
 const SHOWN = 15; // a refusal [s]
 
-export class Told {
+export class Notice {
   constructor(box) {
     this.box = box;
   }
@@ -24,7 +24,7 @@ export class Told {
     this.timer = setTimeout(() => this.clear(), 1000 * SHOWN);
   }
 
-  /** Tells what was done; `act()` takes it back, and `undone` says so then. */
+  /** Says what was done; `act()` takes it back, and `undone` says so then. */
   offer(text, label, act, undone) {
     this.say(text, 'done');
     clearTimeout(this.timer);
