@@ -57,9 +57,8 @@ class Director:
                 raise event.fault(str(error)) from error
 
     def _check_station(self, event: Event, name: str) -> None:
-        station = self._shift.find_station(name)
-        if not station:
-            names = [other.name for other in self._shift.stations]
+        names = [station.name for station in self._shift.stations]
+        if name not in names:
             more = " …" if len(names) > NAMED else ""
             raise event.fault(f"is {name}; there are {', '.join(names[:NAMED])}{more}")
 
