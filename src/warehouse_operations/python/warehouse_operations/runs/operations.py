@@ -36,6 +36,9 @@ class Operations:
     SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
     PlanLoop. availability: of ideal robots; simulated ones have their world's. The same seed gives
     the same shift, to the last event, with any number of threads. Raises what open_shift raises.
+
+    context: what the parts of the shift share. stations: all of them. orders: those that are not
+    over, by id. log: what happened, minute by minute.
     """
 
     def __init__(
@@ -71,14 +74,16 @@ class Operations:
                 travel=self.fleet.travel,
             )
             unless_open.pop_all()
+        self.context, self.stations = self.shift.context, self.shift.stations
+        self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
         if availability and isinstance(self.fleet, IdealFleet):
             self.fleet.keep_up(availability, np.random.default_rng((seed, 1)))
         self.wall_s = 0.0
         self.log = MinuteLog(
-            self.shift.context,
-            self.shift.stations,
-            self.shift.orders,
+            self.context,
+            self.stations,
+            self.orders,
             fleet=self.fleet,
             kinematics=self.site.kinematics,
             spacing=self.site.plan.spacing,
