@@ -157,7 +157,8 @@ class Search:
         for key, record in records.items():
             file = files[key]
             assert file is not None
-            out[key] = self._candidate(self.trials + len(out), fresh[key], file, [record])
+            number = self.trials + 1 + list(fresh).index(key)
+            out[key] = self._candidate(number, fresh[key], file, [record])
         return out
 
     def _wish(self, file: LayoutFile, short: bool) -> Wish:
