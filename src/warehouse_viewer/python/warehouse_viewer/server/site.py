@@ -28,6 +28,7 @@ class Page(NamedTuple):
     counted: str = ""
 
 
+HUB = Page("/", "Simulations", "hub.html")
 FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")

@@ -4,6 +4,7 @@
 
 import { onTheme } from '../base/charts.js';
 import { $, make, on } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
@@ -55,7 +56,7 @@ export class Gantt {
     clearTimeout(this.timer);
     if (this.isAsking) return;
     this.isAsking = true;
-    const answer = await fetch(`/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
+    const answer = await fetch(`${ROOT}/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
     if (answer?.ok) this.take(await answer.arrayBuffer());
     this.isAsking = false;
     if (this.isInSight && !document.hidden) this.timer = setTimeout(() => this.poll(), PERIOD);
@@ -208,6 +209,6 @@ export class Gantt {
 
   openOnFloor() {
     const row = this.rows[this.chosen]?.row;
-    if (row) location.href = row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`;
+    if (row) location.href = ROOT + (row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`);
   }
 }

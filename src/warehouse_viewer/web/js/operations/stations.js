@@ -5,6 +5,7 @@
 import { put } from '../base/api.js';
 import { $, make } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
+import { ROOT } from '../base/root.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
@@ -106,7 +107,7 @@ class Row {
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
-    this.screen.href = `/station/${encodeURIComponent(name)}`;
+    this.screen.href = `${ROOT}/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
     this.showQueue(station.queue);
   }
