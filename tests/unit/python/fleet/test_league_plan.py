@@ -39,7 +39,7 @@ def test_robots_are_where_the_actions_lead(files):
 
 
 @pytest.mark.parametrize(
-    ("changed", "told"),
+    ("changed", "message"),
     [
         ({"actualPaths": None}, "plan.json: there is no 'actualPaths'"),
         ({"actualPaths": []}, "plan.json: actualPaths is []; a list"),
