@@ -56,8 +56,9 @@ class Proxy:
             writer.close()
 
     def _path(self, scope: Any) -> str:
-        raw = scope.get("raw_path") or scope["path"].encode()
-        path = raw.decode("latin-1").partition("?")[0].removeprefix(self._prefix) or "/"
+        raw = scope.get("raw_path") or scope["path"]
+        text = raw.decode("latin-1") if isinstance(raw, bytes) else raw  # a text of WebSockets
+        path = text.partition("?")[0].removeprefix(self._prefix) or "/"
         query = scope["query_string"].decode("latin-1")
         return f"{path}?{query}" if query else path
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response, StreamingResponse
-from starlette.routing import BaseRoute, Mount, Route
+from starlette.routing import BaseRoute, Route, WebSocketRoute
 
 from warehouse_sim.hub import forms
 from warehouse_sim.hub.assistant import Assistant
@@ -23,6 +23,7 @@ from warehouse_viewer.json_text import JSONResponse
 
 SIMULATIONS = "/api/v1/simulations"
 PREFIX = "/s"
+PAGES = f"{PREFIX}/{{name}}/{{rest:path}}"
 FOLLOWING = 0.2  # between two looks at a log [s, wall]
 
 
@@ -39,7 +40,9 @@ def routes(simulations: Simulations, assistant: Callable[[], Assistant]) -> list
         Route(f"{SIMULATIONS}/{{name}}/start", _answered(api.start), methods=["POST"]),
         Route(f"{SIMULATIONS}/{{name}}/worlds", _answered(api.insert), methods=["POST"]),
         Route(f"{SIMULATIONS}/{{name}}/log", _answered(api.log), methods=["GET"]),
-        Mount(PREFIX, _Pages(simulations)),
+        Route(f"{PREFIX}/{{name}}", _to_pages),
+        Route(PAGES, _Pages(simulations)),
+        WebSocketRoute(PAGES, _Pages(simulations)),
         Route("/mcp", _Assistant(assistant)),
     ]
 
@@ -148,6 +151,10 @@ async def _followed(path: Path, simulation: Simulation) -> AsyncIterator[bytes]:
             await asyncio.sleep(FOLLOWING)
 
 
+async def _to_pages(request: Request) -> Response:
+    return RedirectResponse(f"{PREFIX}/{request.path_params['name']}/")
+
+
 class _Pages:
     """ASGI application: the pages, API and WebSockets of each simulation, by its name."""
 
@@ -155,18 +162,14 @@ class _Pages:
         self._simulations = simulations
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
-        # Older versions of Starlette cut the mount's path off, newer ones keep it.
-        path = scope["path"].removeprefix(PREFIX)
-        name, slash, _ = path.lstrip("/").partition("/")
+        name = scope["path_params"]["name"]
         try:
             simulation = self._simulations[name]
         except Missing as error:
             await _refused(404, error.args[0], scope, receive, send)
             return
         simulation.used = time.monotonic()
-        if not slash and scope["type"] == "http":
-            await RedirectResponse(f"{PREFIX}/{name}/")(scope, receive, send)
-        elif not simulation.viewer:
+        if not simulation.viewer:
             text = f"'{name}' is {simulation.state.value}: its pages are not served"
             await _refused(503, text, scope, receive, send)
         else:

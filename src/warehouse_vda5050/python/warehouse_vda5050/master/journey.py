@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from warehouse_vda5050.driver import Point
-from warehouse_vda5050.master.commands import Follow, RefusedError
+from warehouse_vda5050.master.commands import Follow, Lift, RefusedError
 from warehouse_vda5050.master.whereabouts import NEAR, SQUARE
 from warehouse_vda5050.model import Action, Edge, Node, Order, Position
 
@@ -33,6 +33,7 @@ class Journey:
     is_changed: bool = True  # since then
     sent: Order | None = field(default=None, repr=False)
     actions: tuple[Action, ...] = ()  # at the last point
+    lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
 
     def change(self, command: Follow) -> None:

@@ -16,6 +16,7 @@ from warehouse_vda5050.validation.actions import check_actions
 from warehouse_vda5050.validation.demands import Robot, check_demands, check_maps, radius
 from warehouse_vda5050.validation.orders import cells_of, check_form
 from warehouse_vda5050.vehicle.complaints import references
+from warehouse_vda5050.vehicle.phase import Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 
 if TYPE_CHECKING:
@@ -66,7 +67,8 @@ class Reception:
             _refuse(order, "the robot does not know where it is", precise=away)
         if report.mode not in TAKING_ORDERS:
             _refuse(order, f"the operating mode is {report.mode.value}", precise=away)
-        if vehicle.is_cancelling and vehicle.order and order.id == vehicle.order.id:
+        cancelling = vehicle.phase is Phase.CANCELLING
+        if cancelling and vehicle.order and order.id == vehicle.order.id:
             following = Predefined.ORDER_UPDATE_FOLLOWING_CANCEL
             _refuse(order, "the order is being cancelled", ErrorType.ORDER_UPDATE, following)
         return report

@@ -12,6 +12,7 @@ from warehouse_vda5050.model import (
     MAP_ID,
     AgvPosition,
     Battery,
+    Factsheet,
     Load,
     State,
     Velocity,
@@ -32,6 +33,7 @@ class Teller:
         self._told: State | None = None  # without what changes all the time
         self.due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
+        self._factsheet_due = True
         self._shown: Visualization | None = None
         self._shown_at = -math.inf
         self._deceleration = max(0.1, vehicle.sheet.max_deceleration)
@@ -40,6 +42,15 @@ class Teller:
     def request(self) -> None:
         """Lets the next take() return a state in any case."""
         self._requested = True
+
+    def request_factsheet(self) -> None:
+        """Lets the next take_factsheet() return the factsheet."""
+        self._factsheet_due = True
+
+    def take_factsheet(self) -> Factsheet | None:
+        """Returns the factsheet if it is to be sent."""
+        due, self._factsheet_due = self._factsheet_due, False
+        return self._vehicle.sheet if due else None
 
     def take(self, now: float) -> State | None:
         """Returns the state if something happened, it is time, or it was asked for."""

@@ -13,12 +13,12 @@ export async function look(url) {
     ask('GET', `${url}api/v1/robots?limit=${MOST}`),
     ask('GET', `${url}api/v1/storage_units?limit=${MOST}`),
   ]);
-  return { robots: (robots.robots ?? []).map(placeOf), units: (units.storage_units ?? []).map(placeOf) };
+  return { robots: (robots.robots ?? []).map(placeOf), units: (units.things ?? []).map(placeOf) };
 }
 
 function placeOf(thing) {
-  const { x, y } = thing.position ?? thing.pose ?? thing;
-  return { x, y, isBusy: Boolean(thing.carrier ?? thing.carries) || thing.status === 'BUSY' };
+  const { x, y } = thing.pose ?? thing;
+  return { x, y, isBusy: Boolean(thing.storage_unit) || thing.status === 'BUSY' };
 }
 
 /** Draws what look() returned. */
@@ -36,7 +36,7 @@ export function paint(canvas, { robots, units }) {
   const top = (canvas.height - zoom * (north - south)) / 2;
   const at = ({ x, y }) => [left + (x - west) * zoom, top + (north - y) * zoom];
   const colour = (name) => getComputedStyle(canvas).getPropertyValue(name);
-  pen.fillStyle = colour('--line');
+  pen.fillStyle = colour('--edge');
   for (const unit of units) {
     const [x, y] = at(unit);
     pen.fillRect(x - 0.4 * zoom, y - 0.4 * zoom, 0.8 * zoom, 0.8 * zoom);
