@@ -91,11 +91,11 @@ class _Floor:
             self._draw.text((x + half, y - half - 6), str(robot["id"]), "black", self._font)
 
     def label(self, pose: Mapping[str, float], text: str) -> None:
-        """Writes a station's name below the unit that is there."""
+        """Writes a station's name beside the unit that is there."""
         x, y = self._pixel(pose["x"], pose["y"])
-        half = 0.5 * self._scale
         line = text.encode("ascii", "replace").decode()
-        self._draw.text((x - half, y + half), line, "black", self._font)
+        length = self._draw.textlength(line, self._font)
+        self._draw.text((x - 0.5 * self._scale - length - 2, y - 6), line, "black", self._font)
 
     def png(self) -> bytes:
         """Returns the picture with its legend."""

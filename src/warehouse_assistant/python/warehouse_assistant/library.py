@@ -13,6 +13,8 @@ from warehouse_assistant.hub_client import HubClient, Trouble
 ROOMS = ("tutorials", "how-to", "explanation", "reference")
 PAGE = re.compile(rf"(?:{'|'.join(ROOMS)})/[\w-]+")
 WORD = re.compile(r"[a-z0-9_]{2,}")
+# Words of questions that say nothing of their subject.
+IDLE = frozenset("how what why when which where who do does is are can to the an in of it my and".split())
 AT_ONCE = 4  # pages that are asked for at the same time
 HEADINGS = ("h1", "h2", "h3")
 BLOCKS = ("p", "li", "pre", "tr", "dt", "dd", "div", *HEADINGS)
@@ -73,7 +75,7 @@ class Library:
 
     async def search(self, words: str) -> list[Section]:
         """Returns sections in which the words stand, the best first. Raises Trouble."""
-        terms = {_stem(word) for word in WORD.findall(words.lower())}
+        terms = {_stem(word) for word in WORD.findall(words.lower()) if word not in IDLE}
         scored = [(_score(section, terms), section) for section in await self.sections()]
         ranked = sorted((pair for pair in scored if pair[0]), key=lambda pair: -pair[0])
         return [section for _, section in ranked]

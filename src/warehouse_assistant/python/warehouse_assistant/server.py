@@ -179,6 +179,11 @@ def serve_http(server: AssistantServer, port: int, key: str = "") -> None:
         json_response=True, stateless_http=True, max_request_body_size=MOST_BODY
     )
     config = uvicorn.Config(
-        _KeyCheck(app, key), host="127.0.0.1", port=port, log_level="warning", access_log=False
+        _KeyCheck(app, key),
+        host="127.0.0.1",
+        port=port,
+        ws="none",
+        log_level="warning",
+        access_log=False,
     )
     uvicorn.Server(config).run()

@@ -84,6 +84,21 @@ def add(box: Toolbox) -> None:
         await box.hub.send("DELETE", f"{SIMULATIONS}/{name}", **query)
         return f"{quoted(name)} is stopped{' and forgotten' if forget else ''}."
 
+    @box.changes("Insert a world")
+    async def insert_world(
+        name: Name,
+        world: Annotated[
+            str, Field(min_length=1, max_length=200, description="its name, as paper, or a path")
+        ],
+        x: Annotated[float, Field(ge=-1e5, le=1e5, description="where its origin comes [m]")] = 0.0,
+        y: Annotated[float, Field(ge=-1e5, le=1e5, description="where its origin comes [m]")] = 0.0,
+    ) -> str:
+        """Adds the models of a world to a simulation that runs, all of them or none."""
+        _check_name(name)
+        body = {"world": world, "x": x, "y": y}
+        answer = await box.hub.send("POST", f"{SIMULATIONS}/{name}/worlds", body)
+        return _message(answer, "inserted")
+
     @box.changes("Pause or speed up a simulation", repeatable=True)
     async def set_time(
         action: Annotated[

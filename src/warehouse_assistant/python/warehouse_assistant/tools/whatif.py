@@ -7,7 +7,7 @@ from pydantic import Field
 
 from warehouse_assistant.hub_client import Trouble, segment
 from warehouse_assistant.toolbox import Toolbox
-from warehouse_assistant.words import count, duration, listed, plain, quoted
+from warehouse_assistant.words import count, duration, listed, plain, quoted, sentence
 
 Scenario = Annotated[
     str, Field(min_length=1, max_length=60, pattern=r"^[\w .,+=()-]+$", description="its name")
@@ -67,17 +67,20 @@ def add(box: Toolbox) -> None:
 def _row(row: dict[str, Any]) -> str:
     settings = row.get("settings") or {}
     chosen = listed(f"{k} {plain(v, 40)}" for k, v in settings.items() if v and k != "policies")
-    text = f"{quoted(row.get('name', ''))}: {chosen}"
-    rest = {k: v for k, v in row.items() if k not in ("name", "settings")}
-    figures = listed((f"{plain(k, 40)} {_value(v)}" for k, v in rest.items()), 40)
-    return f"{text}; {figures}."
+    text = f"{quoted(row['name'])}: {chosen}; {plain(row.get('state', ''), 20)}"
+    if row.get("error"):
+        return f"{text}: {quoted(row['error'], 300)}"
+    if row.get("left"):
+        text += f", {duration(row['left'])} left"
+    summary = row.get("summary") or {}
+    figures = summary.get("figures") or {}
+    if figures:
+        text += f"; {listed(map(_figure, figures.items()), 20)}"
+    limit = (summary.get("limit") or {}).get("what")
+    return sentence(text + (f"; limited by {quoted(limit)}" if limit else ""))
 
 
-def _value(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    if isinstance(value, dict):
-        return "(" + listed((f"{plain(k, 40)} {_value(v)}" for k, v in value.items()), 40) + ")"
-    if isinstance(value, list):
-        return "[" + listed(map(_value, value), 8) + "]"
-    return quoted(value) if isinstance(value, str) else str(value)
+def _figure(named: tuple[str, Any]) -> str:
+    name, figure = named
+    text = f"{plain(name, 40)} {figure['mean']:.4g}"
+    return text + (f" ± {figure['half']:.2g}" if figure.get("half") else "")
