@@ -13,7 +13,7 @@ from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.fleet_driver import square
 from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
-from warehouse_fleet.transports.transport_book import Answer
+from warehouse_fleet.transports.transport_book import TransportAnswer
 from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.srv import (
     CancelTransport,
@@ -71,7 +71,7 @@ class CoordinatorServices:
         host = self._host
         with host.lock:
             if host.controller is None:
-                return TransportResponse(*Answer(0, False, host.reason))
+                return TransportResponse(*TransportAnswer(0, False, host.reason))
             answer = host.controller.transports.submit(
                 request.shelf_id,
                 request.station,

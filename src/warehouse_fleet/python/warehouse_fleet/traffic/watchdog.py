@@ -53,12 +53,12 @@ class Watchdog:
         excuses |= robots.busy | ~robots.automatic | robots.broken | robots.slowed_for_people
         ahead = self._all_ahead()
         ahead[ahead == NOWHERE] = len(robots)  # the end of each chain, which excuses none
-        ahead, found = np.append(ahead, len(robots)), np.append(excuses, False)
-        found = found[ahead]
+        ahead, excused = np.append(ahead, len(robots)), np.append(excuses, False)
+        excused = excused[ahead]
         # As many links again each time: a chain is at most as long as there are robots.
         for _ in range(len(robots).bit_length()):
-            further = found | found[ahead]
-            if np.array_equal(further, found):
+            further = excused | excused[ahead]
+            if np.array_equal(further, excused):
                 break
-            found, ahead = further, ahead[ahead]
-        return found[:-1]
+            excused, ahead = further, ahead[ahead]
+        return excused[:-1]

@@ -33,7 +33,7 @@ class TransportEvent(NamedTuple):
     text: str
 
 
-class Answer(NamedTuple):
+class TransportAnswer(NamedTuple):
     """The answer to a request; `transport_id` is 0 if it was refused."""
 
     transport_id: int

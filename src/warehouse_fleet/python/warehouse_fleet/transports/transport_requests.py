@@ -14,10 +14,10 @@ from warehouse_fleet.transports.transport_book import (
     STAY,
     STORE,
     WAITING,
-    Answer,
     Kind,
     Leave,
     Transport,
+    TransportAnswer,
     TransportBook,
     TransportEvent,
 )
@@ -71,18 +71,18 @@ class TransportRequests(ABC):
         y: float | None = None,
         then: int = STORE,
         priority: int = 0,
-    ) -> Answer:
+    ) -> TransportAnswer:
         """Asks for a unit to be brought to a station, or to the cell at (x, y) [m]."""
         try:
             self._check(shelf_id, then)
             cell = self._destination(shelf_id, station, x, y)
             self.check_reach(shelf_id, cell)
         except ValueError as error:
-            return Answer(0, False, str(error))
+            return TransportAnswer(0, False, str(error))
         transport = self.book.add(shelf_id, station, cell, then, priority)
         self.book.enqueue(transport)
         self.book.publish_event(transport, Kind.RECEIVED)
-        return Answer(transport.number, True, "")
+        return TransportAnswer(transport.number, True, "")
 
     def _check(self, shelf_id: int, then: int) -> None:
         if shelf_id in self.book.of_unit:

@@ -24,9 +24,9 @@ from warehouse_vda5050.model import (
     ActionStatus,
     ConnectionState,
     InstantActions,
-    Order,
     Position,
-    State,
+    VehicleOrder,
+    VehicleState,
 )
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
@@ -119,7 +119,7 @@ class RemoteVehicle:
         except RefusedError as refusal:
             self._happened(EventKind.REFUSED, str(refusal))
 
-    def take_state(self, state: State, now: float) -> None:
+    def take_state(self, state: VehicleState, now: float) -> None:
         """Takes in what the vehicle tells; what is older than what it told before is dropped."""
         before, heard_at, was_there = self.view.pose, self.view.heard_at, self.view.is_there
         if not self.view.take_state(state, now):
@@ -143,7 +143,7 @@ class RemoteVehicle:
 
     # --- out
 
-    def messages(self, now: float) -> list[Order | InstantActions]:
+    def messages(self, now: float) -> list[VehicleOrder | InstantActions]:
         """Returns what is to be sent now."""
         if not self.view.hears:
             return []
@@ -226,8 +226,8 @@ class RemoteVehicle:
         self.path_id = self.reached = 0
 
     def _action(self, kind: str, unit: int) -> Action:
-        told = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
-        parameters = tuple({**told, **self.robot.action_parameters}.items())
+        values = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
+        parameters = tuple({**values, **self.robot.action_parameters}.items())
         name = f"{self._run}-{self.robot.number}-a{self._count}"
         return Action(kind, name, parameters=parameters)
 
@@ -281,7 +281,7 @@ class RemoteVehicle:
         if self._is_ending and drives and self._instants.is_given_up(self._cancel_id):
             self._ask_to_cancel()
 
-    def _is_cancelled(self, state: State) -> bool:
+    def _is_cancelled(self, state: VehicleState) -> bool:
         """Returns whether the vehicle was asked to cancel its order, and has done so."""
         has_answered = not self._instants.is_pending(self._cancel_id)
         return self._is_ending and not state.nodes and has_answered
@@ -297,7 +297,7 @@ class RemoteVehicle:
         x, y = self.robot.frame.to_vehicle(*point)
         return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
 
-    def _due_order(self, now: float) -> Order | None:
+    def _due_order(self, now: float) -> VehicleOrder | None:
         """Returns the next order; or the last one again, while the vehicle does not tell it."""
         way = self._journey
         if way is None or self._phase is not Phase.UNDER_WAY:
@@ -311,7 +311,7 @@ class RemoteVehicle:
             self._sent_at, self._times = now, 0
         return order
 
-    def _again(self, way: Journey, now: float) -> Order | None:
+    def _again(self, way: Journey, now: float) -> VehicleOrder | None:
         """Returns the last order once more, if that is due.
 
         An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
@@ -340,7 +340,7 @@ class RemoteVehicle:
             is_cancelling = self._phase is Phase.CANCELLING
             self._go_to(Phase.CLEARING if is_cancelling else Phase.IDLE)
 
-    def _advance(self, way: Journey, state: State, now: float) -> None:
+    def _advance(self, way: Journey, state: VehicleState, now: float) -> None:
         if state.order_id == way.order_id and way.confirm(state.order_update):
             self._refusals = 0
         self._note_refusal(way, state, now)
@@ -355,7 +355,7 @@ class RemoteVehicle:
         if not state.nodes and not state.driving:
             self._settle(way, state)
 
-    def _settle(self, way: Journey, state: State) -> None:
+    def _settle(self, way: Journey, state: VehicleState) -> None:
         """Ends the command where nothing of it is left to be done."""
         if self._is_cancelled(state):
             self._end(EventKind.DONE, "cancelled")
@@ -364,13 +364,13 @@ class RemoteVehicle:
             self._end(EventKind.BLOCKED, f"others ended its order at {state.last_node}")
             return
         mine = {action.id for action in way.actions}
-        told = {one.id: one for one in state.actions if one.id in mine}
-        failed = [one for one in told.values() if one.status == ActionStatus.FAILED]
+        states = {one.id: one for one in state.actions if one.id in mine}
+        failed = [one for one in states.values() if one.status == ActionStatus.FAILED]
         if failed:
             self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
             return
-        is_told = way.is_whole and all(name in told for name in mine)
-        if is_told and all(one.status.is_over for one in told.values()):
+        is_told = way.is_whole and all(name in states for name in mine)
+        if is_told and all(one.status.is_over for one in states.values()):
             self._finish(way)
 
     def _finish(self, way: Journey) -> None:
@@ -394,14 +394,14 @@ class RemoteVehicle:
         self.last_end = kind
         self._happened(kind, text)
 
-    def _note_refusal(self, way: Journey, state: State, now: float) -> None:
+    def _note_refusal(self, way: Journey, state: VehicleState, now: float) -> None:
         """Takes an error that names the order for its refusal, as long as it is not confirmed."""
         if not way.awaits_answer:
             return
         for error in state.errors:
-            told = dict(error.references)
-            update = told.get("orderUpdateId", str(way.update))
-            if told.get("orderId") == way.order_id and update == str(way.update):
+            references = dict(error.references)
+            update = references.get("orderUpdateId", str(way.update))
+            if references.get("orderId") == way.order_id and update == str(way.update):
                 wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
                 self._refusals, self._not_before = self._refusals + 1, now + wait
                 self._give_up(way, f"{error.type}: {error.description}")
@@ -431,7 +431,7 @@ class RemoteVehicle:
 
     # --- what others did
 
-    def _take_load(self, state: State) -> None:
+    def _take_load(self, state: VehicleState) -> None:
         """Believes what the vehicle says of its load; which unit it is, only if no pick told."""
         if self.lifts or not self.view.tells_loads:
             return
@@ -442,7 +442,7 @@ class RemoteVehicle:
         if named and not self.load:
             self.load = int(named[1])
 
-    def _end_foreign(self, state: State) -> None:
+    def _end_foreign(self, state: VehicleState) -> None:
         """Has an order cancelled that an earlier run or another master left, or that was given up
         and came all the same."""
         if self._phase is Phase.IDLE and state.nodes:

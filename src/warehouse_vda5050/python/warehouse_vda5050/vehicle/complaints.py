@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType, Predefined
-from warehouse_vda5050.model import ActionState, Order
+from warehouse_vda5050.model import ActionState, VehicleOrder
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.vehicle.phase import Phase
 
@@ -76,7 +76,7 @@ def _action_fault(order: OrderProgress, state: ActionState) -> Error:
 _STAYS = ", and the robot stays where it is"
 
 
-def references(order: Order | OrderProgress) -> tuple[tuple[str, str], ...]:
+def references(order: VehicleOrder | OrderProgress) -> tuple[tuple[str, str], ...]:
     """Returns what masters find an order's errors by."""
     topic = ("topic", Kind.ORDER.value)
     return topic, ("orderId", order.id[:100]), ("orderUpdateId", str(order.update))

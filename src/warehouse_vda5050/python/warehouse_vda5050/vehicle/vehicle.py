@@ -17,8 +17,8 @@ from warehouse_vda5050.model import (
     Factsheet,
     InstantActions,
     Node,
-    Order,
-    State,
+    VehicleOrder,
+    VehicleState,
     Visualization,
 )
 from warehouse_vda5050.topics import Kind
@@ -82,7 +82,7 @@ class Vehicle:
 
     # What comes in; a state answers each message.
 
-    def on_order(self, order: Order, now: float, unknown: tuple[str, ...] = ()) -> bool:
+    def on_order(self, order: VehicleOrder, now: float, unknown: tuple[str, ...] = ()) -> bool:
         """Takes an order or an update; `unknown` are fields of it that no version has. Returns
         whether it was accepted; if not, and it is no copy of what was, the state says why."""
         self.request_state()
@@ -213,7 +213,7 @@ class Vehicle:
             self._go_to(Phase.HELD)
         return reason
 
-    def start(self, progress: OrderProgress, order: Order) -> None:
+    def start(self, progress: OrderProgress, order: VehicleOrder) -> None:
         """Begins an order that was accepted."""
         self._go_to(Phase.WORKING)
         self.order = progress
@@ -283,7 +283,7 @@ class Vehicle:
         """When the next state is due, if nothing happens before [s, as `now`]."""
         return self._teller.due
 
-    def take_state(self, now: float) -> State | None:
+    def take_state(self, now: float) -> VehicleState | None:
         """Returns the state if something happened or it is time for one."""
         return self._teller.take(now)
 
@@ -291,7 +291,7 @@ class Vehicle:
         """Returns position and speed if the robot moved and it is time to tell them."""
         return self._teller.take_visualization(now)
 
-    def state(self) -> State:
+    def state(self) -> VehicleState:
         """Returns the state as it is now."""
         return self._teller.state()
 

@@ -106,3 +106,11 @@ def test_a_body_that_is_no_wish_is_refused(hub, body):
 def test_without_its_packages_the_assistant_says_what_lacks(hub):
     status, answer = hub.ask("POST", "/mcp", {})
     assert status == 503 and "make serve" in answer["detail"]
+
+
+def test_large_layouts_may_be_sent(hub):
+    layout = "layout: 1\nfloor: |\n" + 500 * ("  " + 600 * "?" + "\n")
+    status, answer = hub.ask("POST", "/api/v1/simulations", {"name": "one", "layout": layout})
+    assert (status, answer.get("field")) == (422, "layout"), answer
+    status, answer = hub.ask("POST", "/mcp", {"text": 100_000 * "x"})
+    assert status == 413
