@@ -26,7 +26,7 @@ def pytest_terminal_summary(terminalreporter):
 @pytest.fixture(scope="session")
 def hub(tmp_path_factory):
     """A hub whose clients read, and change with a token; a shift of 4 robots at work runs there."""
-    from served_hub import ServedHub
+    from served_hub import ServedHub, until
 
     folder = tmp_path_factory.mktemp("hub")
     token = folder / "commands"
@@ -38,6 +38,9 @@ def hub(tmp_path_factory):
         assert out.ask("POST", "/api/v1/simulations", asked)[0] == 202
         row = out.wait_for(NAME, "RUNNING")
         assert row["state"] == "RUNNING", row
+        for part in ("coordinator", "stations", "kpis", "figures"):
+            path = f"/s/{NAME}/api/v1/{part}"
+            until(lambda path=path: out.ask("GET", path)[0] == 200, f"there is no {path}")
         yield out
     finally:
         out.end()

@@ -55,7 +55,9 @@ def test_tools_say_what_they_are(talk, transport):
         assert tool.input_schema["type"] == "object"
         assert None not in (hints.read_only_hint, hints.destructive_hint, hints.idempotent_hint)
     for name in ("stop_simulation", "cancel_order"):
-        assert tools[name].annotations.destructive_hint and not tools[name].annotations.read_only_hint
+        assert (
+            tools[name].annotations.destructive_hint and not tools[name].annotations.read_only_hint
+        )
     assert tools["find"].annotations.read_only_hint
 
 

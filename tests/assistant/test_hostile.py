@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hostile arguments, data with instructions in it, clients that hang up, programs that are not the hub."""
+"""Hostile arguments, data with instructions in it, clients that hang up, forged headers."""
 
 import asyncio
 import json
@@ -31,7 +31,6 @@ TEXTS = (
     "kiva" + "9" * 400,
     "'; DROP TABLE orders; --",
     "{{7*7}}${HOME}`id`",
-    "\ud83d",
     "ä" * 3000,
 )
 NUMBERS = (0, -1, 2**31, 2**63, 1e308, "nan", "1", None, True, [], {})
@@ -40,8 +39,6 @@ NUMBERS = (0, -1, 2**31, 2**63, 1e308, "nan", "1", None, True, [], {})
 def test_hostile_texts_are_answered(talk):
     async def conversation(assistant):
         for text in TEXTS:
-            # What no UTF-8 can say does not leave the client.
-            text = text.encode("utf-8", "replace").decode()
             for tool, key in (
                 ("find", "what"),
                 ("why_waiting", "what"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A server of the Model Context Protocol for warehouses: digital assistants launch, ask and operate.
+"""A server of the Model Context Protocol: digital assistants start, ask and operate warehouses.
 
 It talks HTTP with a hub, and needs neither ROS nor another package of this workspace; what it needs
 of PyPI lies in an environment of its own (scripts/assistant).
@@ -7,7 +7,7 @@ of PyPI lies in an environment of its own (scripts/assistant).
     python3 -m warehouse_assistant [--hub URL] [--allow commands] [--port PORT]
 
     words            quoted data, bounded replies
-    hub_client       the hub's HTTP API and the API of each simulation, with errors that say what helps
+    hub_client       the hub's HTTP API and that of each simulation, with errors that say what helps
     library          pages of the documentation, and their search
     floor_picture    the floor as PNG
     toolbox          how a tool is registered; which of them change something

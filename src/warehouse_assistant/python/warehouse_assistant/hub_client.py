@@ -31,7 +31,7 @@ NEXT = {
 }
 
 
-class Trouble(ToolError):
+class Trouble(ToolError):  # noqa: N818 (an answer)
     """Why a tool could not do what was asked, and what to do next."""
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The documentation, as sections of text: from the hub's /docs/, or the source tree's folder doc."""
+"""The documentation as sections of text, of the source tree's folder doc or the hub's /docs/."""
 
 import asyncio
 import re
@@ -14,7 +14,12 @@ ROOMS = ("tutorials", "how-to", "explanation", "reference")
 PAGE = re.compile(rf"(?:{'|'.join(ROOMS)})/[\w-]+")
 WORD = re.compile(r"[a-z0-9_]{2,}")
 # Words of questions that say nothing of their subject.
-IDLE = frozenset("how what why when which where who do does is are can to the an in of it my and".split())
+IDLE = frozenset(
+    (
+        *("how", "what", "why", "when", "which", "where", "who", "do", "does", "is", "are", "can"),
+        *("to", "the", "an", "in", "of", "it", "my", "and"),
+    )
+)
 AT_ONCE = 4  # pages that are asked for at the same time
 HEADINGS = ("h1", "h2", "h3")
 BLOCKS = ("p", "li", "pre", "tr", "dt", "dd", "div", *HEADINGS)
@@ -50,7 +55,9 @@ class Library:
         try:
             index = await self._hub.text("/docs/searchindex.js")
         except Trouble as error:
-            raise Trouble("The documentation is not built here. Run make docs, then ask again.") from error
+            raise Trouble(
+                "The documentation is not built here. Run make docs, then ask again."
+            ) from error
         names = re.search(r'"?docnames"?:\s*\[(.*?)\]', index)
         pages = PAGE.findall(names[1]) if names else []
         limit = asyncio.Semaphore(AT_ONCE)

@@ -22,9 +22,7 @@ def add(server: MCPServer, hub: HubClient, library: Library) -> None:
         about = await _asked(hub.get("/layout/about"))
         return json.dumps({key: about[key] for key in ("presets", "limits")})
 
-    @server.resource(
-        "warehouse://layouts/{preset}", title="Layout", mime_type="application/json"
-    )
+    @server.resource("warehouse://layouts/{preset}", title="Layout", mime_type="application/json")
     async def layout(preset: str) -> str:
         """The drawing of a preset layout: its floor, stations, robots and counts."""
         presets = (await _asked(hub.get("/layout/about")))["presets"]

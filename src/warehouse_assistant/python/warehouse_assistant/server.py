@@ -40,8 +40,8 @@ INSTRUCTIONS = (
 )
 HOW_TO_ALLOW = (
     "Nothing was changed: {tool} changes something, and this assistant may only read. A person"
-    " allows it by starting the hub or the assistant with `--allow commands`, or by giving the hub's"
-    " token for commands (--commands-token-file) to this client."
+    " allows it by starting the hub or the assistant with `--allow commands`, or by giving the"
+    " hub's token for commands (--commands-token-file) to this client."
 )
 KEY, ALLOW, CLIENT = "x-warehouse-key", "x-warehouse-allow", "x-warehouse-client"  # the hub's
 MOST_BODY = 64 * 1024  # of a request [bytes], as the hub has it
@@ -90,7 +90,7 @@ class AssistantServer(MCPServer):
         """Raises Trouble for unknown tools and arguments, and where permission is missing."""
         tool = self._tool_manager.get_tool(name)
         if tool is None:
-            raise Trouble(f"There is no tool {quoted(name)}. List the tools, then call one of them.")
+            raise Trouble(f"There is no tool {quoted(name)}. List the tools, then call one.")
         known = tool.parameters["properties"]
         if strangers := [key for key in arguments if key not in known]:
             raise Trouble(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text of replies: data in quotation marks, numbers as people read them, replies of bounded length."""
+"""Text of replies: quoted data, numbers as people read them, replies of bounded length."""
 
 import json
 import secrets
@@ -16,9 +16,7 @@ MOST_QUOTED = 120  # characters of a text that stands in data
 def plain(text: object, most: int = MOST_QUOTED) -> str:
     """Returns one line of a text: control and formatting characters become spaces."""
     whole = str(text)
-    line = "".join(
-        " " if unicodedata.category(c)[0] in "CZ" else c for c in whole[: 2 * most]
-    )
+    line = "".join(" " if unicodedata.category(c)[0] in "CZ" else c for c in whole[: 2 * most])
     line = " ".join(line.split())
     return line if len(line) <= most and len(whole) <= 2 * most else line[: most - 1] + "…"
 
@@ -60,7 +58,7 @@ class Replies:
         self._rests: OrderedDict[str, str] = OrderedDict()
 
     def bounded(self, text: str) -> str:
-        """Returns a text of at most `most` bytes; of a longer one the beginning and how to go on."""
+        """Returns a text of at most `most` bytes: of a longer one its beginning, and how to go on."""
         # What a text may not hold in UTF-8 is a question mark.
         data = text.encode("utf-8", "replace")
         if len(data) <= self._most:

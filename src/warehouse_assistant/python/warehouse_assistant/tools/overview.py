@@ -162,7 +162,9 @@ def _alarm(alarm: Row) -> str:
 
 def _event(event: Row) -> str:
     subject = " ".join(quoted(event[key]) for key in ("model", "other") if event[key])
-    return f"{event['time']:.1f} s {plain(event['kind'], 40)} {subject}: {quoted(event['text'], 200)}"
+    return (
+        f"{event['time']:.1f} s {plain(event['kind'], 40)} {subject}: {quoted(event['text'], 200)}"
+    )
 
 
 async def _numbered(warehouse: Client, kind: str, number: int) -> str:
@@ -255,7 +257,9 @@ async def _why_robot(warehouse: Client, number: int) -> str:
     for row in (transports or {}).get("transports", []):
         if row["robot"] == robot["name"] and row["state"] not in ENDED:
             goal = quoted(row["station"]) if row["station"] else "a cell"
-            lines.append(f"Transport {row['id']} ({row['state']}): {row['storage_unit']} to {goal}.")
+            lines.append(
+                f"Transport {row['id']} ({row['state']}): {row['storage_unit']} to {goal}."
+            )
             if row["state"] == "ARRIVED":
                 lines.append("The unit waits there to be released, by its station or release_unit.")
     lines += [_alarm(a) for a in (alarms or {}).get("alarms", []) if a["subject"] == robot["name"]]

@@ -29,9 +29,7 @@ def add(box: Toolbox) -> None:
 
     @box.reads("Read a page of the documentation")
     async def read_documentation(
-        page: Annotated[
-            str, Field(min_length=1, max_length=100, description="as how-to/http")
-        ],
+        page: Annotated[str, Field(min_length=1, max_length=100, description="as how-to/http")],
         heading: Annotated[str, Field(max_length=200, description="a section; empty: all")] = "",
     ) -> str:
         """Returns a page of the documentation, or a section of it."""

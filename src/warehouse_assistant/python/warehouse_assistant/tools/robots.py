@@ -80,7 +80,7 @@ def add(box: Toolbox) -> None:
     ) -> str:
         """Has a storage unit brought to a station or a cell by whichever robot suits best."""
         if bool(station) == (x is not None and y is not None):
-            raise Trouble("Name either a station or both x and y; find and describe_warehouse help.")
+            raise Trouble("Name either a station or both x and y; describe_warehouse has stations.")
         warehouse = await box.hub.simulation(simulation)
         goal: dict[str, Any] = {"station": station} if station else {"x": x, "y": y}
         body = {"storage_unit": unit, "then": then, "priority": priority} | goal

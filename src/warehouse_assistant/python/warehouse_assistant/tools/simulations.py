@@ -69,9 +69,7 @@ def add(box: Toolbox) -> None:
             row = await box.hub.send("POST", f"{SIMULATIONS}/{name}/start")
         else:
             row = await box.hub.send("POST", SIMULATIONS, body)
-        return (
-            f"{_row(row)}\nIt needs some seconds until it runs; then ask describe_warehouse."
-        )
+        return f"{_row(row)}\nIt needs some seconds until it runs; then ask describe_warehouse."
 
     @box.changes("Stop a simulation", destroys=True, repeatable=True)
     async def stop_simulation(
@@ -112,8 +110,10 @@ def add(box: Toolbox) -> None:
         """Pauses a simulation, lets it go on, or sets how fast its time passes."""
         warehouse = await box.hub.simulation(simulation)
         body = {"factor": factor} if action == "speed" else None
-        answer = await warehouse.send("POST", f"simulation/{action}", body)
-        return f"{quoted(warehouse.name)}: {_message(answer, action)}"
+        await warehouse.send("POST", f"simulation/{action}", body)
+        pace = f"{factor:g} s a second" if factor else "as fast as it goes"
+        done = {"pause": "is paused", "resume": "goes on", "speed": f"simulates {pace}"}[action]
+        return f"{quoted(warehouse.name)} {done}."
 
     @box.reads("Read a simulation's log")
     async def simulation_log(
@@ -145,9 +145,9 @@ def _arguments(row: dict[str, Any]) -> str:
 
 
 def _differs(row: dict[str, Any], body: dict[str, Any]) -> bool:
+    had = {"name": row["name"], "shift": "false"} | row["arguments"]
     asked = {k: str(v).lower() if isinstance(v, bool) else str(v) for k, v in body.items()}
-    had = row["arguments"]
-    return any(had.get(k, "false" if k == "shift" else None) != v for k, v in asked.items() if k != "name")
+    return any(had.get(key) != value for key, value in asked.items())
 
 
 def _row(row: dict[str, Any]) -> str:

@@ -19,10 +19,11 @@ def add(box: Toolbox) -> None:
         """Tells a station's mode, the picks from the unit that is there, its orders and totes."""
         warehouse = await box.hub.simulation(simulation)
         row = await _station(warehouse, station)
-        open_closed = "open" if row["open"] else "closed"
+        state = "open" if row["open"] else "closed"
+        inbound = listed(row["inbound"]) or "none"
         lines = [
-            f"{quoted(row['name'])}: {open_closed}, {row['mode']}, busy {row['busy_fraction']:.0%}.",
-            f"Unit there: {row['shelf_id'] or 'none'}; on the way: {listed(row['inbound']) or 'none'}.",
+            f"{quoted(row['name'])}: {state}, {row['mode']}, busy {row['busy_fraction']:.0%}.",
+            f"Unit there: {row['shelf_id'] or 'none'}; on the way: {inbound}.",
             f"Orders: {listed(row['orders'], 30) or 'none'}, of {row['slots']} places.",
         ]
         lines += [

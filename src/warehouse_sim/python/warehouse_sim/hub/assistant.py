@@ -24,7 +24,7 @@ Headers = list[tuple[bytes, bytes]]
 
 @dataclass(frozen=True)
 class Permission:
-    """Who may have an assistant change something: all who may use the hub, or who brings a token."""
+    """Who may have an assistant change something: all who use the hub, or who brings a token."""
 
     everybody: bool = False
     token: str = ""  # "": nobody brings one

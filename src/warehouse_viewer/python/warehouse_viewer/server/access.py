@@ -178,7 +178,7 @@ class AccessControl:
     def _is_right(self, scope: Scope, token: str) -> bool:
         """Whether this is the token; counts it if not."""
         tokens = (self._token, *self._others)
-        is_right = any([hmac.compare_digest(token.encode(), t.encode()) for t in tokens])
+        is_right = any(hmac.compare_digest(token.encode(), right.encode()) for right in tokens)
         if token and not is_right:
             self._guesses.allows(_address(scope))
         return is_right
