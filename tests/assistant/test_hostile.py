@@ -33,7 +33,7 @@ TEXTS = (
     "{{7*7}}${HOME}`id`",
     "ä" * 3000,
 )
-NUMBERS = (0, -1, 2**31, 2**63, 1e308, "nan", "1", None, True, [], {})
+NUMBERS = (0, -1, 2**31, 2**63, 1e308, "nan", "1.5", None, [], {})
 
 
 def test_hostile_texts_are_answered(talk):
@@ -67,7 +67,7 @@ def test_hostile_numbers_are_answered(talk):
                 ("send_robot", {"robot": 99, "x": number, "y": number}),
                 ("transport_state", {"transport": number}),
                 ("transport_unit", {"unit": number, "station": "nowhere"}),
-                ("cancel_order", {"order": 10**12 if number in (1, "1", True) else number}),
+                ("cancel_order", {"order": number}),
                 ("submit_order", {"lines": [{"sku": "no such", "quantity": number}]}),
                 ("submit_order", {"lines": number}),
             ):

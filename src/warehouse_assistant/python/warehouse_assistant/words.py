@@ -58,7 +58,7 @@ class Replies:
         self._rests: OrderedDict[str, str] = OrderedDict()
 
     def bounded(self, text: str) -> str:
-        """Returns a text of at most `most` bytes: of a longer one its beginning, and how to go on."""
+        """Returns a text of at most `most` bytes: a longer one's beginning, and how to go on."""
         # What a text may not hold in UTF-8 is a question mark.
         data = text.encode("utf-8", "replace")
         if len(data) <= self._most:
