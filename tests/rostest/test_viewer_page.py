@@ -13,6 +13,7 @@ import time
 import axe
 import rospy
 import rostest
+from browser import SETTLES
 from node_test import PATIENCE, Robot, wait_until
 from page_test import PageTest
 from PIL import Image
@@ -172,6 +173,29 @@ class ViewerPage(PageTest):
         self.page.until("page.selected === 'kiva2'")
         self.page.type(Keys.BACKSPACE * 5 + Keys.ESCAPE)
         self.page.until(f"page.list.rows.length === {ROBOTS}")
+
+    def test_the_search_finds_stations_and_selects_nothing_that_is_not_there(self):
+        self.page.type("pick2" + Keys.ENTER, "search")
+        self.page.until("page.selected === 'pick2' && page.details.thing.kind === 'station'")
+        self.page.until("!page.navigator.flight && page.overlays.ring.visible")
+        self.assertIn("no shift is running", self.page.text("facts"))
+        self.page.type(Keys.ESCAPE)
+        self.page.until("page.selected === null")
+        self.page.type("pick77" + Keys.ENTER, "search")
+        self.page.read("page.list.showPieces('pick77', new Map())")
+        self.page.type(Keys.ENTER)
+        self.assertEqual(self.page.read("page.selected"), None)
+        self.page.type(Keys.ESCAPE)
+
+    def test_a_click_on_a_sign_selects_its_station(self):
+        self.page.read("page.showAll(false)")
+        signs = "[...document.querySelectorAll('#labels .sign:not([hidden])')]"
+        self.page.until(f"{signs}.some((s) => s.textContent === 'pick1')")
+        box = f"{signs}.find((s) => s.textContent === 'pick1').getBoundingClientRect().toJSON()"
+        time.sleep(SETTLES)
+        sign = self.page.read(box)
+        self.page.click_at(sign["x"] + sign["width"] / 2, sign["y"] + sign["height"] / 2)
+        self.page.until("page.selected === 'pick1'")
 
     def test_space_pauses_whatever_was_clicked_before(self):
         self.page.click_on("trails")

@@ -33,6 +33,7 @@ import { World } from './base/world.js';
 
 const PANELS_EVERY = 250; // [ms]
 const NOTABLE = 60; // between two pictures; a person sees it [ms]
+const STATION = 0.5; // how far the mark around a station reaches [m]
 const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
@@ -53,7 +54,8 @@ class Page {
       (request) => this.builder.attempt(request));
     this.requested = new Requested(this.world);
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
-      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
+      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id),
+      stationOf: (name) => this.signs?.stations.get(name) });
     this.drawers = new Drawers(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
@@ -230,7 +232,7 @@ class Page {
     if (!this.stage) return;
     const thing = this.details.thing;
     const place = thing ? this.world.placeOf(thing) : null;
-    this.overlays.select(place, thing && halfOf(this.actors.boundsOf(thing)));
+    this.overlays.select(place, thing?.kind === 'station' ? STATION : thing && halfOf(this.actors.boundsOf(thing)));
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
     if (robot >= 0 && isPressed($('path'))) this.showPath(place, id);

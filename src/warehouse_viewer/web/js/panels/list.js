@@ -39,8 +39,8 @@ export class RobotList {
 
   search(text) {
     this.text = wanted(text);
-    const { units, items, scenery } = this.world.scene;
-    const names = found([...units, ...items, ...scenery], this.text);
+    const { units, items, scenery, stations } = this.world.scene;
+    const names = found([...new Set([...stations.map(({ name }) => name), ...units, ...items, ...scenery])], this.text);
     $('found').replaceChildren(...names.map((name) => (
       make('button', { textContent: name, click: () => this.find(name) }))));
     $('found').hidden = names.length === 0;
@@ -67,9 +67,9 @@ export class RobotList {
   }
 
   takeFirst() {
-    const exact = this.world.indexOf.has(this.text) ? this.text : null;
-    const first = this.rows.length ? this.nameOf(this.rows[0]) : $('found').firstChild?.textContent;
-    if (exact ?? first) this.find(exact ?? first);
+    const name = this.world.indexOf.has(this.text) ? this.text : this.rows.length ? this.nameOf(this.rows[0]) : '';
+    if (name) this.find(name);
+    else $('found').querySelector('button')?.click();
   }
 
   nameOf(i) {
