@@ -78,6 +78,20 @@ BACKDROP = """(() => {
 })()"""
 
 
+# A server that answers, and says nothing.
+SILENT = """window.WebSocket = class extends EventTarget {
+  static OPEN = 1;
+  constructor() {
+    super();
+    Object.assign(this, { isSilent: true, readyState: 1 });
+    setTimeout(() => this.dispatchEvent(new Event('open')));
+  }
+  send() {}
+  close() {}
+};"""
+SILENT_FILTERS = ["all", "needs", "help", "waiting", "working", "moving", "resting"]
+
+
 class ViewerPage(PageTest):
     ready = f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2"
 
@@ -255,6 +269,20 @@ class ViewerPage(PageTest):
         self.assertFalse(self.page.read("page.drawers.isOpen('list-panel')"))
         self.page.type("14")
         self.page.until("page.drawers.isOpen('list-panel') && !page.drawers.isOpen('log-panel')")
+
+    def test_the_floor_follows_the_theme_of_the_system(self):
+        self.page.read("localStorage.removeItem('theme')")
+        command = "Emulation.setEmulatedMedia"
+        self.addCleanup(self.page.driver.execute_cdp_cmd, command, {"features": []})
+        background = "page.stage.scene.background.getHex()"
+        seen = []
+        for theme in ("dark", "light", "dark"):
+            feature = {"name": "prefers-color-scheme", "value": theme}
+            self.page.driver.execute_cdp_cmd(command, {"features": [feature]})
+            self.page.until(f"document.documentElement.dataset.theme === '{theme}'")
+            self.page.until(f"{background} !== {seen[-1] if seen else -1}")
+            seen.append(self.page.read(background))
+        self.assertEqual(seen[0], seen[2])
 
     def test_axe_finds_nothing(self):
         self.page.read("[page.select('kiva1'), page.drawers.open('log-panel')]")
@@ -449,6 +477,28 @@ class ViewerPage(PageTest):
                 events = json.load(text)["events"]
         self.assertEqual([int(row["id"]) for row in rows], [event["id"] for event in events])
         self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
+
+
+class Loading(PageTest):
+    """The page of a server that answers and has not sent its warehouse yet."""
+
+    ready = "page.world.scene.robots.length > 0"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        command, script = "Page.addScriptToEvaluateOnNewDocument", {"source": SILENT}
+        added = cls.page.driver.execute_cdp_cmd(command, script)
+        cls.page.read("location.reload()")
+        cls.page.until("page.connection.socket.isSilent")
+        cls.page.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+    def test_nothing_is_said_that_is_not_known(self):
+        self.page.until("document.getElementById('link').textContent === 'loading …'")
+        self.assertEqual(self.page.text("filters").split(), SILENT_FILTERS)
+        speed = "document.getElementById('speed').selectedOptions[0].textContent"
+        self.assertEqual(self.page.read(speed), "–")
+        self.assertIn("loading", self.page.read("document.getElementById('pause').title"))
 
 
 class Phone(PageTest):

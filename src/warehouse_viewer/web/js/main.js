@@ -6,7 +6,7 @@ import { Bar } from './panels/bar.js';
 import { Builder } from './panels/builder.js';
 import { Connection } from './base/connection.js';
 import { Details } from './panels/details.js';
-import { $, isPressed, on, press, tell } from './base/dom.js';
+import { $, isPressed, on, onTheme, press, tell } from './base/dom.js';
 import { Drawers, marginsOf } from './base/drawers.js';
 import { FallenItems } from './panels/fallen.js';
 import { FleetPanel } from './panels/fleet.js';
@@ -376,6 +376,7 @@ class Page {
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));
     on($('theme'), 'click', () => this.changeTheme());
+    onTheme(() => this.dress());
     on($('remove'), 'click', () => this.builder.remove(this.selected));
   }
 
@@ -395,6 +396,10 @@ class Page {
     const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
     document.documentElement.dataset.theme = theme;
     localStorage.setItem('theme', theme);
+  }
+
+  dress() {
+    const { theme } = document.documentElement.dataset;
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
     this.actors?.setTheme(theme);

@@ -2,8 +2,7 @@
 // The last hour of robots and stations: a row for each, coloured by what it did. Only rows in sight
 // are drawn, whatever their number.
 
-import { onTheme } from '../base/charts.js';
-import { $, make, on } from '../base/dom.js';
+import { $, make, on, onTheme } from '../base/dom.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';

@@ -83,12 +83,12 @@ export class RobotList {
 
   /** Counts and sorts the robots, and draws the rows. */
   refresh() {
-    const { activity } = this.world;
+    const { activity, scene } = this.world, isKnown = 'protocol' in scene;
     const counts = ACTIVITY.map(() => 0);
     for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      tell(button.querySelector('b'), String(filter === '' ? activity.length : counts[filter]));
+      tell(button.querySelector('b'), isKnown ? String(filter === '' ? activity.length : counts[filter]) : '');
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
