@@ -13,6 +13,8 @@ async function showPages() {
     if (link.pathname === location.pathname) link.setAttribute('aria-current', 'page');
   }
   document.querySelector('.site')?.replaceChildren(...(links.length > 1 ? links : []));
+  // What leads to a page that may not be there, as the documentation that was not built.
+  for (const part of document.querySelectorAll('[data-needs]')) part.hidden = !pages.some(({ path }) => path === part.dataset.needs);
   pages.forEach(({ count, title }, i) => count && followCount(links[i], title, count));
 }
 

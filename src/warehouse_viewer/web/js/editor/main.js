@@ -80,7 +80,6 @@ async function main() {
   begin(editor, store, about);
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
-  $('floor').hidden = !about.builds;
   $('compare').hidden = !about.compares;
   on($('compare'), 'click', () => compare(editor));
   on($('build'), 'click', () => build(editor, post));
