@@ -172,6 +172,7 @@ class OperationsPage(WorkPageTest):
         self.assertLess(self.page.read("document.querySelectorAll('.order').length"), 50)
         self.page.type("many-777", "search")
         self.page.until("page.orders.total === 11")  # many-777 and many-7770 to 7779
+        self.page.until("page.orders.rows[0].reference === 'many-777'")
         self.click("[data-filter='']")
         self.page.read("document.getElementById('search').value = 'sku-4'")
         self.page.type(" ", "search")
@@ -204,16 +205,22 @@ class OperationsPage(WorkPageTest):
         self.page.until(
             "document.querySelector('.entry-lines .fault')?.textContent.includes('no-such-sku')"
         )
+        fault = "document.querySelector('.entry-lines .fault:not([hidden])')"
+        self.page.type("x")  # a fault goes with the text that had it
+        self.page.until(f"!{fault}")
         self.page.read("(document.querySelector('#entry-lines input').value = 'sku-2')")
         self.page.read("document.getElementById('entry-form').requestSubmit()")
         self.page.until("!document.getElementById('entry').open")
         self.page.type("typed-1", "search")
         self.page.until(ROW.format("typed-1"))
         wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
+        self.let_fall(wrong.replace("sku-1,none", "sku-no,none"))
+        table = "document.querySelector('#sheet-faults tbody').textContent"
+        self.page.until(f"{table}.startsWith('3sku')")
+        self.assertIn("3quantityquantity is 'none'; a whole number from 1 on", self.page.read(table))
+        self.page.read("document.getElementById('sheet').close()")
         self.let_fall(wrong)
-        self.page.until(
-            "document.querySelector('#sheet-faults tbody').textContent.startsWith('3quantity')"
-        )
+        self.page.until(f"{table}.startsWith('3quantity')")
         self.assertEqual(ask("/orders?search=up-1")[1]["total"], 0)
         self.page.read("document.getElementById('sheet').close()")
         self.let_fall(wrong.replace("none", "2"))
