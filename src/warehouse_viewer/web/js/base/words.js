@@ -8,7 +8,8 @@ import { EventKind, FailureKind, OrderState, State } from './message_enums.js';
 const byNumber = (texts) => Object.assign([], texts);
 
 /** What a robot does at a glance, by Activity (activities.py), from what needs no attention to what
- *  needs a person; a `waiting` robot has waited for half a minute, or stands before an obstacle. */
+ *  needs a person; a `waiting` robot has waited for half a minute, in a station's queue for two
+ *  minutes, or stands before an obstacle. */
 export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'];
 export const NEEDS_HELP = 4;
 /** The class that gives each its colour; design.css has them. */
