@@ -92,7 +92,7 @@ class OperationsPage(WorkPageTest):
         self.press("pick2", 1)
         self.press("pick1", 2)
         self.page.until("document.querySelector('[data-station=pick2]').classList.contains('shut')")
-        self.page.until(f"{HAND}.textContent === 'Automatic'")
+        self.page.until(f"{HAND}.ariaPressed === 'true'")
         number = submit("page-2", "sku-4", 3)
         self.click(CARD.format("pick1", "a"))
         self.screen("pick1")
@@ -239,6 +239,20 @@ class OperationsPage(WorkPageTest):
             file.flush()
             self.page.drop(file.name, *self.page.read(CENTRE.format("orders")))
             self.page.until("document.getElementById('sheet').open")
+
+    def test_7_what_is_put_in_leaves_what_is_picked_its_height(self):
+        chart = "page.chart.plot.chart"
+        self.page.until(f"{chart} && {chart}.data.datasets[0].data.length > 0")
+        tallest = f"Math.max(10, ...[0, 2].flatMap((i) => {chart}.data.datasets[i].data.map((p) => p.y)))"
+        self.page.until(f"{chart}.scales.y.max <= 1.5 * {tallest}")
+        put_in = f"Math.max(...{chart}.data.datasets[1].data.map((p) => p.y))"
+        self.page.until(f"{chart}.scales.stored.max >= {put_in}")
+
+    def test_7_the_last_hour_says_what_of_it_is_known(self):
+        self.page.read("Object.assign(page.gantt.spans, {begin: 420, now: 840})")
+        self.page.read("(page.gantt.spans.take = () => {}, page.gantt.take(null), 0)")
+        self.assertEqual(self.page.text("gantt-known"), "its last 7 min: watched since 0:07:00")
+        self.overview()
 
     def test_7_all_can_use_it(self):
         self.assertEqual(axe.findings(self.page), [])

@@ -3,7 +3,7 @@
 // themselves or by hand.
 
 import { put } from '../base/api.js';
-import { $, make } from '../base/dom.js';
+import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
 import { waitsOf } from '../base/station_waits.js';
 import { lasting } from '../base/time.js';
@@ -104,7 +104,9 @@ class Row {
     this.rate.lastChild.textContent = Math.round(station.pieces_per_hour).toLocaleString('en');
     this.busy.lastChild.textContent = `${Math.round(100 * station.busy_fraction)} %`;
     this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
+    this.hand.textContent = 'Manual';
+    press(this.hand, this.isByHand);
+    this.hand.title = this.isByHand ? 'A person works here; press for automatic' : 'It works automatically; press for a person at its screen';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
     this.screen.href = `/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
