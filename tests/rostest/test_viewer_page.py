@@ -78,6 +78,14 @@ BACKDROP = """(() => {
 })()"""
 
 
+# A colour of the design, and that of an element's ground.
+COLOURS = """(() => {{
+  const probe = document.body.appendChild(document.createElement('i'));
+  probe.style.backgroundColor = '{}';
+  const shown = [probe, document.getElementById('{}')].map((e) => getComputedStyle(e).backgroundColor);
+  probe.remove();
+  return shown;
+}})()"""
 # A server that answers, and says nothing.
 SILENT = """window.WebSocket = class extends EventTarget {
   static OPEN = 1;
@@ -370,6 +378,10 @@ class ViewerPage(PageTest):
         self.assertAlmostEqual(place("kiva2")[0], x - 1, places=3)
         self.page.click_on("reset")
         self.page.until("document.getElementById('question').open")
+        # What can't be meant by a key in haste: red, and Cancel has the focus.
+        self.assertEqual(self.page.read("document.activeElement.id"), "question-no")
+        red = self.page.read(COLOURS.format("var(--needs-help)", "question-yes"))
+        self.assertEqual(red[0], red[1])
         self.page.click_on("question-yes")
         wait_until(lambda: math.dist(place("kiva2")[:2], (x, y)) < 1e-3, "a reset")
         self.page.until("!document.getElementById('notice').hidden")
@@ -442,6 +454,23 @@ class ViewerPage(PageTest):
         self.build("small")
         self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
 
+    def test_the_dialog_begins_with_what_stands_here_and_says_what_is_lost(self):
+        self.page.click_on("build")
+        self.page.until("document.getElementById('size').value === 'small'")
+        self.assertTrue(self.page.read("document.getElementById('plan-loss').hidden"))
+        self.page.driver.find_element("css selector", "#plan .answers button").click()
+        self.page.until("!document.getElementById('builder').open")
+        # As with a robot more, and a fleet at work.
+        self.page.read(
+            "(page.builder.present = () => ({robots: 5, shelves: 24, items: 96, isWorking: true}), 0)"
+        )
+        self.page.click_on("build")
+        self.page.until("document.getElementById('own-robots').value === '5'")
+        self.page.until("document.getElementById('size').value === ''")
+        self.assertIn("5 robots are at work here", self.page.text("plan-loss"))
+        self.page.driver.find_element("css selector", "#plan .answers button").click()
+        self.page.read("(page.builder.present = () => page.present(), 0)")
+
     def test_the_dialog_says_why_a_warehouse_can_not_be_built(self):
         self.build("custom", robots=3, shelves=0, items=20)
         told = "document.getElementById('plan-answer').textContent"
@@ -458,7 +487,7 @@ class ViewerPage(PageTest):
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)
         for name, count in counts.items():
             self.page.type(Keys.BACKSPACE * 4 + str(count), f"own-{name}")
-        self.page.driver.find_element("css selector", "#plan .strong").click()
+        self.page.driver.find_element("css selector", "#plan .danger").click()
 
     # --- the log as a file
     def test_saves_the_events(self):

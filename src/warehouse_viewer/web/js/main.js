@@ -47,7 +47,7 @@ class Page {
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
-    this.builder = new Builder(say);
+    this.builder = new Builder(say, () => this.present());
     this.people = new People(say);
     this.placers = [this.builder, this.people];
     this.fallen = new FallenItems(this.world, () => this.selected,
@@ -316,6 +316,12 @@ class Page {
     const sku = skuIn(text);
     if (sku && !this.fleet.runs) return; // the stock is known only while a coordinator runs
     this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
+  }
+
+  /** What a warehouse that is built would replace. */
+  present() {
+    const { robots, units, items } = this.world.scene;
+    return { robots: robots.length, shelves: units.length, items: items.length, isWorking: this.fleet.runs };
   }
 
   goToSearch() {
