@@ -351,6 +351,40 @@ class ViewerPage(PageTest):
         self.page.until("!document.getElementById('pause').disabled")
         Robot(2).do("movx", distance=1.0)
 
+    def test_a_link_holds_the_moment_the_selection_and_the_camera(self):
+        self.page.until("page.timeline.track.end - page.timeline.track.begin > 5")
+        self.page.read("page.find('kiva2')")
+        self.page.until("!page.navigator.flight")
+        target = "page.stage.controls.target.toArray()"
+        seen, then = self.page.read(target), self.page.read("page.world.stamp - 1")
+        self.page.read("(page.tip.say = () => {}, navigator.clipboard.writeText = undefined, 0)")
+        self.page.click_on("replay-copy")
+        self.page.until("location.hash.includes('&see=kiva2&from=')")
+        link = self.page.read("location.href")
+        self.page.open("about:blank")
+        self.page.open(link)
+        self.page.until("page.selected === 'kiva2' && document.body.classList.contains('replaying')")
+        self.page.until(f"{target}.every((n, i) => Math.abs(n - {seen}[i]) < 0.02)")
+        self.assertGreaterEqual(self.page.read("page.timeline.player.time"), then)
+        self.page.click_on("replay-live")
+        self.until_link("live")
+
+    def test_a_mark_is_meant_by_a_click_beside_it(self):
+        self.page.until("page.timeline.track.end - page.timeline.track.begin > 10")
+        track = "page.timeline.track"
+        # Between two looks for new marks, which come every ten seconds.
+        self.page.read(f"({track}.setMarks([{{time: ({track}.begin + {track}.end) / 2, kind: 'ALARM',"
+                       " model: 'kiva1', text: ''}]), page.timeline.refresh = () => {}, 0)")
+        box = self.page.read(f"{track}.marks.firstChild.getBoundingClientRect().toJSON()")
+        mark = self.page.read(f"Number({track}.marks.firstChild.dataset.time)")
+        self.page.click_at(box["x"] + box["width"] / 2 + 9, box["y"] + 20)
+        self.page.until("document.body.classList.contains('replaying')")
+        self.page.until(f"Math.abs(page.timeline.player.time - Math.max({track}.begin, {mark} - 1)) < 0.2")
+        self.page.click_on("replay-live")
+        self.until_link("live")
+        self.page.read("location.reload()")
+        self.page.until(self.ready)
+
     def test_pauses(self):
         self.page.click_on("pause")
         self.until_link("paused")

@@ -386,6 +386,19 @@ class Page {
     on($('remove'), 'click', () => this.builder.remove(this.selected));
   }
 
+  /** {name, view}: what is selected, and from where all is looked at. */
+  looks() {
+    return { name: this.selected, view: this.navigator?.view };
+  }
+
+  /** Looks as an address says; null: as it does. */
+  look({ name, view }) {
+    if (name && this.world.indexOf.has(name)) this.select(name);
+    if (!view) return;
+    this.follow(false);
+    this.navigator?.restore(view);
+  }
+
   showAll(above) {
     this.follow(false);
     this.navigator?.showAll(above);
