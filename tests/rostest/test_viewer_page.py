@@ -172,6 +172,17 @@ class ViewerPage(PageTest):
         self.page.type("q")
         self.page.until(f"Math.abs(Math.sin(page.world.pose[8] - {before}) - 1) < 0.001")
 
+    def test_buttons_that_can_not_be_pressed_say_why(self):
+        self.page.read("page.select('kiva2')")
+        why = "document.getElementById('why')"
+        self.page.until(f"{why}.checkVisibility()")
+        self.assertIn("Drop: it carries no storage unit.", self.page.text("why"))
+        self.page.read("(location.hash = 't=0.5', 0)")
+        past = "Left, Right, Carry, Drop, Remove: the time line shows the past"
+        self.page.until(f"{why}.textContent.startsWith('{past}')")
+        self.page.click_on("replay-live")
+        self.until_link("live")
+
     def test_a_robot_stopped_by_an_obstacle_needs_help(self):
         x, y, _ = place("kiva4")
         Robot(4).do("mov", x=x, y=4.0)

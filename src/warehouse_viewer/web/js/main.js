@@ -43,7 +43,8 @@ class Page {
     const select = (name) => this.select(name);
     const say = (text, kind, at) => this.tip.say(text, kind, at);
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
-    this.list = new RobotList(this.world, select, (name) => this.find(name), (text) => this.lookFor(text));
+    this.list = new RobotList(this.world, select, (name) => this.find(name), (text) => this.lookFor(text),
+      (id) => this.fleet?.modeOf(id));
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);

@@ -48,5 +48,6 @@ export function enable(button, lack, titled = button) {
   const why = withheld || lack;
   titled.dataset.title ??= titled.title;
   button.disabled = Boolean(why);
+  button.dataset.why = why || '';
   titled.title = why ? `${titled.dataset.title} – not now: ${why}` : titled.dataset.title;
 }

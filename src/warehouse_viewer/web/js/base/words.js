@@ -2,7 +2,7 @@
 // The words for the constants of messages: the same on every page, and those of the API and of the
 // events (message_names.py); a test compares them.
 
-import { EventKind, FailureKind, OrderState, State } from './message_enums.js';
+import { EventKind, FailureKind, OrderState, RobotMode, State } from './message_enums.js';
 
 /** An array of the texts of {number: text}. */
 const byNumber = (texts) => Object.assign([], texts);
@@ -30,6 +30,8 @@ export const STATE = byNumber({
   [State.BLOCKED]: 'blocked',
   [State.WAITING]: 'waits for its turn',
 });
+/** Who commands a robot. */
+export const MODE_WORDS = { [RobotMode.AUTOMATIC]: 'automatic', [RobotMode.MANUAL]: 'manual', [RobotMode.OUT_OF_SERVICE]: 'out of service' };
 /** What is broken, by bit: an empty battery, then the kinds of failures. */
 export const FAILURE = byNumber({
   0: 'battery empty',

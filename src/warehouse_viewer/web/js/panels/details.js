@@ -2,13 +2,14 @@
 // The panel of the selection: its facts, and the commands for it.
 
 import { command, post } from '../base/api.js';
-import { $, enable, make, on, press } from '../base/dom.js';
+import { $, enable, make, on, press, tell } from '../base/dom.js';
 import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
 import { vda5050Of } from './vda5050.js';
 import { waitsOf } from '../base/station_waits.js';
-import { ACTIVITY, ACTIVITY_CLASS, FAILURE, STATE, STATION_STATES } from '../base/words.js';
+import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, STATE, STATION_STATES } from '../base/words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
+const COMMANDS = ['left', 'right', 'carry', 'drop', 'remove'];
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
 const MODE = {
   [RobotMode.AUTOMATIC]: 'the coordinator commands it',
@@ -60,7 +61,7 @@ export class Details {
     const isRobot = thing?.kind === 'robot';
     $('orders').hidden = !isRobot;
     for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
-    $('badge').hidden = !isRobot;
+    $('badge').hidden = $('mode').hidden = !isRobot;
     $('modes').hidden = !isRobot || !this.fleet.runs;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
@@ -79,6 +80,16 @@ export class Details {
     enable($('remove'), load ? 'it carries a storage unit' : '');
     const mode = this.fleet.modeOf(this.world.scene.robots[i]);
     for (const button of $('modes').children) press(button, button.dataset.mode === mode);
+    $('mode').hidden = !mode;
+    tell($('mode'), mode ? MODE_WORDS[mode] : '');
+    this.tellWhy();
+  }
+
+  /** Says below the buttons why some can't be pressed: a finger reads no title. */
+  tellWhy() {
+    const buttons = COMMANDS.map($).filter((button) => button.disabled);
+    tell($('why'), whyNot(buttons.map((button) => [button.textContent.trim(), button.dataset.why])));
+    $('why').hidden = !buttons.length;
   }
 
   factsOf(thing) {
@@ -209,6 +220,13 @@ export class Details {
       answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
     }
   }
+}
+
+/** Why buttons can't be pressed, of [label, reason] each: 'Carry: …. Drop, Remove: …'. */
+export function whyNot(buttons) {
+  const labels = new Map();
+  for (const [label, why] of buttons) labels.set(why, [...labels.get(why) ?? [], label]);
+  return [...labels].map(([why, all]) => `${all.join(', ')}: ${why}.`).join(' ');
 }
 
 const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
