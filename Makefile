@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps usable bench docs docs-test wheel lint tidy format install clean
+.PHONY: help configured dev run serve demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps usable bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -23,6 +23,9 @@ help:  ## list the targets
 
 run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
+
+serve: build  ## launch warehouses from a web page: http://localhost:8080; make serve ARGS="--port 8090"
+	@$(DEVEL) rosrun warehouse_sim hub $(ARGS)
 
 demo: build  ## watch robots fetch storage units, meet head on, recover; and a fleet deliver
 	@. devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \

@@ -18,7 +18,7 @@ def train(settings):
     """One trial: reports units delivered an episode as it learns, and what it delivers at last."""
     from warehouse_learning import Options
     from warehouse_learning.baselines import measure
-    from warehouse_learning.ppo import REWARDS, Settings
+    from warehouse_learning.ppo import REWARDS, PpoSettings
     from warehouse_learning.ppo import train as train_ppo
 
     options = Options.of({"size": "tiny", "max_cycles": 200, "rewards": REWARDS})
@@ -26,7 +26,7 @@ def train(settings):
         options,
         settings["decisions"],
         settings["seed"],
-        Settings(rate=settings["rate"], threads=1),
+        PpoSettings(rate=settings["rate"], threads=1),
         report=lambda row: tune.report({"decisions": row[0], "delivered": row[1]}),
     )
     delivered, _ = measure(policy, options, episodes=8, seed=1000, threads=1)

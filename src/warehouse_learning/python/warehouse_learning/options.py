@@ -45,7 +45,7 @@ class OptionError(ValueError):
 
 @dataclass(frozen=True)
 class Options:
-    """Of an environment; all by name.
+    """Options of an environment; all by name.
 
     size: of SIZES, or robots and shelves (storage units) as counts, or layout: a layout file,
     NAME.layout.yaml, with its own shelves, and its own robots unless `robots` says how many.

@@ -207,8 +207,8 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
 def _by_robot(actions, lead, options):
     """(n, robots) or, of wheels, (n, robots, 3), of actions whose shape begins with `lead`: (n,),
     or () for one; ActionError for another shape."""
-    given = np.asarray(actions)
+    values = np.asarray(actions)
     expected = (*lead, options.robots * (WHEELS if options.continuous else 1))
-    if given.shape != expected:
-        raise ActionError(f"actions: shape {expected} was expected, not {given.shape}")
-    return given.reshape(-1, options.robots, *([WHEELS] if options.continuous else []))
+    if values.shape != expected:
+        raise ActionError(f"actions: shape {expected} was expected, not {values.shape}")
+    return values.reshape(-1, options.robots, *([WHEELS] if options.continuous else []))

@@ -40,7 +40,8 @@ def line(event: Event, coloured: bool = False) -> str:
     number = f"#{event.command}" if event.command else ""
     kind = _kind(event, coloured)
     model, other, text = map(_plain, (event.model, event.other, event.text))
-    why = ": ".join(filter(None, (other, text)))
+    named = other and text.startswith(other)  # "kiva2 is in the way" names it itself
+    why = text if named else ": ".join(filter(None, (other, text)))
     return f"{event.header.stamp.to_sec():10.3f} s  {model:<14} {kind} {number:<6} {why}".rstrip()
 
 

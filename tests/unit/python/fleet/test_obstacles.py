@@ -10,7 +10,7 @@ import pytest
 from fault_site import BOX, Site
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.traffic.obstacles import in_the_way
+from warehouse_fleet.transports.obstructions import in_the_way
 from warehouse_fleet.transports.transports import Kind
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import STEPS
@@ -63,7 +63,10 @@ def test_a_person_is_told_of_a_box(size, cell):
         site.run(STANDS)
         told = f"something stands in the way at ({x:.1f}, {y:.1f}): take it away"
         stuck = site.driver.time - site.traffic.robots.still_since > 30
-        assert told in list(in_the_way(site.transports)) or not stuck.any()
+        assert (
+            told in list(in_the_way(site.driver.plan, site.traffic, site.transports.units))
+            or not stuck.any()
+        )
         site.world.delete("box")
         flows(site)
 
@@ -84,4 +87,4 @@ def flows(site):
     assert site.driver.collisions == 0
     assert not robots.stalled.any() and not robots.mode[~robots.gone].any()
     assert (site.driver.time - robots.still_since[robots.busy == 0] < 60).all()
-    assert not list(in_the_way(site.transports))
+    assert not list(in_the_way(site.driver.plan, site.traffic, site.transports.units))

@@ -159,7 +159,7 @@ class Vehicle:
 
     def state(self, now):
         states = [model.NodeState(n.id, n.sequence, n.released) for n in self.nodes]
-        return model.State(
+        return model.VehicleState(
             self.order,
             self.update,
             last_node_sequence=self.last,

@@ -25,8 +25,8 @@ from warehouse_vda5050.model import (
     Load,
     NodeState,
     OperatingMode,
-    Order,
-    State,
+    VehicleOrder,
+    VehicleState,
 )
 from warehouse_vda5050.topics import Identity
 
@@ -41,7 +41,7 @@ class Bench:
     def __init__(self, robot=ROBOT):
         self.vehicle = RemoteVehicle(robot, GRID, "run")
         self.now = 0.0
-        self.state = State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
+        self.state = VehicleState(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
         self.stamps = 0
         self.vehicle.take_connection(ConnectionState.ONLINE, self.now)
         (asked,) = self.instants()
@@ -59,7 +59,7 @@ class Bench:
         return self.vehicle.messages(self.now)
 
     def order(self, wait=0.0):
-        (order,) = [one for one in self.sent(wait) if isinstance(one, Order)]
+        (order,) = [one for one in self.sent(wait) if isinstance(one, VehicleOrder)]
         return order
 
     def instants(self, wait=0.0):
@@ -206,7 +206,7 @@ def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
     times = []
     for _ in range(1200):
         bench.vehicle.command(Follow(9, 0, (), 4))  # as the coordinator does
-        for order in [one for one in bench.sent(0.1) if isinstance(one, Order)]:
+        for order in [one for one in bench.sent(0.1) if isinstance(one, VehicleOrder)]:
             times.append(bench.now)
             refer = (("orderId", order.id), ("orderUpdateId", str(order.update)))
             bench.tell(errors=(Error("orderUpdateError", description="no", references=refer),))
@@ -447,7 +447,9 @@ def test_a_fatal_error_is_a_broken_drive(bench):
 
 def test_an_older_state_is_dropped(bench):
     bench.tell(position=AgvPosition(1, 0, 0))
-    bench.vehicle.take_state(State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0")), 0)
+    bench.vehicle.take_state(
+        VehicleState(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0")), 0
+    )
     assert bench.shadow.x == 1
 
 
@@ -462,7 +464,7 @@ def test_a_clock_set_back_or_numbers_that_begin_again_are_no_old_states(bench, t
 
 def test_a_vehicle_that_begins_again_unseen_is_heard(bench):
     bench.vehicle.take_connection(ConnectionState.ONLINE, 0)  # no will came before
-    bench.vehicle.take_state(State(position=AgvPosition(1, 0, 0), header=Header(0, "s")), 0)
+    bench.vehicle.take_state(VehicleState(position=AgvPosition(1, 0, 0), header=Header(0, "s")), 0)
     assert bench.shadow.x == 1
 
 

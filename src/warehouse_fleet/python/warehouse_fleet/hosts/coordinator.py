@@ -39,7 +39,7 @@ STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
 
 
-class Coordinator:
+class CoordinatorNode:
     """Hosts a FleetController: /warehouse/fleet comes in, /warehouse/fleet_orders goes out.
 
     A controller begins again whenever other robots or another floor are there, and with each

@@ -172,6 +172,6 @@ def _check_conflicts(plan: LeaguePlan) -> None:
     """Raises ProblemError where robots would be in walls, in one cell, or exchange their cells."""
     fleet = Fleet(plan.start, plan.heading, plan.start)
     floor = Floor(plan.passable)
-    found = validate(floor, fleet, plan.actions, Rules(rings=True))
-    if found:
-        raise ProblemError(f"{plan.source}: actualPaths: {found[0].describe(floor)}")
+    violations = validate(floor, fleet, plan.actions, Rules(rings=True))
+    if violations:
+        raise ProblemError(f"{plan.source}: actualPaths: {violations[0].describe(floor)}")

@@ -82,13 +82,13 @@ class RingBreaker:
     def _detours(self, around: list[int], at: Cells) -> Iterator[tuple[list[int], int]]:
         """Yields the cells between two of a ring's that follow each other, the cheapest detour
         first, and the index of the first of the two."""
-        found = []
+        ways = []
         for i, cell in enumerate(around):
             ends = {*self._beside(around[(i + 1) % len(around)])}
             cost, way = self._way(cell, ends.__contains__, {*around}, at)
             if way:
-                found.append((cost, i, way))
-        yield from ((way, i) for _, i, way in sorted(found))
+                ways.append((cost, i, way))
+        yield from ((way, i) for _, i, way in sorted(ways))
 
     def _clear(self, detour: list[int], kept: set[int], at: Cells) -> list[Move] | None:
         """Returns moves that free the cells of a detour, none into `kept`; None: there are none."""

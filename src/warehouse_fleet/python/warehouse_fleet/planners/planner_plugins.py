@@ -104,9 +104,11 @@ class ValidatedPlanner:
     def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
         """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError."""
         actions = self.planner.plan(fleet, seconds, attempts)
-        found = validate(self.floor, fleet, actions, self.rules, self.ticks)
-        if found:
-            first = {tuple(one.robots): one for one in reversed(found)}  # one for the same robots
+        violations = validate(self.floor, fleet, actions, self.rules, self.ticks)
+        if violations:
+            first = {
+                tuple(one.robots): one for one in reversed(violations)
+            }  # one for the same robots
             texts = [one.describe(self.floor, self.names) for one in reversed(first.values())]
             raise PlanRefusedError("; ".join(texts[:5]))
         return actions

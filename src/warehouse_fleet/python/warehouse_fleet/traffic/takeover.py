@@ -47,14 +47,14 @@ class Handover:
 
     def waiting(self, time: float, reports: Reports) -> list[int]:
         """Returns the robots that wait on a path at that time [s], which is to be cancelled."""
-        found = []
+        waiting = []
         for robot, since in list(self._idle_since.items()):
             if reports["status"][robot] != Status.IDLE:
                 self._idle_since[robot] = None
                 if reports["state"][robot] == State.WAITING:
-                    found.append(robot)
+                    waiting.append(robot)
             elif since is None:
                 self._idle_since[robot] = time
             elif time - since > IN_TRANSIT:
                 del self._idle_since[robot]
-        return found
+        return waiting

@@ -36,12 +36,12 @@ def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> N
     for number in range(rounds):
         for _ in range(ROUND):
             rows = encoder.encode(observations)
-            wanted = np.stack([one.act() for one in planned])
+            chosen = np.stack([one.act() for one in planned])
             seen.append(rows.reshape(-1, encoder.size))
-            told.append(wanted.ravel())
-            own = drawn(actor.forward(seen[-1])[0], random).reshape(wanted.shape)
+            told.append(chosen.ravel())
+            own = drawn(actor.forward(seen[-1])[0], random).reshape(chosen.shape)
             leads = random.random(ENVIRONMENTS) < number / rounds
-            actions = np.where(leads[:, None], own, wanted).astype(np.int8)
+            actions = np.where(leads[:, None], own, chosen).astype(np.int8)
             observations = envs.step(actions)[0]
         passes = LATE_PASSES if number == rounds - 1 else PASSES
         _learn(actor, adam, np.concatenate(seen), np.concatenate(told), passes, random)

@@ -22,8 +22,9 @@ ALGORITHMS = "ippo", "mappo"
 
 
 @dataclass(frozen=True)
-class Settings:
-    """Of a training. `steps`: of each environment's clock, all environments together."""
+class TrainingSettings:
+    """Hyperparameters of a training. `steps`: of each environment's clock, all environments
+    together."""
 
     algorithm: str = "mappo"
     steps: int = 20_000_000
@@ -59,7 +60,9 @@ class Training:
     return is the sum of all robots' rewards in an episode. `seconds`: of CPU so far.
     """
 
-    def __init__(self, envs: Any, settings: Settings, seed: int, about: dict[str, Any]) -> None:
+    def __init__(
+        self, envs: Any, settings: TrainingSettings, seed: int, about: dict[str, Any]
+    ) -> None:
         self.settings, self.seed, self.about = settings, seed, about
         self.random = np.random.default_rng(seed)
         self._envs = envs
@@ -104,7 +107,7 @@ class Training:
         report(self) is called about once in ten seconds. Returns whether the training is complete.
         """
         end = time.monotonic() + 60 * minutes
-        told = time.monotonic()
+        reported_at = time.monotonic()
         if self.settings.imitation and not self.done:
             begin = time.process_time()
             imitate(self.actor, self.encoder, self._envs.task, self.settings.imitation, self.seed)
@@ -113,8 +116,8 @@ class Training:
             begin = time.process_time()
             self._update()
             self.seconds += time.process_time() - begin
-            if time.monotonic() > told + 10:
-                told = time.monotonic()
+            if time.monotonic() > reported_at + 10:
+                reported_at = time.monotonic()
                 report(self)
         return self.done >= self.settings.steps
 

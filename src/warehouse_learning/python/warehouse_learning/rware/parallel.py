@@ -61,11 +61,11 @@ class RwareParallelEnv(ParallelEnv):
     def close(self) -> None:
         """Does nothing: there is no window."""
 
-    def _by_agent(self, told):
+    def _by_agent(self, values):
         """Infos of all as those of each: what is told of each robot is its own."""
         return {
             agent: {
-                name: value[i].item() if np.ndim(value) else value for name, value in told.items()
+                name: value[i].item() if np.ndim(value) else value for name, value in values.items()
             }
             for i, agent in enumerate(self.possible_agents)
         }

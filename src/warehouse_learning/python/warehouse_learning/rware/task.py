@@ -149,9 +149,9 @@ class Task:
         )
 
 
-def _member(kind, given):
+def _member(kind, value):
     """The member of `kind` that has the value of `given`, which may be another's member."""
-    return kind(getattr(given, "value", given))
+    return kind(getattr(value, "value", value))
 
 
 def seed_of(number: int | None) -> tuple[Any, ...]:

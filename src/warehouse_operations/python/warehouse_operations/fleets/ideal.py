@@ -102,10 +102,6 @@ class IdealFleet(TransportRequests):
         """The cell of each unit that is not carried."""
         return self._floor.units
 
-    def kiva_id(self, robot: int) -> int:
-        """Returns the id of a robot, given its index."""
-        return self._trips.robots[robot].kiva_id
-
     def check_reach(self, shelf_id: int, cell: int) -> None:
         """Raises ValueError if no way leads from a unit to a cell."""
         if not np.isfinite(self.travel.loaded_to(cell).seconds[self._floor.units[shelf_id]]):

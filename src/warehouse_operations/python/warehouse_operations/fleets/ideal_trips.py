@@ -18,7 +18,6 @@ from warehouse_fleet.transports.transport_book import (
     STAY,
     STORING,
     Kind,
-    Step,
     Transport,
     TransportBook,
 )
@@ -56,7 +55,8 @@ class Trips:
         self.travel, self.queue = floor.travel, EventQueue()
         self.time = self.distance_m = 0.0
         self.robots = [Robot(i, int(cell)) for i, cell in sorted(robots.items())]
-        self.book = TransportBook(len(self.robots), stations=floor.lanes)
+        kiva_ids = [robot.kiva_id for robot in self.robots]
+        self.book = TransportBook(kiva_ids, self, stations=floor.lanes)
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
         self.arrive: Callable[[Transport], None] = lambda _transport: None
         self.ways: Counter[tuple[int, int, bool]] = Counter()
@@ -82,14 +82,8 @@ class Trips:
     def _schedule(self, delay: float, act: Callable[[Any], object], argument: Any) -> None:
         self.queue.schedule(self.time + delay, act, argument)
 
-    def _add_event(self, kind: Kind, transport: Transport) -> None:
-        self.book.publish_event(self.time, transport, kind, self._driver(transport).kiva_id)
-
     def _driver(self, transport: Transport) -> Robot:
         return self.robots[transport.robot]
-
-    def _go_on(self, transport: Transport, step: Step) -> None:
-        self.book.go_on(transport, step, self.time)
 
     def _begin(self, robot: Robot, activity: str) -> None:
         self.seconds[robot.activity] += self.time - robot.since
@@ -129,8 +123,8 @@ class Trips:
     def _assign(self, transport: Transport, index: int, seconds: float) -> None:
         robot = self._idle.pop(index)
         robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
-        self.book.assign(transport, index, self.time)
-        self._add_event(Kind.ASSIGNED, transport)
+        self.book.assign(transport, index)
+        self.book.publish_event(transport, Kind.ASSIGNED)
         self._begin(robot, "to unit")
         self._schedule(seconds, self._reach_unit, transport)
 
@@ -138,19 +132,19 @@ class Trips:
         if transport.number not in self.book:
             return
         for step in (READY, LIFTING):
-            self._go_on(transport, step)
+            self.book.go_on(transport, step)
         self._begin(self._driver(transport), "lift")
         self._schedule(self.kinematics.lift, self._lift, transport)
 
     def _lift(self, transport: Transport) -> None:
         home = self.floor.units.pop(transport.shelf)
         self.floor.clear(home)
-        self._add_event(Kind.LIFTED, transport)
-        if transport.let_go:  # was cancelled meanwhile
-            self._go_on(transport, STORING)
+        self.book.publish_event(transport, Kind.LIFTED)
+        if transport.leave:  # was cancelled meanwhile
+            self.book.go_on(transport, STORING)
             self._store(transport)
             return
-        self._go_on(transport, BRINGING)
+        self.book.go_on(transport, BRINGING)
         self._begin(self._driver(transport), "to station")
         table = self.travel.loaded_to(transport.cell)
         self.distance_m += table.metres[home]
@@ -159,7 +153,7 @@ class Trips:
 
     def _reach_end(self, transport: Transport) -> None:
         self._driver(transport).cell = transport.cell
-        if transport.cancelled:
+        if transport.step == STORING:  # was turned back
             self._store(transport)
         elif lane := self._lane(transport):
             self._begin(self._driver(transport), "queue")
@@ -180,7 +174,7 @@ class Trips:
         self._schedule(delay, self._arrive, lane.serving)
 
     def _arrive(self, transport: Transport) -> None:
-        if transport.cancelled:
+        if transport.step == STORING:  # was turned back
             self._clear_lane(transport)
             self._store(transport)
             return
@@ -191,17 +185,17 @@ class Trips:
 
     def turn_back(self, transport: Transport) -> None:
         """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
-        self._go_on(transport, STORING)
+        self.book.go_on(transport, STORING)
 
     def leave(self, transport: Transport) -> None:
         """Has a unit leave its station, or be lowered where it is."""
-        self._add_event(Kind.RELEASED, transport)
+        self.book.publish_event(transport, Kind.RELEASED)
         self._clear_lane(transport)
         if transport.then == STAY:
             self.floor.free[transport.cell] = False
             self._lower((transport, transport.cell))
         else:
-            self._go_on(transport, STORING)
+            self.book.go_on(transport, STORING)
             self._store(transport)
 
     def _clear_lane(self, transport: Transport) -> None:
@@ -242,14 +236,14 @@ class Trips:
         transport, place = argument
         robot = self._driver(transport)
         robot.cell = place
-        self._go_on(transport, DROPPING)
+        self.book.go_on(transport, DROPPING)
         self._begin(robot, "lift")
         self._schedule(self.kinematics.lift, self._drop, argument)
 
     def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
         self.floor.units[transport.shelf] = place
-        self._add_event(Kind.STORED, transport)
+        self.book.publish_event(transport, Kind.STORED)
         self.end(transport)
 
     def end(self, transport: Transport) -> None:

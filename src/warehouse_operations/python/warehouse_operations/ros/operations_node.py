@@ -13,9 +13,9 @@ from sqlalchemy.engine import Engine
 
 from warehouse_client import identity
 from warehouse_client.build_transaction import is_building
-from warehouse_client.coordinator import Coordinator
+from warehouse_client.coordinator import CoordinatorClient
 from warehouse_client.unit_messages import unit_ids
-from warehouse_client.warehouse import Warehouse
+from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.floor.served_part import served_part
@@ -57,8 +57,8 @@ class OperationsNode:
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._log = FleetLog()
         self._warned: set[str] = set()
-        self._warehouse = Warehouse(rospy, self._on_fleet)
-        self._coordinator = Coordinator(rospy)
+        self._warehouse = WarehouseClient(rospy, self._on_fleet)
+        self._coordinator = CoordinatorClient(rospy)
         self._notices = _publisher("notices", msg.Notices)
         self._kpis = _publisher("kpis", msg.Kpis)
         self._throughput = _publisher("throughput", msg.Throughput)

@@ -33,6 +33,9 @@ class Operations:
     SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
     PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.
     Raises what open_shift raises.
+
+    context: what the parts of the shift share. stations: all of them. orders: those that are not
+    over, by id. log: what happened, minute by minute.
     """
 
     def __init__(
@@ -67,12 +70,14 @@ class Operations:
                 travel=self.fleet.travel,
             )
             unless_open.pop_all()
+        self.context, self.stations = self.shift.context, self.shift.stations
+        self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
         self.log = MinuteLog(
-            self.shift.context,
-            self.shift.stations,
-            self.shift.orders,
+            self.context,
+            self.stations,
+            self.orders,
             fleet=self.fleet,
             kinematics=self.site.kinematics,
             spacing=self.site.plan.spacing,

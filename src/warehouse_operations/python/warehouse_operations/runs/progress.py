@@ -89,7 +89,7 @@ class ProgressBar:
         self._line.end()
 
     def _show(self, ops: "Operations") -> None:
-        hourly = ops.shift.tally.items_picked / max(ops.time, 1e-9) * 3600
+        hourly = ops.context.tally.items_picked / max(ops.time, 1e-9) * 3600
         self._line.show(
             ops.time / self._seconds if self._seconds else 1.0,
             f"{hms(ops.time)} of {hms(self._seconds)}, {hourly:,.0f} pieces/h, "
@@ -114,7 +114,7 @@ class ProgressLines(ProgressBar):
         state = {
             "time": round(ops.time, 1),
             "of": self._seconds,
-            "pieces": ops.shift.tally.items_picked,
+            "pieces": ops.context.tally.items_picked,
             "wall_s": round(self._line.wall, 2),
         }
         self._line.write(json.dumps(state) + "\n")

@@ -91,8 +91,9 @@ def read(folder: str | os.PathLike[str]) -> Run:
 
 def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, Any]:
     """Returns the content of run.json."""
-    shift, tally = ops.shift, ops.shift.tally
-    count = int(shift.now // INTERVAL)
+    tally, plan = ops.context.tally, ops.site.plan
+    now, began = ops.context.clock.now, ops.context.clock.began
+    count = int(now // INTERVAL)
     log = getattr(ops.fleet, "failures", None)
     series = {
         "picked": tally.picked_in,
@@ -106,14 +107,14 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
         "version": version(),
         "intervals": {"seconds": INTERVAL}
         | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
-        "stations": [_station(station, shift.floor.plan, shift.now) for station in shift.stations],
+        "stations": [_station(station, plan, now) for station in ops.stations],
         "driven_m": ops.log.series["metres"],
-        "minutes": ops.log.series | {"late": _late(tally, shift.orders.values(), shift.now, count)},
-        "completed_s": [round(value - shift.began, 1) for value in tally.completed_s],
+        "minutes": ops.log.series | {"late": _late(tally, ops.orders.values(), now, count)},
+        "completed_s": [round(value - began, 1) for value in tally.completed_s],
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
         "robots": ops.fleet.activities(),
-        "floor": floor_rows(shift.floor.plan),
+        "floor": floor_rows(plan),
         "traffic": _map(ops.fleet, "passages"),
         "waiting": _map(ops.fleet, "waiting_map"),
         "failures": log.by_kind() if log else [],

@@ -161,8 +161,6 @@ class Shift:
             self.fallen.forget(bin_)
             self.inventory.write_off(bin_)
         self.inventory.house(self.assortment.skus)
-        self.inventory.blocked |= stored.blocked
-        self.visits.free_units -= stored.blocked
         self.order_book.resume(stored.orders, stored.last_order)
 
     # Time.

@@ -109,9 +109,8 @@ class Visits:
                 self.cancel(visit)
 
     def free(self, unit: int) -> None:
-        """Lets a unit be asked for, unless it is away, absent or out of service."""
-        blocked, absent = self._context.inventory.blocked, self._absent
-        if unit not in blocked and unit not in absent and not self._away[unit]:
+        """Lets a unit be asked for, unless it is away or absent."""
+        if unit not in self._absent and not self._away[unit]:
             self.free_units.add(unit)
             self.offer(unit)
 

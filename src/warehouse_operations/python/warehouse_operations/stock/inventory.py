@@ -89,7 +89,6 @@ class Inventory:
         self._pieces = np.zeros(len(bins), np.int32)
         self._rows_of: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._incoming: dict[str, int] = defaultdict(int)
-        self.blocked: set[int] = set()  # units out of service
         self._on_move = on_move or (lambda *_: None)
         self.changed: set[Bin] = set()  # bins whose figures are not written down yet
         for bin_ in bins:
@@ -107,7 +106,7 @@ class Inventory:
         return self.total / self.capacity if self.capacity else 0.0
 
     def available(self, sku: str) -> int:
-        """Returns the pieces of a SKU promised to no order, units out of service included."""
+        """Returns the pieces of a SKU promised to no order."""
         return self._available.get(sku, 0)
 
     def incoming(self, sku: str) -> int:

@@ -15,9 +15,8 @@ class Stored:
     """A warehouse at rest: nothing is promised or under way, units stand, orders wait.
 
     former: the ids of bins that are gone, by item. last_bin, last_order: the highest ids so far.
-    orders: those that are not over, with the times of a run that begins at `now`. blocked: the
-    units out of service. layout: what returning.layout_of gave the last run; None where an older
-    version wrote the database.
+    orders: those that are not over, with the times of a run that begins at `now`. layout: what
+    returning.layout_of gave the last run; None where an older version wrote the database.
     """
 
     assortment: Assortment
@@ -26,7 +25,6 @@ class Stored:
     last_bin: int
     orders: list[Order]
     last_order: int
-    blocked: set[int]
     layout: list[Any] | None
 
 

@@ -72,6 +72,7 @@ sku = Table(
     Column("popularity", Float, nullable=False),
 )
 
+# in_service is 1 everywhere; databases of earlier versions have the column, too.
 unit = Table("unit", metadata, _id(), Column("in_service", Integer, nullable=False))
 
 bin_ = Table(

@@ -33,13 +33,11 @@ def read(engine: Engine, now: float = 0.0) -> Stored | None:
             tuple(row.sku for row in skus), np.array([row.popularity for row in skus])
         )
         last = connection.execute(select(func.max(schema.orders.c.id))).scalar() or 0
-        units = connection.execute(select(schema.unit.c.id).where(schema.unit.c.in_service == 0))
         return Stored(
             assortment,
             *_bins(connection, assortment.skus),
             _orders(connection, now),
             last,
-            set(units.scalars()),
             _layout(connection),
         )
 

@@ -133,5 +133,5 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
 
 def _read_action(fields: Fields) -> SupportedAction:
     scopes = fields.any("actionScopes", [])
-    told = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
-    return SupportedAction(fields.text("actionType"), told, fields.text("actionDescription", ""))
+    names = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
+    return SupportedAction(fields.text("actionType"), names, fields.text("actionDescription", ""))

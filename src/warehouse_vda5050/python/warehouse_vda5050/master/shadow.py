@@ -21,7 +21,7 @@ LAST_END = {None: 0, EventKind.DONE: int(Ended.DONE), EventKind.BLOCKED: int(End
 
 @dataclass(frozen=True)
 class Shadow:
-    """As warehouse_msgs/FleetState has it of one robot [m, rad]."""
+    """The state of one robot, as in warehouse_msgs/FleetState [m, rad]."""
 
     kiva_id: int
     x: float

@@ -3,6 +3,7 @@
 
 import hmac
 import ipaddress
+import re
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from http.cookies import BaseCookie, CookieError, SimpleCookie
@@ -17,9 +18,11 @@ from warehouse_viewer.server import token_page
 Headers = Sequence[tuple[bytes, bytes]]  # as ASGI has them: names and values
 
 MOST_BODY = 64 * 1024  # [bytes]
-MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts and tables of orders are sent
-LAYOUT_FOLDERS = ("/layout/", "/whatif/")
-LAYOUT_PATHS = ("/api/v1/warehouse", "/api/v1/orders/table")
+MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts, worlds and tables of orders are sent
+# Paths where layouts, worlds and tables of orders are sent, also of a simulation in a hub.
+TAKES_LAYOUTS = re.compile(
+    r"(/s/[^/]+)?(/(layout|whatif)/.*|/api/v1/(warehouse|orders/table|simulations(/[^/]+/worlds)?))"
+)
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
@@ -39,8 +42,7 @@ def is_local(host: str) -> bool:
 
 def most_body(scope: Scope) -> int:
     """Returns how long a request's body may be [bytes]."""
-    path = scope.get("path", "")
-    takes_layouts = path.startswith(LAYOUT_FOLDERS) or path in LAYOUT_PATHS
+    takes_layouts = TAKES_LAYOUTS.fullmatch(scope.get("path", ""))
     return MOST_LAYOUT if takes_layouts else MOST_BODY
 
 

@@ -46,7 +46,8 @@ def no_station(name: str) -> str:
 
 def page_of_fault(text: str) -> str:
     """Returns a page that says why there are no labels."""
-    body = f'<h1>No labels</h1><p>{html.escape(text)}</p><a href="/operations">All stations</a>'
+    link = '<a href="../../operations">All stations</a>'
+    body = f"<h1>No labels</h1><p>{html.escape(text)}</p>{link}"
     return PAGE.format(title="No labels", body=body)
 
 

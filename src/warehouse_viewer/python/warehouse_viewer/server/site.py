@@ -29,6 +29,7 @@ class Page(NamedTuple):
     is_there: Callable[[], bool] = lambda: True
 
 
+HUB = Page("/", "Simulations", "hub.html")
 FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")

@@ -4,6 +4,7 @@
 import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
 import { decode } from './protocol.js';
+import { ROOT } from './root.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
 const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
@@ -24,7 +25,7 @@ export class Connection {
 
   open() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = this.socket = new WebSocket(`${scheme}://${location.host}/live`);
+    const socket = this.socket = new WebSocket(`${scheme}://${location.host}${ROOT}/live`);
     const isOurs = () => socket === this.socket && !this.isHeld; // none that was left
     socket.binaryType = 'arraybuffer';
     on(socket, 'open', () => isOurs() && this.greet());

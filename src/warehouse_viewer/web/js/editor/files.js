@@ -4,6 +4,7 @@
 import { $, make, on } from '../base/dom.js';
 import { ask as question, confirmed } from '../base/question.js';
 import { ask as request } from '../base/request.js';
+import { ROOT } from '../base/root.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -118,7 +119,7 @@ export async function compare(editor) {
   try {
     const name = fileNameOf(editor.drawing);
     const { name: kept } = await request('POST', '/whatif/layouts', { name, text: textOf(editor.drawing).text });
-    location.assign(`/whatif?layout=${encodeURIComponent(kept)}`);
+    location.assign(`${ROOT}/whatif?layout=${encodeURIComponent(kept)}`);
   } catch (error) {
     editor.say(error.message, 'refused');
   }

@@ -3,6 +3,7 @@
 // are drawn, whatever their number.
 
 import { $, make, on, onTheme, tell } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
@@ -61,7 +62,7 @@ export class Gantt {
     clearTimeout(this.timer);
     if (this.isAsking) return;
     this.isAsking = true;
-    const answer = await fetch(`/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
+    const answer = await fetch(`${ROOT}/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
     if (answer?.ok) this.take(await answer.arrayBuffer());
     this.isAsking = false;
     if (this.isInSight && !document.hidden) this.timer = setTimeout(() => this.poll(), PERIOD);
@@ -215,6 +216,6 @@ export class Gantt {
 
   openOnFloor() {
     const row = this.rows[this.chosen]?.row;
-    if (row) location.href = row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`;
+    if (row) location.href = ROOT + (row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`);
   }
 }

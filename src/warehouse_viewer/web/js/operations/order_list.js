@@ -4,6 +4,7 @@
 
 import { get } from '../base/api.js';
 import { $, make, on, press } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
@@ -109,7 +110,7 @@ export class OrderList {
     const offset = isReload ? 0 : Math.max(0, sight - AROUND + this.shift);
     if (isReload) this.forget();
     const { query } = this;
-    for (const kind of ['csv', 'xlsx']) $(`out-${kind}`).href = `/api/v1/orders.${kind}?${query}`;
+    for (const kind of ['csv', 'xlsx']) $(`out-${kind}`).href = `${ROOT}/api/v1/orders.${kind}?${query}`;
     query.set('limit', count + 2 * AROUND);
     query.set('offset', offset);
     try {

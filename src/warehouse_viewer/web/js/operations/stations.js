@@ -5,6 +5,7 @@
 import { put } from '../base/api.js';
 import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
+import { ROOT } from '../base/root.js';
 import { waitsOf } from '../base/station_waits.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
@@ -108,7 +109,7 @@ class Row {
     press(this.hand, this.isByHand);
     this.hand.title = this.isByHand ? 'A person works here; press for automatic' : 'It works automatically; press for a person at its screen';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
-    this.screen.href = `/station/${encodeURIComponent(name)}`;
+    this.screen.href = `${ROOT}/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
     this.showQueue(station.queue);
   }

@@ -5,6 +5,7 @@ import { command, post } from '../base/api.js';
 import { $, enable, make, on, press, tell } from '../base/dom.js';
 import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
 import { vda5050Of } from './vda5050.js';
+import { ROOT } from '../base/root.js';
 import { waitsOf } from '../base/station_waits.js';
 import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, STATE, STATION_STATES } from '../base/words.js';
 
@@ -136,7 +137,7 @@ export class Details {
     const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
     return [['state', !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity]],
       ['works', mode === StationMode.MANUAL ? 'manually' : 'automatically'], ...waits ? [['unit', waits]] : [],
-      ['queue', robots.length ? robots : 'no robot'], ['screen', { link: 'open', href: `/station/${encodeURIComponent(this.name)}` }]];
+      ['queue', robots.length ? robots : 'no robot'], ['screen', { link: 'open', href: `${ROOT}/station/${encodeURIComponent(this.name)}` }]];
   }
 
   /** Where the coordinator sends a robot, and for whom it waits. */

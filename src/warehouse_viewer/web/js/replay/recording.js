@@ -3,12 +3,13 @@
 // are kept.
 
 import { reasonOf } from '../base/request.js';
+import { at } from '../base/root.js';
 import { read } from './chunk.js';
 
 const KEPT = 12; // chunks
 
 export class Recording {
-  constructor(ask = fetch.bind(globalThis)) {
+  constructor(ask = (path) => fetch(at(path))) {
     this.ask = ask;
     this.chunks = []; // {number, scene, begin, end, wall}
     this.marks = []; // {time, kind, model, text}

@@ -5,6 +5,7 @@ import { get, put } from '../base/api.js';
 import { $, on, press } from '../base/dom.js';
 import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { confirmed } from '../base/question.js';
+import { ownPath } from '../base/root.js';
 import { stayAwake } from './awake.js';
 import { Bench } from './bench.js';
 import { meaningOf } from './codes.js';
@@ -157,4 +158,4 @@ async function inBin({ sku, item }) {
 }
 
 stayAwake();
-window.page = new Page(decodeURIComponent(location.pathname.split('/')[2])); // for a look from the console
+window.page = new Page(decodeURIComponent(ownPath().split('/')[2])); // for a look from the console

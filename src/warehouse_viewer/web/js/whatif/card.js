@@ -2,6 +2,7 @@
 // A scenario in the list. Its elements stay while what they say changes, and so does the focus.
 
 import { make } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { pathOf } from './server.js';
 import { BADGES, describe, duration, interval, limitOf, plural } from './words.js';
 
@@ -92,7 +93,7 @@ export class Card {
 
 function reportOf(name, run) {
   if (run.state === 'done') {
-    return [make('a', { href: `/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
+    return [make('a', { href: `${ROOT}/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
   }
   if (run.state === 'runs') return [`${Math.floor(100 * run.share)} %`];
   return [REASONS[run.state] ?? (run.state === 'waits' ? 'waits' : 'not run yet')];

@@ -2,6 +2,7 @@
 // Scenarios side by side: a chart with intervals, what differs, and a table of figures.
 
 import { $, make, on } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { queryOf } from './server.js';
 import { chartOf, draw, unitOf } from './whiskers.js';
 import { differences, interval, limitOf, number, plural } from './words.js';
@@ -30,7 +31,7 @@ export class Comparison {
     const left = scenarios.filter(({ state }) => state !== 'done').map(({ name }) => name);
     $('side-told').textContent = left.length ? `Of ${left.join(', ')} not all runs are over; figures are of those that are.` : '';
     $('compared').hidden = $('report').hidden = false;
-    $('report').href = `/whatif/report.html?${queryOf(figures.names)}`;
+    $('report').href = `${ROOT}/whatif/report.html?${queryOf(figures.names)}`;
     this.fillFigures();
     this.showTable(defaults);
     this.showNotes();

@@ -11,6 +11,7 @@ from operations_site import site
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.transports.transport_book import FETCHED, INBOUND
 from warehouse_fleet.transports.transports import STAY, Kind, Step
 from warehouse_operations.fleets.ideal import IdealFleet
 
@@ -74,7 +75,17 @@ class Bench:
         end = self._fleet.advance() + PATIENCE
         while not holds():
             assert self._fleet.advance() < end, "waited in vain"
+            self.check_counts()
             self._kinds += [event.kind for event in self.requests.take_events()]
+
+    def check_counts(self):
+        """The book counts what is in it."""
+        book = self.requests.book
+        steps = [transport.step for transport in book if transport.station == STATION]
+        assert book.fetched[STATION] == sum(step in FETCHED for step in steps)
+        assert book.inbound[STATION] == sum(step in INBOUND for step in steps)
+        for robot, transport in book.of_robot.items():
+            assert book.step_of[robot] == transport.step
 
     def begin(self, step, **request):
         """Asks for a transport, and goes on until it is at a step; releases what arrives on the

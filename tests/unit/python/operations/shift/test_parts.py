@@ -4,7 +4,7 @@
 import pytest
 from operations_site import site
 
-from warehouse_fleet.transports.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.transports.transports import Kind, TransportAnswer, TransportEvent
 from warehouse_layout.message_enums import OrderEventKind, OrderState
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.journal import Journal
@@ -29,7 +29,11 @@ class Requests:
 
     def submit(self, unit, station):
         self.calls.append(("submit", unit, station))
-        return Answer(0, False, self.refusal) if self.refusal else Answer(len(self.calls), True, "")
+        return (
+            TransportAnswer(0, False, self.refusal)
+            if self.refusal
+            else TransportAnswer(len(self.calls), True, "")
+        )
 
     def release(self, transport):
         self.calls.append(("release", transport))
