@@ -130,6 +130,12 @@ def _planner(file):
         make_planner(Floor(np.ones((4, 4), bool)), Rules(), 1, yaml.safe_load(file.read_text()))
 
 
+def _costs(file):
+    from warehouse_operations.sizing import costs
+
+    costs.read(file)
+
+
 def _prices(file):
     from warehouse_operations.sizing import prices
 
@@ -143,5 +149,6 @@ READERS: dict[str, Callable[[Path], None]] = {
     "localisation": _realism,
     "walls": _layers,
     "planner": _planner,
+    "currency": _costs,
     "robot": _prices,
 }

@@ -19,7 +19,8 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     runs      whole shifts in folders: simulate, sweep
     demand    a day of orders, described: its peak, its oddities
     reports   figures, comparisons, charts, pages
-    sizing    numbers of robots and stations for a wish
+    sizing    numbers of robots and stations for a wish or a day, with costs
+    design    layouts that a search finds
     ros       the nodes
 """
 

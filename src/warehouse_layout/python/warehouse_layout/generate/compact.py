@@ -71,6 +71,25 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
     )
 
 
+def fitting(
+    request: Request, replenish: int, style: Style, width: int, height: int, most: int = 3
+) -> Iterator[LayoutFile]:
+    """Yields the files of compact warehouses that fit into so many cells, the smallest first, up to
+    `most` of them. Raises RequestError as of_request() does."""
+    style.check()
+    check_stations(request.belts, replenish)
+    plans = [plan for plan in _plans(request, replenish, style) if plan.fits(width, height)]
+    for plan in sorted(plans, key=_Plan.cost)[:most]:
+        floor, stations = plan.drawn()
+        yield LayoutFile(
+            floor=floor,
+            stations=stations,
+            storage_units=request.shelves,
+            robots=request.robots,
+            items=request.items,
+        )
+
+
 @dataclass(frozen=True)
 class _Kind:
     """A station to be placed."""
@@ -167,6 +186,11 @@ class _Plan:
     def _margin(self, side: int) -> int:
         kinds = [station.kind for station in self.kinds.get(side, ())]
         return (self.queue if kinds else 0) + (BELT_CELLS if "pick" in kinds else 0)
+
+    def fits(self, width: int, height: int) -> bool:
+        """Returns whether it has room in so many cells."""
+        rows, columns = self.shape
+        return rows <= height and columns <= width
 
     def cost(self) -> float:
         """Returns the area in cells, times the square root of length over width."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.transports.transport_book import Transport
+from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_operations.fleets.activities import ActivityLog
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
@@ -86,6 +87,16 @@ class WorldFleet(FleetDriver):
         np.add.at(self._waiting, cells[standing], UPDATE)
         self._activities.observe(UPDATE, self.transports, standing)
         self._cells = cells
+
+    def set_in_service(self, kiva_id: int, in_service: bool) -> None:
+        """Takes a robot out of service where it is, or back."""
+        mode = RobotMode.AUTOMATIC if in_service else RobotMode.OUT_OF_SERVICE
+        if cancels := self.controller.set_mode(kiva_id, mode):
+            self.world.cancel(cancels)
+
+    def fail(self, kiva_id: int, duration: float) -> None:
+        """Has a robot's drive fail, until it is repaired [s]."""
+        self.world.fail(kiva_id, int(FailureKind.MOTOR), duration)
 
     def passages(self) -> np.ndarray:
         """Returns how often a loaded robot came through each cell, (h, w)."""

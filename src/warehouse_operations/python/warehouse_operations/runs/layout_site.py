@@ -44,6 +44,9 @@ def _of(entry: StationEntry) -> dict[str, Any]:
         "seconds_a_line": "line_s",
     }
     settings = {names.get(name, name): value for name, value in entry.settings.items()}
+    for name in ("piece_s", "bundle_s"):
+        if isinstance(pace := settings.get(name), tuple):  # mean and deviation
+            settings |= {name: pace[0]} | ({"piece_sd": pace[1]} if name == "piece_s" else {})
     return settings | ({"replenishes": True} if entry.kind == "both" else {})
 
 

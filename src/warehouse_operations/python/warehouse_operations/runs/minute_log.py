@@ -80,7 +80,7 @@ class MinuteLog:
             "completed": tally.orders_completed,
             "pieces": tally.items_picked,
             "visits": tally.pick_visits,
-            "picking_s": sum(s.busy_s / s.pickers for s in self._picking),
+            "picking_s": sum(s.busy_s / s.most_pickers for s in self._picking),
             "replenishing_s": sum(s.busy_s for s in self._replenishing),
             "open_replenishing_s": sum(s.open_seconds(now) for s in self._replenishing),
             "idle_s": activities["idle"],
@@ -93,8 +93,8 @@ class MinuteLog:
         visits = sum(self.series["visits"][-RECENT:])
         pile_on = sum(self.series["pieces"][-RECENT:]) / max(visits, 1)
         per_hour = sum(
-            upper_bound(pile_on, station.settings, self._kinematics, self._spacing)
+            upper_bound(pile_on, station.settings_now, self._kinematics, self._spacing)
             for station in self._picking
-            if station.is_open
+            if station.is_open and station.pickers
         )
         return per_hour * INTERVAL / 3600

@@ -7,6 +7,9 @@ import time as clock
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.fleets.ideal import IdealFleet
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.minute_log import MinuteLog
@@ -31,8 +34,8 @@ class Operations:
     warehouse; None: the world's own. orders: see orders_text.EXPECTED.
     policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
     SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
-    PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.
-    Raises what open_shift raises.
+    PlanLoop. availability: of ideal robots; simulated ones have their world's. The same seed gives
+    the same shift, to the last event, with any number of threads. Raises what open_shift raises.
 
     context: what the parts of the shift share. stations: all of them. orders: those that are not
     over, by id. log: what happened, minute by minute.
@@ -50,6 +53,7 @@ class Operations:
         site: Site | None = None,
         threads: int = 0,
         planner: Mapping[str, Any] | None = None,
+        availability: Availability | None = None,
     ) -> None:
         self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
@@ -73,6 +77,8 @@ class Operations:
         self.context, self.stations = self.shift.context, self.shift.stations
         self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
+        if availability and isinstance(self.fleet, IdealFleet):
+            self.fleet.keep_up(availability, np.random.default_rng((seed, 1)))
         self.wall_s = 0.0
         self.log = MinuteLog(
             self.context,

@@ -14,10 +14,14 @@ from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_
 from warehouse_layout.file.request import items_for
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
+from warehouse_operations.fleets import availability
+from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.runs import layout_site
+from warehouse_operations.runs import event_file, layout_site
 from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.director import Director
+from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.runs.progress import ProgressBar
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
@@ -38,11 +42,13 @@ WriteReport = Callable[[Path, Sequence[runs.Run]], object]  # writes the report 
 ERRORS = (
     DatabaseError,
     DemandError,
+    EventError,
     InUseError,
     InstanceError,
     LayoutFileError,
     PlannerError,
     PolicyError,
+    RealismError,
     SiteError,
     runs.RunError,
 )
@@ -67,6 +73,7 @@ class Description:
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
     threads: int = 0  # that step the world, and that plan; 0: one, and all cores but one
+    events: tuple[Event, ...] = ()  # what happens in the shift, by time
 
     @property
     def config(self) -> dict[str, Any]:
@@ -82,6 +89,7 @@ class Description:
             **({"stations": self.stations} if self.stations else {}),
             **({"realism": self.realism} if self.realism else {}),
             **({"planner": self.planner} if self.planner else {}),
+            **({"events": [event.to_json() for event in self.events]} if self.events else {}),
             **({"layout": self._fingerprint} if self.layout else {}),
         }
 
@@ -160,6 +168,36 @@ def _jams(path: str, site: Site) -> str:
 
 def open_operations(description: Description, database: str | None = None) -> Operations:
     """Opens the shift of a Description; raises one of ERRORS."""
+    if not description.events:
+        return _open_operations(description, database)
+    whole, spare = _with_spare_robots(description)
+    ops = _open_operations(whole, database)
+    try:
+        robots = sorted(ops.site.robots)
+        Director(ops, description.events, robots[len(robots) - spare :], description.seed)
+    except EventError:
+        ops.close()
+        raise
+    return ops
+
+
+def _with_spare_robots(description: Description) -> tuple[Description, int]:
+    """Returns a Description with all robots that are there at any time, and how many are not there
+    at first. Raises EventError."""
+    spare = event_file.most_added(description.events)
+    if not spare:
+        return description, 0
+    if description.instance:
+        event = next(event for event in description.events if event.kind == "robots")
+        raise event.fault("adds some; an instance has its own, a layout or a size was expected")
+    robots = description.robots
+    if not robots:
+        file = layout_choice.chosen(description.layout or description.size)
+        robots = len(placement.place(file, description.seed).robots)
+    return replace(description, robots=robots + spare), spare
+
+
+def _open_operations(description: Description, database: str | None = None) -> Operations:
     world: World | None
     if description.robots and description.instance:
         raise InstanceError("robots: an instance has its own; a layout or a size was expected")
@@ -202,6 +240,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
         physics=description.physics,
         threads=description.threads,
         planner=description.planner or None,
+        availability=None if description.physics else availability.read(description.realism),
     )
     if description.stations:
         ops.shift.open_picking(description.stations)

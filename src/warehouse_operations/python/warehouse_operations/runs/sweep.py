@@ -9,6 +9,7 @@ physics: false
 seeds: 10                     # 1 to 10, or a list
 orders: fill                  # or day:FILE.csv, demand:FILE.demand.yaml, either with *1.3, …
 policies: {storage: nearest}  # what all have
+events: [{at: 600, close: pick1}]  # or a file; see event_file
 grid:                         # each key is an axis
   policies.orders: [random, pile-on]
   policies.units: [nearest, most lines]
@@ -19,7 +20,9 @@ seed-1, seed-2, …
 """
 
 import contextlib
+import hashlib
 import itertools
+import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -30,7 +33,9 @@ from typing import Any
 
 from warehouse_layout.generate import layout_choice
 from warehouse_operations.policies import ROLES
+from warehouse_operations.runs import event_file
 from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.simulation import (
     ERRORS,
     MOST_SEED,
@@ -40,6 +45,7 @@ from warehouse_operations.runs.simulation import (
     with_settings,
 )
 from warehouse_operations.stock import orders_text
+from warehouse_operations.stock.lined_yaml import LinedYaml
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 from warehouse_operations.store.locks import FileLock, InUseError
@@ -57,6 +63,7 @@ KINDS: dict[str, tuple[Any, str]] = {
     "realism": (str, "ideal, typical, bad_day or a file"),
     "orders": (str, orders_text.EXPECTED),
     "policies": ((dict, type(None)), "roles with a policy each"),
+    "events": ((list, str), "a list of events, or the name of a file with them"),
 }
 KEYS = {*KINDS, "seeds"}
 MOST_SEEDS, MOST_MINUTES = 10_000, 1e7
@@ -215,13 +222,23 @@ def _orders_beside(path: Path, orders: str) -> str:
         raise SweepError(f"{path}: {error}") from error
 
 
+def _events(path: Path, events: list[Any] | str, is_varied: bool) -> tuple[Event, ...]:
+    """Returns the events of a list, or of a file beside a sweep. Raises EventError."""
+    if isinstance(events, str):
+        return event_file.read(_beside(path, events))
+    if is_varied or not events:
+        return event_file.events_of(events, path.parent)
+    file = LinedYaml(path, EventError)
+    return event_file.events_of(events, path.parent, file.fault, ("events",), str(path), file.line)
+
+
 def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
     merged = data | {k: v for k, v in point.items() if not k.startswith("policies.")}
     policies = dict(data.get("policies") or {})
     for key, value in point.items():
         if key.startswith("policies."):
             policies[key.removeprefix("policies.")] = value
-    known = {field.name for field in fields(Description)}
+    known = {field.name for field in fields(Description)} - {"events"}
     options = {key: merged[key] for key in merged.keys() & known}
     for key in ("layout", "instance", "settings"):
         if options.get(key) and not (key == "layout" and layout_choice.is_preset(options[key])):
@@ -233,9 +250,12 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
         options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
+        options["events"] = _events(path, merged.get("events", []), "events" in point)
         description = with_settings(Description(**options))
         description.config  # noqa: B018 - policies that don't exist are refused before anything runs
         return description
+    except EventError as error:
+        raise SweepError(str(error)) from error
     except (TypeError, ValueError, *ERRORS) as error:
         raise SweepError(f"{path}: {error}") from error
 
@@ -256,4 +276,7 @@ def _is_seed(value: Any) -> bool:
 
 
 def _word(value: Any) -> str:
+    if isinstance(value, list):  # of events
+        text = json.dumps(value, sort_keys=True, default=str).encode()
+        return hashlib.blake2b(text, digest_size=4).hexdigest() if value else "none"
     return value.get("name", "") if isinstance(value, dict) else str(value)

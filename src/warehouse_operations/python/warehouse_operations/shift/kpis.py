@@ -63,7 +63,7 @@ def of_shift(
     throughput = tally.items_picked / hours
     overdue = sum(bool(order.due) and order.due < now for order in orders)
     busy = sum(station.busy_s for station in picking)
-    attended = sum(station.open_seconds(now) * station.pickers for station in picking)
+    attended = sum(station.picker_seconds(now) for station in picking)
     return {
         "simulated_s": elapsed,
         "wall_s": wall_s,

@@ -269,8 +269,9 @@ class Picking:
         line = visit.piece_to_pick(station.reaching - 1).line
         more = station.seconds_a_line if line is not station.line else 0.0
         station.line, now = line, self._clock.now
-        self._clock.schedule(now + more + station.pick_seconds, self._taken, (station, visit))
-        taken = now + more + station.seconds_a_piece
+        whole, first = station.draw_times()
+        self._clock.schedule(now + more + first, self._taken, (station, visit))
+        taken = now + more + whole
         self._clock.schedule(taken, self._in_tote, (station, now))
 
     def _taken(self, argument: tuple[WorkStation, Visit]) -> None:

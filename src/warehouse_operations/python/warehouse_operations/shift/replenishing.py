@@ -40,13 +40,16 @@ class Replenishing:
         self._context, self._clock, self.stations = context, context.clock, stations
         self._inventory, self._policies, self._view = context.inventory, policies, view
         self._goods_in, self._visits, self._task_numbers = goods_in, visits, task_numbers
+        self.sold_out: set[str] = set()  # SKUs of which no more come
         self._look = True
         visits.register(self, replenishes=True)
         for station in stations:
             station.on_hands_free.append(self.next_bundle)
 
     def order(self, sku: str, quantity: int) -> None:
-        """Queues a bundle that has arrived for replenishment."""
+        """Queues a bundle that has arrived for replenishment; none comes of what is sold out."""
+        if sku in self.sold_out:
+            return
         self._goods_in.order(sku, quantity, self._clock.now)
         self._look = True
 

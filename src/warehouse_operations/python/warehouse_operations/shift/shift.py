@@ -137,7 +137,17 @@ class Shift:
         edges += [edge for begin, end in settings.hours for edge in ((begin, True), (end, False))]
         for hour, is_open in edges:
             self._clock.schedule(self.began + 3600 * hour, self._keep_hours, (station, is_open))
+        for hour, pickers in settings.shifts():
+            self._clock.schedule(self.began + 3600 * hour, self._set_pickers, (station, pickers))
+        if station.piece_sd:
+            station.set_chance(np.random.default_rng(self._rng.integers(2**63)))
         return station
+
+    def _set_pickers(self, argument: tuple[WorkStation, int]) -> None:
+        """Begins a break of a station's pickers, or has them or others go on."""
+        station, pickers = argument
+        station.set_pickers(pickers, self.now)
+        station.next_work()
 
     def _keep_hours(self, argument: tuple[WorkStation, bool]) -> None:
         """Opens or closes a station as its hours say."""
@@ -297,6 +307,14 @@ class Shift:
     def free_units(self) -> UnitSet:
         """The ids of units that stand in storage and may be asked for."""
         return self.visits.free_units
+
+    def take_out(self, sku: str) -> None:
+        """Writes off the pieces of a SKU that are promised to no order; no more come."""
+        self.replenishing.sold_out.add(sku)
+        for bin_ in list(self.inventory.with_sku(sku)):
+            if bin_.available:
+                self.inventory.move(bin_, sku, -bin_.available, Reason.SHORT)
+        self.notices.add(f"{sku} is sold out")
 
     def update_units(self, units: set[int]) -> None:
         """Takes in the ids of all units of the warehouse; missing ones are not asked for."""

@@ -2,11 +2,12 @@
 """The answer of a sizing, in words and figures: how many, how sure, and what limits it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from warehouse_operations.reports import limits
 from warehouse_operations.reports.comparison import CONFIDENCE
 from warehouse_operations.reports.limits import Limit
+from warehouse_operations.sizing import helps, hourly
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
 from warehouse_operations.sizing.wish import count, named
@@ -24,13 +25,15 @@ KNEE = 0.99  # of the most orders an hour of any number of robots
 class Answer:
     """The chosen point of a Study, with the points around it.
 
-    verdict: of ideal robots. check: of simulated ones, None if that was not asked for; its robots
+    others: the points with a robot or a station more. verdict: of ideal robots. check: of
+    simulated ones, None if that was not asked for; its robots
     may be more.
     """
 
     study: Study
     verdict: Verdict
     check: Verdict | None = None
+    others: list[Verdict] = field(default_factory=list)
 
     @property
     def robots(self) -> int:
@@ -64,12 +67,12 @@ class Answer:
         stations = count(self.stations, "open picking station")
         if not self.confirmed:
             return (
-                f"{robots} and {stations} would meet {wish.orders_per_hour:,.0f} orders an hour"
+                f"{robots} and {stations} would meet {wish.asked}"
                 " without traffic; simulated robots were not shown to."
             )
         return (
-            f"{robots} and {stations} ({self.names}) meet {wish.orders_per_hour:,.0f} orders an"
-            f" hour: at most {100 * self.measured.at_most:.2f} % of them are not done in time,"
+            f"{robots} and {stations} ({self.names}) meet {wish.asked}:"
+            f" at most {100 * self.measured.at_most:.2f} % of them are not done in time,"
             f" where {100 * wish.late:g} % may be ({100 * CONFIDENCE:.0f} % confidence,"
             f" {len(self.measured.records)} shifts)."
         )
@@ -103,6 +106,12 @@ class Answer:
         yield from self._fewer_robots()
         yield from self._fewer_stations()
         yield from self._more_stations()
+        yield from self._hours()
+        yield from helps.sentences(self.study, self.verdict, self.others)
+
+    def _hours(self) -> Iterator[str]:
+        if self.study.wish.day:
+            yield from hourly.sentences(hourly.hours_of(self.measured))
 
     def _streets(self) -> Iterator[str]:
         check = self.check

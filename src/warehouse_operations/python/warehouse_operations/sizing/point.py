@@ -43,6 +43,7 @@ class Point:
     run_in: int
     minutes: int
     policies: dict[str, Any] = field(default_factory=dict)
+    realism: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,7 @@ def simulate(point: Point) -> Record:
         seed=point.seed,
         physics=point.physics,
         policies=point.policies,
+        realism=point.realism,
     ) as ops:
         fates = _Fates()
         ops.shift.on_order_event = fates.on_order

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 from warehouse_operations.sizing import point as shift
 from warehouse_operations.sizing.point import Point, Record
-from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.search import Search
 from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
-from warehouse_operations.sizing.wish import RUN_IN, ImpossibleError, Wish, count, named
+from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
 
 STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
 CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3  # of the fewest robots, and shifts each, to draw
@@ -62,6 +62,11 @@ class Study:
                     points = self.wish.points(robots, stations, range(1, DRAWN + 1))
                     self._judged(self.verdicts, robots, stations, self._shifts(points))
 
+    def beside(self, verdict: Verdict, robots: int, stations: int) -> Verdict:
+        """Returns the Verdict on another point by the seeds of one that was judged."""
+        points = self.wish.points(robots, stations, [record.seed for record in verdict.records])
+        return self._judged(self.verdicts, robots, stations, self._shifts(points))
+
     def check(self, robots: int, stations: int, hours: float) -> int | None:
         """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
 
@@ -101,7 +106,15 @@ class Study:
         records: Sequence[Record],
     ) -> Verdict:
         """Returns the Verdict on these shifts, and adds it to `verdicts`."""
-        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN)
+        verdict = Verdict(
+            robots,
+            stations,
+            tuple(records),
+            self.wish.late,
+            self.wish.seeds,
+            self.wish.run_in,
+            self.wish.day is not None,
+        )
         known = verdicts.get((robots, stations))
         if known is None or len(known.records) < len(records):
             verdicts[robots, stations] = verdict
@@ -143,7 +156,7 @@ class Study:
 
 
 def choose(
-    frontier: dict[int, int | None], prices: Prices | None, units: int, replenishing: int
+    frontier: dict[int, int | None], prices: Pricing | None, units: int, replenishing: int
 ) -> tuple[int, int]:
     """Returns the (robots, picking stations) of a frontier to recommend.
 

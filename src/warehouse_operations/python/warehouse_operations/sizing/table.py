@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
 
@@ -37,14 +37,14 @@ def rows(study: Study) -> list[tuple[Verdict, str]]:
     ]
 
 
-def to_csv(study: Study, prices: Prices | None) -> str:
+def to_csv(study: Study, prices: Pricing | None) -> str:
     """Returns all figures of all points as CSV."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(cells(study, prices))
     return out.getvalue()
 
 
-def cells(study: Study, prices: Prices | None) -> list[list[Any]]:
+def cells(study: Study, prices: Pricing | None) -> list[list[Any]]:
     """Returns headings, and all figures of all points: means and half their 95 % intervals."""
     named = [text for _, heading, *_ in FIGURES for text in (heading, f"{heading} ±")]
     out: list[list[Any]] = [[*HEAD, *named, "cost a piece"]]
@@ -69,7 +69,7 @@ def _plain(text: str) -> Any:
         return text
 
 
-def to_text(study: Study, prices: Prices | None) -> str:
+def to_text(study: Study, prices: Pricing | None) -> str:
     """Returns the most telling figures of all points, in columns."""
     columns = [column for column in FIGURES if column[0] in SHORT]
     cost = ["cost a piece"] if prices else []
@@ -95,7 +95,7 @@ def cell_of(verdict: Verdict, name: str, _: str, factor: float, digits: int) -> 
     return f"{factor * estimate.mean:,.{digits}f} ± {factor * estimate.half:,.{digits}f}"
 
 
-def cost_of(study: Study, prices: Prices | None, verdict: Verdict) -> str:
+def cost_of(study: Study, prices: Pricing | None, verdict: Verdict) -> str:
     """Returns what a piece costs at a point as text; empty without prices."""
     if not prices:
         return ""

@@ -42,6 +42,7 @@ class Verdict:
     late: float
     seeds: int
     run_in: int = 0
+    is_day: bool = False  # with hours that differ: it is judged from its begin, by lateness alone
 
     @property
     def decided(self) -> bool:
@@ -71,7 +72,7 @@ class Verdict:
     def piles_up(self) -> bool:
         """Whether more orders come than are completed, by more than may be late, with the
         confidence of a look."""
-        return self._limit("growth", RISK, -1) > self.late
+        return not self.is_day and self._limit("growth", RISK, -1) > self.late
 
     def at_work(self) -> float:
         """Returns how many of the robots were at work, on the average."""
@@ -107,6 +108,8 @@ class Verdict:
     @cached_property
     def warm_up(self) -> int:
         """The first minutes that are left out: the run-in, and until the open orders are steady."""
+        if self.is_day:
+            return self.run_in
         return max(self.run_in, mser5([record.series["open"] for record in self.records]))
 
     @cached_property

@@ -15,6 +15,8 @@ from warehouse_layout.place import file_check, placement
 from warehouse_operations.runs import layout_site
 from warehouse_operations.shift import kpis
 from warehouse_operations.sizing import sites
+from warehouse_operations.sizing.day import RUN_IN as DAY_RUN_IN
+from warehouse_operations.sizing.day import Day
 from warehouse_operations.sizing.point import Point
 from warehouse_operations.stock import order_mix
 from warehouse_operations.stock.order_file import read_csv
@@ -52,6 +54,8 @@ class Wish:
     hours: float = 8.0
     seeds: int = 5
     most_robots: int = 0  # 0: what the demand can use and the floor has room for
+    day: Day | None = None  # comes instead of so many orders an hour
+    realism: str = ""  # what keeps robots from work: a preset or a file
 
     def __post_init__(self) -> None:
         faults = [fault for fault in file_check.faults(self.file) if not fault.is_of_bodies]
@@ -84,17 +88,31 @@ class Wish:
 
     @property
     def orders(self) -> str:
-        """The orders text of order_mix."""
+        """The orders text of a shift: of order_mix, or of the day."""
+        if self.day:
+            return self.day.whole_text
         return order_mix.text_of(self.orders_per_hour, self.lines, self.pieces, self.orders_file)
 
     @cached_property
     def pieces_per_order(self) -> float:
         """Pieces of an order, on the average. Raises DemandError for a file that is wrong."""
+        if self.day:
+            return self.day.pieces_per_order
         if not self.orders_file:
             return self.lines * self.pieces
         orders = read_csv(self.orders_file)
         pieces = sum(n for order in orders for _, n in order.lines)
         return pieces / max(len(orders), 1)
+
+    @property
+    def run_in(self) -> int:
+        """The minutes in which an empty warehouse fills."""
+        return DAY_RUN_IN if self.day else RUN_IN
+
+    @property
+    def asked(self) -> str:
+        """What is asked for, in words."""
+        return str(self.day) if self.day else f"{self.orders_per_hour:,.0f} orders an hour"
 
     @property
     def pieces_per_hour(self) -> float:
@@ -144,9 +162,10 @@ class Wish:
                 bool(physics_hours),
                 layout_file.text_of(file),
                 self.orders,
-                RUN_IN,
-                math.ceil(60 * (physics_hours or self.hours)),
+                self.run_in,
+                math.ceil(60 * (self.hours if self.day else physics_hours or self.hours)),
                 dict(self.file.policies),
+                self.realism,
             )
             for seed in seeds
         ]

@@ -23,15 +23,16 @@ class LinedYaml:
         if node is not None:
             self._note(node, ())
 
+    def line(self, place: Place) -> int:
+        """Returns the line of a part, or of the nearest part around it."""
+        around = (place[:n] for n in range(len(place), -1, -1))
+        return next((self._lines[part] for part in around if part in self._lines), 1)
+
     def fault(self, place: Place, text: str) -> Exception:
         """Returns the error about a part of the file: `FILE:LINE: FIELD TEXT`."""
-        line = next(
-            (self._lines[place[:n]] for n in range(len(place), -1, -1) if place[:n] in self._lines),
-            1,
-        )
         field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
         field = field.removeprefix(".")
-        return self._error(f"{self.path}:{line}: {f'{field} ' if field else ''}{text}")
+        return self._error(f"{self.path}:{self.line(place)}: {f'{field} ' if field else ''}{text}")
 
     def _note(self, node: yaml.Node, place: Place) -> None:
         self._lines.setdefault(place, node.start_mark.line + 1)

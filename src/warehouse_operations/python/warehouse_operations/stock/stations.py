@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stations of a shift, and the visits of units to them."""
 
+import math
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+
+import numpy as np
 
 from warehouse_layout.floor.stations import PICK
 from warehouse_layout.message_enums import StationMode
@@ -86,7 +89,10 @@ class WorkStation:
         self.capacity = settings.slots if self.picks else 0
         self.seconds_a_piece, self.seconds_a_bundle = settings.piece_s, settings.bundle_s
         self.pick_seconds = min(settings.pick_s, settings.piece_s)
-        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
+        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers_at(0.0)
+        self.most_pickers = max(settings.pickers, *settings.roster, 1)
+        self.piece_sd, self._rng = settings.piece_sd, np.random.default_rng(1)
+        self._picker_s, self._changed = 0.0, began  # of its pickers while it was open, until then
         self.orders: dict[int, Order] = {}  # by id
         self.totes = Totes(self.capacity)
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
@@ -102,8 +108,47 @@ class WorkStation:
 
     def set_open(self, is_open: bool, now: float) -> None:
         """Opens or closes the station at a time [s]."""
+        self._note_pickers(now)
         self._open_s, self._opened = self.open_seconds(now), now
         self.is_open = is_open
+
+    def set_pickers(self, pickers: int, now: float) -> None:
+        """Sets how many people or robots pick here from a time on [s]; 0: a break."""
+        self._note_pickers(now)
+        self.pickers = pickers
+
+    def set_pace(self, seconds_a_piece: float | tuple[float, float]) -> None:
+        """Sets the time from a piece to the next [s]: a number, or a mean with its deviation."""
+        mean, deviation = (
+            seconds_a_piece if isinstance(seconds_a_piece, tuple) else (seconds_a_piece, 0.0)
+        )
+        self.seconds_a_piece, self.piece_sd = mean, deviation
+        self.pick_seconds = min(self.pick_seconds, mean)
+
+    @property
+    def settings_now(self) -> Settings:
+        """Its settings with the pickers of this moment and their pace."""
+        return replace(self.settings, pickers=self.pickers, piece_s=self.seconds_a_piece)
+
+    def set_chance(self, rng: np.random.Generator) -> None:
+        """Sets what the times of pieces are drawn with."""
+        self._rng = rng
+
+    def draw_times(self) -> tuple[float, float]:
+        """Returns how long a piece takes, and the part of that until it is out of its bin [s]:
+        log-normal where people differ from piece to piece."""
+        if not self.piece_sd:
+            return self.seconds_a_piece, self.pick_seconds
+        spread = math.log(1 + (self.piece_sd / self.seconds_a_piece) ** 2)
+        factor = math.exp(math.sqrt(spread) * self._rng.standard_normal() - spread / 2)
+        return factor * self.seconds_a_piece, factor * self.pick_seconds
+
+    def _note_pickers(self, now: float) -> None:
+        self._picker_s, self._changed = self.picker_seconds(now), now
+
+    def picker_seconds(self, now: float) -> float:
+        """Returns the time of all its pickers until a time while it was open [s]."""
+        return self._picker_s + (self.pickers * (now - self._changed) if self.is_open else 0.0)
 
     def open_seconds(self, now: float) -> float:
         """Returns for how long it was open until a time [s]."""
@@ -111,8 +156,8 @@ class WorkStation:
 
     def busy_fraction(self, now: float) -> float:
         """Returns the share of its pickers' hours in which they worked, until a time [s]."""
-        hours = self.open_seconds(now) * self.pickers
-        return self.busy_s / hours if hours else 0.0
+        time = self.picker_seconds(now)
+        return self.busy_s / time if time else 0.0
 
     def next_work(self) -> None:
         """Starts what its people can do next."""

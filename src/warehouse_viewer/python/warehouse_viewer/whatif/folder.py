@@ -16,6 +16,7 @@ from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
 from warehouse_layout.file.request import LIMITS
 from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
+from warehouse_operations.runs import event_file
 from warehouse_operations.runs.simulation import ERRORS, Description
 from warehouse_operations.stock import demand_file, orders_text
 from warehouse_operations.stock.assortment import Assortment
@@ -201,6 +202,7 @@ def check(scenario: Scenario, path: Path) -> Description:
             policies=dict(scenario.policies),
             physics=scenario.physics,
             realism=scenario.realism,
+            events=event_file.events_of(scenario.events, path),
         )
         _check_floor(description)
         _check_orders(orders)

@@ -13,6 +13,7 @@ import yaml
 from warehouse_layout.file.layout_file import SUFFIX
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import ROLES
+from warehouse_operations.runs import event_file
 from warehouse_operations.stock import orders_text
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
@@ -34,7 +35,7 @@ class ScenarioError(ValueError):
 class Scenario:
     """What is simulated, `seeds` times. layout: a preset, or a file in LAYOUTS; robots, stations:
     0 for as many as the layout has; realism: with physics, one of REALISM; orders: as simulate
-    takes them, with files in ORDERS; policies: names by role."""
+    takes them, with files in ORDERS; policies: names by role; events: see event_file."""
 
     layout: str = "medium"
     robots: int = 0
@@ -45,6 +46,7 @@ class Scenario:
     physics: bool = False
     realism: str = ""
     policies: Mapping[str, Any] = field(default_factory=dict)
+    events: list[dict[str, Any]] = field(default_factory=list)
 
     @classmethod
     def of_json(cls, fields_of: object) -> "Scenario":
@@ -77,7 +79,7 @@ class Scenario:
         return {
             key: value
             for key, value in out.items()
-            if isinstance(value, bool) or value not in (0, "", {})
+            if isinstance(value, bool) or value not in (0, "", {}, [])
         }
 
     def write(self, folder: Path) -> None:
@@ -151,6 +153,15 @@ def _is_policies(value: object) -> bool:
     )
 
 
+def _is_events(value: object) -> bool:
+    """Only what names no files: a page names those in ORDERS alone."""
+    try:
+        events = event_file.events_of(value, Path("."))
+    except event_file.EventError:
+        return False
+    return not any(event.kind == "orders" for event in events)
+
+
 def is_file_name(name: str, suffix: str) -> bool:
     """Returns whether it is a name of a file of that kind, without a folder."""
     stem = name.removesuffix(suffix)
@@ -182,4 +193,5 @@ EXPECTED: dict[str, tuple[Callable[[Any], Any], str]] = {
     "physics": (lambda value: isinstance(value, bool), "true or false"),
     "realism": (lambda value: value in ("", *REALISM), f"one of {', '.join(REALISM)}"),
     "policies": (_is_policies, f"a known policy for some of {', '.join(ROLES)}"),
+    "events": (_is_events, f"a list of events, each with `at` and {event_file.EXPECTED},"),
 }

@@ -390,7 +390,7 @@ def test_a_small_warehouse_is_sized(tmp_path):
     )
     assert "Limit: " in done.stdout and "h simulated in" in done.stderr
     page = (out / "report.html").read_text()
-    assert page.count("<svg") == 6 and not re.search(r'(src|href)="(?!#|data:)', page)
+    assert page.count("<svg") == 10 and not re.search(r'(src|href)="(?!#|data:)', page)
     assert "What limits it" in page and "What was assumed" in page
     rows = list(csv.DictReader((out / "points.csv").read_text().splitlines()))
     met = [row for row in rows if row["verdict"] == "met"]
