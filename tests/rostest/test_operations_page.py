@@ -217,7 +217,9 @@ class OperationsPage(WorkPageTest):
         self.let_fall(wrong.replace("sku-1,none", "sku-no,none"))
         table = "document.querySelector('#sheet-faults tbody').textContent"
         self.page.until(f"{table}.startsWith('3sku')")
-        self.assertIn("3quantityquantity is 'none'; a whole number from 1 on", self.page.read(table))
+        self.assertIn(
+            "3quantityquantity is 'none'; a whole number from 1 on", self.page.read(table)
+        )
         self.page.read("document.getElementById('sheet').close()")
         self.let_fall(wrong)
         self.page.until(f"{table}.startsWith('3quantity')")
@@ -243,7 +245,9 @@ class OperationsPage(WorkPageTest):
     def test_7_what_is_put_in_leaves_what_is_picked_its_height(self):
         chart = "page.chart.plot.chart"
         self.page.until(f"{chart} && {chart}.data.datasets[0].data.length > 0")
-        tallest = f"Math.max(10, ...[0, 2].flatMap((i) => {chart}.data.datasets[i].data.map((p) => p.y)))"
+        tallest = (
+            f"Math.max(10, ...[0, 2].flatMap((i) => {chart}.data.datasets[i].data.map((p) => p.y)))"
+        )
         self.page.until(f"{chart}.scales.y.max <= 1.5 * {tallest}")
         put_in = f"Math.max(...{chart}.data.datasets[1].data.map((p) => p.y))"
         self.page.until(f"{chart}.scales.stored.max >= {put_in}")

@@ -82,7 +82,8 @@ BACKDROP = """(() => {
 COLOURS = """(() => {{
   const probe = document.body.appendChild(document.createElement('i'));
   probe.style.backgroundColor = '{}';
-  const shown = [probe, document.getElementById('{}')].map((e) => getComputedStyle(e).backgroundColor);
+  const shown = [probe, document.getElementById('{}')]
+    .map((e) => getComputedStyle(e).backgroundColor);
   probe.remove();
   return shown;
 }})()"""
@@ -374,7 +375,9 @@ class ViewerPage(PageTest):
         link = self.page.read("location.href")
         self.page.open("about:blank")
         self.page.open(link)
-        self.page.until("page.selected === 'kiva2' && document.body.classList.contains('replaying')")
+        self.page.until(
+            "page.selected === 'kiva2' && document.body.classList.contains('replaying')"
+        )
         self.page.until(f"{target}.every((n, i) => Math.abs(n - {seen}[i]) < 0.02)")
         self.assertGreaterEqual(self.page.read("page.timeline.player.time"), then)
         self.page.click_on("replay-live")
@@ -384,13 +387,17 @@ class ViewerPage(PageTest):
         self.page.until("page.timeline.track.end - page.timeline.track.begin > 10")
         track = "page.timeline.track"
         # Between two looks for new marks, which come every ten seconds.
-        self.page.read(f"({track}.setMarks([{{time: ({track}.begin + {track}.end) / 2, kind: 'ALARM',"
-                       " model: 'kiva1', text: ''}]), page.timeline.refresh = () => {}, 0)")
+        self.page.read(
+            f"({track}.setMarks([{{time: ({track}.begin + {track}.end) / 2, kind: 'ALARM',"
+            " model: 'kiva1', text: ''}]), page.timeline.refresh = () => {}, 0)"
+        )
         box = self.page.read(f"{track}.marks.firstChild.getBoundingClientRect().toJSON()")
         mark = self.page.read(f"Number({track}.marks.firstChild.dataset.time)")
         self.page.click_at(box["x"] + box["width"] / 2 + 9, box["y"] + 20)
         self.page.until("document.body.classList.contains('replaying')")
-        self.page.until(f"Math.abs(page.timeline.player.time - Math.max({track}.begin, {mark} - 1)) < 0.2")
+        self.page.until(
+            f"Math.abs(page.timeline.player.time - Math.max({track}.begin, {mark} - 1)) < 0.2"
+        )
         self.page.click_on("replay-live")
         self.until_link("live")
         self.page.read("location.reload()")
@@ -507,7 +514,8 @@ class ViewerPage(PageTest):
         self.page.until("!document.getElementById('builder').open")
         # As with a robot more, and a fleet at work.
         self.page.read(
-            "(page.builder.present = () => ({robots: 5, shelves: 24, items: 96, isWorking: true}), 0)"
+            "(page.builder.present = () =>"
+            " ({robots: 5, shelves: 24, items: 96, isWorking: true}), 0)"
         )
         self.page.click_on("build")
         self.page.until("document.getElementById('own-robots').value === '5'")

@@ -99,7 +99,11 @@ def test_only_those_that_wait_for_half_a_minute_wait_too_long():
 
 
 def test_robots_in_a_queue_that_moves_do_not_wait_too_long():
-    texts = ["in the queue of pick1 behind kiva4", "behind kiva5", "in the queue of pick2 behind kiva6"]
+    texts = [
+        "in the queue of pick1 behind kiva4",
+        "behind kiva5",
+        "in the queue of pick2 behind kiva6",
+    ]
     state = CoordinatorState(
         waiting_kiva=[1, 2, 3], waiting_since=[920.0, 920.0, 880.0], waiting_text=texts
     )

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from enum import IntEnum
-from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,12 +51,8 @@ def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
     """
     if coordinator is None:
         return []
-    waits = zip_longest(
-        coordinator.waiting_kiva,
-        coordinator.waiting_since,
-        coordinator.waiting_text[: len(coordinator.waiting_kiva)],
-        fillvalue="",
-    )
+    texts = list(coordinator.waiting_text) or [""] * len(coordinator.waiting_kiva)
+    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since, texts)
     now = coordinator.header.stamp.to_sec()
     return [
         robot

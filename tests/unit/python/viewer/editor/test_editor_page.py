@@ -33,7 +33,6 @@ from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generator
 from warehouse_layout.place import file_check
 
-
 # The links that a running warehouse has, with a count of alarms.
 ALL_LINKS = """document.querySelector('.site').innerHTML =
   ['Floor', 'Operations<span class="badge needs-help count">12</span>', 'Layout', 'What-if', 'API',
