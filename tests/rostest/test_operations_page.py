@@ -57,6 +57,13 @@ LEFT_OUT = """(() => {
   return isAsked;
 })()"""
 
+# Whether the legend of the heat map lies between the panels at its sides.
+BESIDE = """(() => {
+  const [heat, left, right] = ['heat-panel', 'list-panel', 'details-panel']
+    .map((id) => document.getElementById(id).getBoundingClientRect());
+  return right.width > 0 && heat.left >= left.right && heat.right <= right.left;
+})()"""
+
 
 class OperationsPage(WorkPageTest):
     """In this order: what one test leaves the next one finds."""
@@ -192,6 +199,12 @@ class OperationsPage(WorkPageTest):
         self.page.until("Boolean(page.heat.object)")
         self.click("[data-heat=waiting]")
         self.page.until("document.getElementById('heat-text').textContent.includes('waited')")
+        self.page.read("page.select('kiva1')")
+        self.page.until(BESIDE)  # the legend lies on no panel
+        self.page.read("page.select('pick1')")
+        self.page.until("document.getElementById('facts').textContent.includes('automatically')")
+        self.assertIn("/station/pick1", self.page.read("document.querySelector('#facts a').href"))
+        self.page.read("page.select(null)")
         self.page.click_on("heat")
         self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")
 
