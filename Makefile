@@ -25,7 +25,9 @@ run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
 serve: build  ## launch warehouses from a web page: http://localhost:8080; make serve ARGS="--port 8090"
-	@$(DEVEL) rosrun warehouse_sim hub $(ARGS)
+	@scripts/assistant && export WAREHOUSE_ASSISTANT=$$PWD/.venv/assistant/bin/python || \
+	echo "The hub starts without its assistant: /mcp answers 503." >&2; \
+	$(DEVEL) rosrun warehouse_sim hub $(ARGS)
 
 demo: build  ## watch robots fetch storage units, meet head on, recover; and a fleet deliver
 	@. devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
@@ -42,7 +44,7 @@ vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch 
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
 # their tests are skipped, and say so.
 test: deps  ## build and run every test; make test ARGS="-L unit" only those
-	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; }"
+	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; scripts/assistant tests || true; }"
 	@scripts/test -j$(JOBS) $(ARGS)
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2

@@ -21,14 +21,17 @@ from warehouse_viewer.whatif.workshop import Workshop
 
 
 class Hub:
-    """Simulations, what-if, editor and documentation; run() serves until it is stopped."""
+    """Simulations, what-if, editor and documentation; run() serves until it is stopped.
+
+    tokens: the one that every client needs, "" for none, and another that serves as well.
+    """
 
     def __init__(
         self,
         simulations: Simulations,
         workshop: Workshop,
         assistant: Callable[[], Assistant],
-        token: str = "",
+        tokens: tuple[str, str] = ("", ""),
     ) -> None:
         self._simulations, self._workshop = simulations, workshop
         self._make_assistant = assistant
@@ -42,9 +45,9 @@ class Hub:
                 *documentation.routes(),
             ]
         )
-        self.server = _HubServer(
-            config_of(AccessControl(application, token)), self._begin, self._end
-        )
+        token, other = tokens
+        access = AccessControl(application, token, other_token=other)
+        self.server = _HubServer(config_of(access), self._begin, self._end)
 
     def _begin(self) -> None:
         self._assistant = self._make_assistant()

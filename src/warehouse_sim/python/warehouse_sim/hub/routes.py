@@ -187,7 +187,9 @@ class _Assistant:
         if fault := assistant.fault():
             await _refused(503, fault, scope, receive, send)
         else:
-            await Proxy(assistant.address, "")(scope, receive, send)
+            client = scope["client"][0] if scope.get("client") else ""
+            headers = assistant.headers(scope["headers"], client)
+            await Proxy(assistant.address, "")({**scope, "headers": headers}, receive, send)
 
 
 async def _refused(status: int, text: str, scope: Any, receive: Any, send: Any) -> None:

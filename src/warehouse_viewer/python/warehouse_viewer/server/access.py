@@ -97,11 +97,14 @@ class AccessControl:
     The latter keeps a foreign page from reaching the server under a name of its own that leads to
     127.0.0.1. A browser gives the token once, in a form (token_page) or as ?token=…, and a cookie
     from then on; programs send `Authorization: Bearer …`. An address that guesses waits: its tokens
-    are not looked at in between, also where one is right.
+    are not looked at in between, also where one is right. `other_token` serves as `token` does.
     """
 
-    def __init__(self, app: ASGIApp, token: str = "", rate: float = 100) -> None:
+    def __init__(
+        self, app: ASGIApp, token: str = "", rate: float = 100, other_token: str = ""
+    ) -> None:
         self._app, self._token, self._limit = app, token, RateLimit(rate)
+        self._others = (other_token,) if other_token else ()
         self._guesses = RateLimit(GUESSES, burst=FIRST_GUESSES)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -174,7 +177,8 @@ class AccessControl:
 
     def _is_right(self, scope: Scope, token: str) -> bool:
         """Whether this is the token; counts it if not."""
-        is_right = hmac.compare_digest(token.encode(), self._token.encode())
+        tokens = (self._token, *self._others)
+        is_right = any(hmac.compare_digest(token.encode(), right.encode()) for right in tokens)
         if token and not is_right:
             self._guesses.allows(_address(scope))
         return is_right
