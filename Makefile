@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps usable bench docs docs-test wheel lint tidy format install clean
+.PHONY: help configured dev run serve demo operate vda5050 test test-long test-api test-vda5050 test-sanitizers test-install test-wheel test-debian deb test-deb build build-tests packages deps usable bench docs docs-test wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -24,6 +24,11 @@ help:  ## list the targets
 run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
+serve: build  ## launch warehouses from a web page: http://localhost:8080; make serve ARGS="--port 8090"
+	@scripts/assistant && export WAREHOUSE_ASSISTANT=$$PWD/.venv/assistant/bin/python || \
+	echo "The hub starts without its assistant: /mcp answers 503." >&2; \
+	$(DEVEL) rosrun warehouse_sim hub $(ARGS)
+
 demo: build  ## watch robots fetch storage units, meet head on, recover; and a fleet deliver
 	@. devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
 	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
@@ -39,19 +44,19 @@ vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch 
 # Lint, and packages of PyPI, come while configuring and compiling leave a core idle. Without the packages
 # their tests are skipped, and say so.
 test: deps  ## build and run every test; make test ARGS="-L unit" only those
-	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; }"
+	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; scripts/assistant tests || true; }"
 	@scripts/test -j$(JOBS) $(ARGS)
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
-	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
+	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/runs/test_rawsim.py unit/python/operations/store/test_kills.py $(ARGS); \
 	OVERLAPS=2000 ../devel/lib/warehouse_tests/overlap_test --gtest_brief=1; \
 	OBSTACLES=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_obstacles.py; \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
-	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
+	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	BURST=all rostest rostest/malformed.test; \
-	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
 	../scripts/axe; ../scripts/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py

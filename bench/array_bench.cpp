@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The ceiling: the fleet's workload without any engine, in arrays. A planar integrator with two
-// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or be told anything. With
+// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or take commands. With
 // --default the lasers have a default robot's rays: 121 over 120°.
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ struct Fleet {
 
   void want(long step) {
     for (int i = 0; i < size(); ++i) {
-      const bench::Wanted w = bench::wanted(i, step);
+      const bench::Twist w = bench::command(i, step);
       left_wanted[i] = w.speed - w.yaw_rate * bench::kTrack / 2;
       right_wanted[i] = w.speed + w.yaw_rate * bench::kTrack / 2;
     }
@@ -86,7 +86,8 @@ class Grid {
     }
   }
 
-  /// To the first body but `self` or the walls; a walk from cell to cell (Amanatides, Woo 1987).
+  /// The range to the first body but `self`, or to the walls; a walk from cell to cell (Amanatides,
+  /// Woo 1987).
   double cast(const Fleet& fleet, int self, double x, double y, double dx, double dy) const {
     double best = std::min({bench::kRange, toWall(x, dx), toWall(y, dy)});
     int cx = column(x), cy = column(y);

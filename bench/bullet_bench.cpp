@@ -23,7 +23,7 @@ class Scene {
  public:
   explicit Scene(double size) : floor_({0, 0, 1}, 0), wall_({0.1, size / 2, 0.5}) {
     world_.setGravity({0, 0, -9.81});
-    // Only what moved: else the broadphase is told of everything at each step.
+    // Only what moved: else each step updates everything in the broadphase.
     world_.setForceUpdateAllAabbs(false);
     add(0, &floor_, btTransform::getIdentity())->setFriction(1);
     for (int i = 0; i < 4; ++i) {
@@ -104,7 +104,7 @@ class Kinematic {
 
   void drive(long step) {
     for (int i = 0; i < static_cast<int>(chassis_.size()); ++i) {
-      const bench::Wanted w = bench::wanted(i, step);
+      const bench::Twist w = bench::command(i, step);
       yaw_[i] += w.yaw_rate * bench::kStep;
       const double way = w.speed * bench::kStep;
       btTransform pose(btQuaternion({0, 0, 1}, yaw_[i]),
@@ -139,7 +139,7 @@ class Hinged {
 
   void drive(long step) {
     for (std::size_t i = 0; i < chassis_.size(); ++i) {
-      const bench::Wanted w = bench::wanted(static_cast<int>(i), step);
+      const bench::Twist w = bench::command(static_cast<int>(i), step);
       for (int side = 0; side < 2; ++side) {
         const double turn = (side ? 1 : -1) * w.yaw_rate * bench::kTrack / 2;
         const double wheel_speed = (w.speed + turn) / bench::kWheelRadius;

@@ -16,7 +16,7 @@ namespace bench {
 
 constexpr int kChunks = 5;
 
-/// Of the calling thread [s]: what a shared machine gives to others is not counted.
+/// CPU time of the calling thread [s], which other programs on the machine do not change.
 inline double cpuTime() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

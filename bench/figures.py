@@ -65,7 +65,7 @@ SECONDS = {"s": 1, "ms": 1e-3, "us": 1e-6, "CPU s": 1, "CPU us": 1e-6, "cores": 
 
 
 def name(figure):
-    """Of an in-process figure, such as "default, N = 1,000, no scan read"."""
+    """Returns the name of an in-process figure, such as "default, N = 1,000, no scan read"."""
     read = "" if figure.get("read", True) else ", no scan read"
     lasers = read if figure["lasers"] else ", no lasers"
     return f"{figure['engine']}, N = {figure['robots']:,}{lasers}"
@@ -86,7 +86,7 @@ def _fleet(measured, _):
 
 
 def _scaling(measured):
-    """Of one robot's step: how much more it costs in a larger fleet."""
+    """Returns how much more a robot's step costs in a larger fleet."""
     out = []
     for engine, few, limit in (("default", 1000, "<= 1.3"), ("at_once", 100, "<= 1.5")):
         ours = [f for f in measured if f["engine"] == engine and f["lasers"]]
@@ -99,7 +99,7 @@ def _scaling(measured):
 
 
 def _threads(measured, _):
-    """By the wall clock, since CPU time is the calling thread's alone."""
+    """Returns figures by the wall clock, since CPU time is that of the calling thread alone."""
     speed = {n: median(f["rtf"] for f in measured if f["threads"] == n) for n in (1, 2)}
     what = "default, N = 10,000: "
     return [
@@ -155,7 +155,7 @@ def _plans(measured, scale):
 
 
 def _rware(measured, _):
-    """By CPU, over the package in turns: a machine's speed changes nothing of it."""
+    """Returns ratios of CPU time to the package, measured in turns: no machine's speed counts."""
     limits = {"alone": ">= 30", "64 on one thread": ">= 150", "64 on all": ">= 150"}
     return [
         Figure(
@@ -209,90 +209,90 @@ def _warehouse(measured, scale):
 # --- under ROS
 
 
-def _ros(found, scale):
-    what = f"huge, {LISTENING}, {found['seconds']:g} s: "
-    growth = found["memory_mb"] / found["memory_before_mb"]
-    us = found["messages_per_second"] * found["seconds"] / 1e6  # of messages, in millions
+def _ros(nodes, scale):
+    what = f"huge, {LISTENING}, {nodes['seconds']:g} s: "
+    growth = nodes["memory_mb"] / nodes["memory_before_mb"]
+    us = nodes["messages_per_second"] * nodes["seconds"] / 1e6  # of messages, in millions
     out = [
-        scale.time("create_warehouse_models huge", found["create_s"], "s", "<= 10"),
-        Figure(what + "RTF", found["rtf"], "", ">= 0.99"),
-        Figure(what + "messages", found["messages_per_second"], "/s", ">= 19000"),
-        Figure(what + "fewest of one topic", found["least_rate"], "Hz"),
-        scale.time(what + "how late, p99", found["late_p99_ms"], "ms", "<= 20"),
-        scale.time(what + "command to ACCEPTED, p99", found["accepted_p99_ms"], "ms", "<= 30"),
-        scale.time(what + "the world's node, a message", found["watched_cpu_s"] / us, "CPU us"),
-        scale.time(what + "the client, a message", found["cpu_s"] / us, "CPU us"),
+        scale.time("create_warehouse_models huge", nodes["create_s"], "s", "<= 10"),
+        Figure(what + "RTF", nodes["rtf"], "", ">= 0.99"),
+        Figure(what + "messages", nodes["messages_per_second"], "/s", ">= 19000"),
+        Figure(what + "fewest of one topic", nodes["least_rate"], "Hz"),
+        scale.time(what + "how late, p99", nodes["late_p99_ms"], "ms", "<= 20"),
+        scale.time(what + "command to ACCEPTED, p99", nodes["accepted_p99_ms"], "ms", "<= 30"),
+        scale.time(what + "the world's node, a message", nodes["watched_cpu_s"] / us, "CPU us"),
+        scale.time(what + "the client, a message", nodes["cpu_s"] / us, "CPU us"),
         Figure(what + "memory, after over before", growth, "", "<= 1.02"),
     ]
-    if found["topics_s"] is not None:
-        stand = scale.time("then until all items' topics stand", found["topics_s"], "s", "<= 60")
+    if nodes["topics_s"] is not None:
+        stand = scale.time("then until all items' topics stand", nodes["topics_s"], "s", "<= 60")
         out.insert(1, stand)
-    return out + _nodes(found, what, scale)
+    return out + _nodes(nodes, what, scale)
 
 
-def _unheard(found, scale):
-    what = f"huge, {UNHEARD}, rtf:=0, {found['seconds']:g} s: "
-    accepted = scale.time(what + "command to ACCEPTED, p99", found["accepted_p99_ms"], "ms")
+def _unheard(nodes, scale):
+    what = f"huge, {UNHEARD}, rtf:=0, {nodes['seconds']:g} s: "
+    accepted = scale.time(what + "command to ACCEPTED, p99", nodes["accepted_p99_ms"], "ms")
     return [
-        scale.speed(what + "RTF", found["rtf"], "", ">= 4"),
+        scale.speed(what + "RTF", nodes["rtf"], "", ">= 4"),
         accepted,
-        *_nodes(found, what, scale),
+        *_nodes(nodes, what, scale),
     ]
 
 
 def _work(measured, scale):
-    alone, found = measured["in_process"], measured["under_ros"]
+    alone, measurements = measured["in_process"], measured["under_ros"]
     within = f"huge at work in-process, {alone['simulated_s'] / 60:.0f} min from standstill"
-    what = f"huge at work under ROS, rtf:=4, {found['seconds']:g} s: "
-    work = found["delivered_per_second"] / alone["units_per_second"]
+    what = f"huge at work under ROS, rtf:=4, {measurements['seconds']:g} s: "
+    work = measurements["delivered_per_second"] / alone["units_per_second"]
     return [
         scale.speed(within, alone["rtf_cpu"], limit=">= 8", wall=alone["rtf"]),
         Figure(f"{within}: units delivered", alone["delivered"]),
-        scale.speed(what + "RTF", found["rtf"], "", ">= 3.96"),
+        scale.speed(what + "RTF", measurements["rtf"], "", ">= 3.96"),
         Figure(what + "units, over what the fleet brings in-process", work, "", ">= 0.9"),
-        *_nodes(found, what, scale),
+        *_nodes(measurements, what, scale),
     ]
 
 
-def _nodes(found, what, scale):
-    out = [Figure(what + "memory of all nodes", found["memory_mb"], "MB", "<= 1500")]
-    for node, cores in sorted(found["cores"].items()):
+def _nodes(nodes, what, scale):
+    out = [Figure(what + "memory of all nodes", nodes["memory_mb"], "MB", "<= 1500")]
+    for node, cores in sorted(nodes["cores"].items()):
         if cores > 0.02:
             limit = NODE_LIMIT if node.startswith(FOLLOWING_NODES) else ""
             out.append(scale.time(what + node, cores, "cores", limit))
     return out
 
 
-def _recreations(found, _):
-    memory = found["memory_mb"]
+def _recreations(seconds, _):
+    memory = seconds["memory_mb"]
     growth = memory[-1] / memory[1]
-    what = f"{found['size']}, memory of all nodes, creation {len(memory)} over 2"
-    node = found["node_mb"]
-    alone = f"{found['size']}, memory of the world's node, creation {len(node)} over 2"
+    what = f"{seconds['size']}, memory of all nodes, creation {len(memory)} over 2"
+    node = seconds["node_mb"]
+    alone = f"{seconds['size']}, memory of the world's node, creation {len(node)} over 2"
     return [
         Figure(what, growth, "", "<= 1.02"),
         Figure(alone, node[-1] / node[1], "", "<= 1.02"),
     ]
 
 
-def _start(found, scale):
+def _start(report, scale):
     return [
-        scale.time("small stands after roslaunch", found["stands_s"], "s", "<= 4"),
+        scale.time("small stands after roslaunch", report["stands_s"], "s", "<= 4"),
         scale.time(
-            "small stands: CPU time of all nodes until then", found["stands_cpu_s"], "CPU s"
+            "small stands: CPU time of all nodes until then", report["stands_cpu_s"], "CPU s"
         ),
-        scale.time("import kiva_plugin_cpp", found["import_s"], "s", "<= 0.15"),
-        scale.time("import kiva_plugin_cpp: CPU time", found["import_cpu_s"], "CPU s"),
-        scale.time("World.create, 10,000 robots", found["create_s"], "s", "<= 5"),
-        scale.time("World.create, 10,000 robots: CPU time", found["create_cpu_s"], "CPU s"),
-        Figure("World.create, 10,000 robots: memory", found["create_gb"], "GB", "<= 1.5"),
+        scale.time("import kiva_plugin_cpp", report["import_s"], "s", "<= 0.15"),
+        scale.time("import kiva_plugin_cpp: CPU time", report["import_cpu_s"], "CPU s"),
+        scale.time("World.create, 10,000 robots", report["create_s"], "s", "<= 5"),
+        scale.time("World.create, 10,000 robots: CPU time", report["create_cpu_s"], "CPU s"),
+        Figure("World.create, 10,000 robots: memory", report["create_gb"], "GB", "<= 1.5"),
     ]
 
 
-def _build(found, scale):
+def _build(report, scale):
     return [
-        scale.time("make build, from nothing", found["build_s"], "s", "<= 120"),
-        scale.time("make build: CPU time", found["build_cpu_s"], "CPU s"),
+        scale.time("make build, from nothing", report["build_s"], "s", "<= 120"),
+        scale.time("make build: CPU time", report["build_cpu_s"], "CPU s"),
     ]
 
 

@@ -77,7 +77,7 @@ Options parse(int argc, char** argv) {
 
 double now() { return ros::WallTime::now().toSec(); }
 
-/// Of all threads of a process, 0 = this one [s]; 0 for one that isn't there.
+/// CPU time of all threads of a process, 0 for this one [s]; 0 if there is no such process.
 double cpuTime(int process) {
   const std::string name = process ? std::to_string(process) : "self";
   std::ifstream file("/proc/" + name + "/stat");
@@ -100,7 +100,7 @@ class Times {
  public:
   void add(double seconds) { ms_.push_back(static_cast<float>(1e3 * seconds)); }
   void clear() { ms_.clear(); }
-  /// As JSON.
+  /// A percentile [ms] as JSON, null without messages.
   std::string percentile(double share) {
     if (ms_.empty()) return "null";
     const auto at = ms_.begin() + static_cast<long>(share * static_cast<double>(ms_.size() - 1));
@@ -158,7 +158,7 @@ class Listener {
     for (long count : counts_) sum += count;
     return sum;
   }
-  /// Of the topic from which the fewest came.
+  /// The count of messages of the topic from which the fewest came.
   long fewest() const {
     return counts_.empty() ? 0 : *std::min_element(counts_.begin(), counts_.end());
   }

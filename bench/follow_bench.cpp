@@ -117,9 +117,9 @@ class Lanes {
     const kiva::Fleet& f = world_->fleet();
     for (int k = 0; k < f.size(); ++k) {
       const int i = f.robots[k].id - 1;
-      const std::uint32_t wanted = std::min<std::uint32_t>(kCells + 1, f.reached[k] + kAhead);
-      if (wanted <= released_[i]) continue;
-      released_[i] = wanted;
+      const std::uint32_t until = std::min<std::uint32_t>(kCells + 1, f.reached[k] + kAhead);
+      if (until <= released_[i]) continue;
+      released_[i] = until;
       world_->post(update(i));
     }
   }

@@ -40,7 +40,9 @@ class History:
         if not parts:
             return
         line = {"commit": commit(), "time": now(), "load": load, "cores": os.cpu_count()}
-        line["parts"] = {part: [_members(f) for f in found] for part, found in parts.items()}
+        line["parts"] = {
+            part: [_members(f) for f in measurements] for part, measurements in parts.items()
+        }
         self.lines.append(line)
         with self._path.open("a") as file:
             file.write(json.dumps(line) + "\n")
@@ -61,7 +63,7 @@ def _lines(path):
 
 
 def _members(figure):
-    """Without what is empty, and no more digits than mean something."""
+    """Returns the fields that are not empty, with the digits that are significant."""
     default = Figure("", 0)
     out = {}
     for field in dataclasses.fields(figure):

@@ -129,24 +129,24 @@ def main():
     parser.add_argument(
         "--resets", action="store_true", help="a line of JSON a size, for bench/run"
     )
-    wanted = parser.parse_args()
-    if wanted.resets:
+    asked = parser.parse_args()
+    if asked.resets:
         for size in warehouse_learning.SIZES:
             print(json.dumps({"size": size, "ms_cpu": reset_time(size)}), flush=True)
         return
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
-    speed_up, overhead = many_worlds(wanted.seconds / 2)
+    speed_up, overhead = many_worlds(asked.seconds / 2)
     print(f"64 worlds of small: {speed_up:.2f} x one thread; {overhead:.3f} ms a call at rest")
     for size in warehouse_learning.SIZES:
         print(f"a reset of {size}: {reset_time(size):.2f} ms of CPU")
     runners = {
-        name: kiva(wanted.worlds, wanted.robots, "possible" in name, **options)
+        name: kiva(asked.worlds, asked.robots, "possible" in name, **options)
         for name, options in CASES.items()
     }
-    theirs = rware(wanted.robots)
+    theirs = rware(asked.robots)
     if theirs:
-        runners = {f"RWARE, {wanted.robots} robots, no physics": theirs} | runners
-    for _ in range(max(1, round(wanted.seconds))):
+        runners = {f"RWARE, {asked.robots} robots, no physics": theirs} | runners
+    for _ in range(max(1, round(asked.seconds))):
         for runner in runners.values():
             runner.run(1.0)
     for name, runner in runners.items():

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The workload of the warehouse: what each idle robot is told next. It goes a few cells, turns, or
-// fetches a storage unit near it, carries it around and puts it down. Free of ROS, so that the same
-// commands are given in-process and over topics.
+// The workload of the warehouse: the next command of each idle robot. It goes a few cells, turns,
+// or fetches a storage unit near it, carries it around and puts it down. Free of ROS, so that the
+// same commands are given in-process and over topics.
 #pragma once
 
 #include <cmath>

@@ -64,9 +64,9 @@ def tell_text(task, runners):
         text = f"{task}, {name}: {rates[0]:,.0f} agent steps/s, {rates[0] / wall:.0f} x"
         times = rates[1] / cpu
         limit = LIMITS.get(name, LIMITS["many"] if " on " in name else 0)
-        told = f" (asked {limit}: {'met' if times >= limit else 'not met'})" if limit else ""
+        note = f" (asked {limit}: {'met' if times >= limit else 'not met'})" if limit else ""
         is_met &= times >= limit
-        print(f"{text}; by CPU {rates[1]:,.0f}, {times:.0f} x{told}", flush=True)
+        print(f"{text}; by CPU {rates[1]:,.0f}, {times:.0f} x{note}", flush=True)
     return is_met
 
 
@@ -75,8 +75,8 @@ def tell_json(task, runners):
     package = runners["the package"].rates[1]
     for name, runner in runners.items():
         rate = runner.rates[1]
-        told = {"task": task, "case": name, "steps_cpu": rate, "times": rate / package}
-        print(json.dumps(told), flush=True)
+        row = {"task": task, "case": name, "steps_cpu": rate, "times": rate / package}
+        print(json.dumps(row), flush=True)
     return True
 
 
@@ -86,26 +86,26 @@ def main():
     parser.add_argument("--worlds", type=int, default=64)
     parser.add_argument("--seconds", type=int, default=5, help="of each case")
     parser.add_argument("--json", action="store_true", help="a line of JSON a case, for bench/run")
-    wanted = parser.parse_args()
-    if not wanted.json:
+    options = parser.parse_args()
+    if not options.json:
         print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     is_met = True
-    for task in wanted.tasks:
+    for task in options.tasks:
         ours = f"kiva-rware-{task}-v2"
         runners = {
             "the package": alone(f"rware-{task}-v2"),
             "alone": alone(ours),
-            f"{wanted.worlds} on one thread": many(ours, wanted.worlds, 1),
-            f"{wanted.worlds} on all": many(ours, wanted.worlds, 0),
-            "ideal": many(ours, wanted.worlds, 1, "ideal"),
-            "bodies": many(ours, wanted.worlds, 1, "bodies"),
+            f"{options.worlds} on one thread": many(ours, options.worlds, 1),
+            f"{options.worlds} on all": many(ours, options.worlds, 0),
+            "ideal": many(ours, options.worlds, 1, "ideal"),
+            "bodies": many(ours, options.worlds, 1, "bodies"),
         }
-        for _ in range(wanted.seconds):
+        for _ in range(options.seconds):
             for runner in runners.values():
                 runner.run(1.0)
-        tell = tell_json if wanted.json else tell_text
+        tell = tell_json if options.json else tell_text
         is_met &= tell(task, runners)
-    raise SystemExit(not (is_met or wanted.json))
+    raise SystemExit(not (is_met or options.json))
 
 
 if __name__ == "__main__":

@@ -33,21 +33,21 @@ struct Lattice {
   int columns;
 };
 
-struct Wanted {
+struct Twist {
   double speed = 0;     ///< [m/s]
   double yaw_rate = 0;  ///< [rad/s]
 };
 
-/// Of a robot at a time [s]. Robots take turns, so that a chunk is like any other.
-inline Wanted wanted(int robot, long step) {
+/// The command of a robot at a step. Robots take turns, so that all chunks cost the same.
+inline Twist command(int robot, long step) {
   constexpr long kSide = 1000, kStagger = 137;  // steps
   const bool straight = (step + robot * kStagger) / kSide % 2 == 0;
-  return straight ? Wanted{1, 0} : Wanted{0, M_PI / 2};
+  return straight ? Twist{1, 0} : Twist{0, M_PI / 2};
 }
 
 inline bool scanDue(int robot, long step) { return (step + robot) % kStepsPerScan == 0; }
 
-/// Of ray k against the robot's heading [rad].
+/// The angle of ray k to the robot's heading [rad].
 inline double rayAngle(int k) { return -M_PI / 2 + M_PI * k / (kRays - 1); }
 
 }  // namespace bench

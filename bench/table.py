@@ -14,9 +14,9 @@ README = ("what", "figure", "by the wall clock", "ratio to the arrays", "limit",
 def of_run(figures, history):
     """`figures`: {part: [Figure, ...]} of a run whose line the history doesn't have yet."""
     rows = []
-    for part, found in figures.items():
+    for part, values in figures.items():
         before = history.newest(part)
-        rows += [_row(f) | _compared(f, *before.get(f.name, (None, None))) for f in found]
+        rows += [_row(f) | _compared(f, *before.get(f.name, (None, None))) for f in values]
     return _text(RUN, rows)
 
 
@@ -52,7 +52,7 @@ def _row(figure):
 
 
 def _compared(figure, before, line):
-    """With the ratios, where there are; else with the figures themselves."""
+    """Compares the ratios if both runs have them, else the figures themselves."""
     if before is None or None in (figure.value, before.value):
         return {"before": ""}
     ratios = figure.ratio is not None and before.ratio is not None
@@ -85,7 +85,7 @@ def _cell(text, width):
 
 
 def number(value, unit=""):
-    """With three digits that mean something."""
+    """Returns a value with three significant digits."""
     if value is None:
         return ""
     digits = 0 if abs(value) >= 100 else 2 - math.floor(math.log10(abs(value))) if value else 0

@@ -97,20 +97,20 @@ class Session:
                     return
             time.sleep(pause)
         self._log.seek(0)
-        told = " | ".join(self._log.read().strip().splitlines()[-3:])
-        raise programs.FailedError(f"{what} did not come up: {told}")
+        tail = " | ".join(self._log.read().strip().splitlines()[-3:])
+        raise programs.FailedError(f"{what} did not come up: {tail}")
 
     def wait_for_state(self, name):
         """Until /warehouse/state tells that a preset stands. Once in the life of a process."""
-        seen = threading.Event()
+        arrived = threading.Event()
 
         def look(state):
             if len(state.kivas) == request.PRESETS[name].robots:
-                seen.set()
+                arrived.set()
 
         rospy.init_node("bench", anonymous=True, disable_signals=True, disable_rostime=True)
         rospy.Subscriber("/warehouse/state", WarehouseState, look)
-        if not seen.wait(PATIENCE):
+        if not arrived.wait(PATIENCE):
             raise programs.FailedError(f"{name} did not stand within {PATIENCE} s")
 
     def create(self, name):
@@ -161,11 +161,11 @@ class Session:
         return out
 
     def memory(self):
-        """Of all nodes together [MB]; what they share is counted once."""
+        """Returns the memory of all nodes [MB]; shared pages count once."""
         return sum(_memory(pid) for pid in self.nodes()) / 1e3
 
     def node_memory(self):
-        """Of the world's node alone [MB]."""
+        """Returns the memory of the world's node [MB]."""
         return sum(_memory(p) for p, name in self.nodes().items() if name == NODE) / 1e3
 
     def cpu(self):

@@ -36,14 +36,14 @@ class Agent(nn.Module):
             nn.Linear(size, 64), nn.Tanh(), nn.Linear(64, 64), nn.Tanh(), nn.Linear(64, outputs)
         )
 
-    def act(self, seen):
-        chances = torch.distributions.Categorical(logits=self.actor(seen))
+    def act(self, observation):
+        chances = torch.distributions.Categorical(logits=self.actor(observation))
         action = chances.sample()
-        return action, chances.log_prob(action), self.critic(seen).squeeze(-1)
+        return action, chances.log_prob(action), self.critic(observation).squeeze(-1)
 
-    def judge(self, seen, action):
-        chances = torch.distributions.Categorical(logits=self.actor(seen))
-        return chances.log_prob(action), chances.entropy(), self.critic(seen).squeeze(-1)
+    def judge(self, observation, action):
+        chances = torch.distributions.Categorical(logits=self.actor(observation))
+        return chances.log_prob(action), chances.entropy(), self.critic(observation).squeeze(-1)
 
 
 def main():
@@ -59,23 +59,23 @@ def main():
     )
     agent = Agent(envs.single_observation_space.shape[-1])
     adam = torch.optim.Adam(agent.parameters(), lr=RATE, eps=1e-5)
-    seen = torch.from_numpy(envs.reset(seed=0)[0])
+    observation = torch.from_numpy(envs.reset(seed=0)[0])
     returns, finished, begin = np.zeros(ENVIRONMENTS), [], time.process_time()
     for done in range(0, steps, ENVIRONMENTS * ROLLOUT):
         rows = []
         for _ in range(ROLLOUT):
             with torch.no_grad():
-                action, log, value = agent.act(seen)
+                action, log, value = agent.act(observation)
             ahead, reward, ends, _, _ = envs.step(action.numpy())
             returns += reward.sum(1)
             finished += returns[ends].tolist()
             returns[ends] = 0
             end = torch.from_numpy(ends)[:, None].expand(value.shape)
-            rows.append((seen, action, log, value, torch.from_numpy(reward).float(), end))
-            seen = torch.from_numpy(ahead)
+            rows.append((observation, action, log, value, torch.from_numpy(reward).float(), end))
+            observation = torch.from_numpy(ahead)
         batch = [torch.stack(parts) for parts in zip(*rows)]
         with torch.no_grad():
-            last = agent.critic(seen).squeeze(-1)
+            last = agent.critic(observation).squeeze(-1)
         learn(agent, adam, *batch, last)
         if finished:
             rate = (done + ENVIRONMENTS * ROLLOUT) / (time.process_time() - begin)
@@ -83,7 +83,7 @@ def main():
             finished = []
 
 
-def learn(agent, adam, seen, action, log, value, reward, end, last):
+def learn(agent, adam, observation, action, log, value, reward, end, last):
     advantage, trace = torch.empty_like(reward), 0.0
     for t in reversed(range(len(reward))):
         following = last if t == len(reward) - 1 else value[t + 1]
@@ -91,11 +91,11 @@ def learn(agent, adam, seen, action, log, value, reward, end, last):
         error = reward[t] + DISCOUNT * following * goes_on - value[t]
         advantage[t] = trace = error + DISCOUNT * TRACE * goes_on * trace
     target = (advantage + value).flatten()
-    seen, action, log = seen.flatten(0, 2), action.flatten(), log.flatten()
+    observation, action, log = observation.flatten(0, 2), action.flatten(), log.flatten()
     advantage = advantage.flatten()
     for _ in range(EPOCHS):
         for rows in torch.randperm(len(log)).chunk(MINIBATCHES):
-            new, entropy, judged = agent.judge(seen[rows], action[rows])
+            new, entropy, judged = agent.judge(observation[rows], action[rows])
             ratio, gain = (new - log[rows]).exp(), advantage[rows]
             gain = (gain - gain.mean()) / (gain.std() + 1e-8)
             actor = -torch.min(ratio * gain, ratio.clamp(1 - CLIP, 1 + CLIP) * gain).mean()

@@ -30,13 +30,15 @@ HELD_OUT = 10_000  # first seed of the shifts that results are measured on
 
 
 def main():
-    wanted = arguments()
-    options = {"size": wanted.size, "robots": wanted.robots, "minutes": wanted.minutes}
-    env = KivaOperationsEnv(decides=(wanted.decides,), **options)
+    settings = arguments()
+    options = {"size": settings.size, "robots": settings.robots, "minutes": settings.minutes}
+    env = KivaOperationsEnv(decides=(settings.decides,), **options)
     try:
-        weights = trained(env, wanted, imitated(env, wanted.imitated))
-        print(f"{wanted.out} is written; {wanted.tests} shifts it was not trained on:", flush=True)
-        compare(env, weights, wanted.tests)
+        weights = trained(env, settings, imitated(env, settings.imitated))
+        print(
+            f"{settings.out} is written; {settings.tests} shifts it was not trained on:", flush=True
+        )
+        compare(env, weights, settings.tests)
     except KeyboardInterrupt:
         raise SystemExit(130) from None
     finally:
@@ -88,22 +90,22 @@ def imitated(env, shifts):
     return weights
 
 
-def trained(env, wanted, mean):
+def trained(env, settings, mean):
     """(FEATURES,) weights: the mean of the last generation, which is kept in the file."""
-    random = np.random.default_rng(wanted.seed)
+    random = np.random.default_rng(settings.seed)
     deviation = WIDTH * (np.abs(mean) + 1)
-    save(mean, wanted)
-    for generation in range(wanted.generations):
+    save(mean, settings)
+    for generation in range(settings.generations):
         begin = time.process_time()
-        seeds = random.integers(HELD_OUT, size=wanted.shifts).tolist()
-        drawn = mean + deviation * random.standard_normal((wanted.population, FEATURES))
+        seeds = random.integers(HELD_OUT, size=settings.shifts).tolist()
+        drawn = mean + deviation * random.standard_normal((settings.population, FEATURES))
         drawn[0] = mean
         pieces = [np.mean(returns(env, best_of(linear(weights)), seeds)) for weights in drawn]
-        best = drawn[np.argsort(pieces)[::-1][: round(ELITE * wanted.population)]]
+        best = drawn[np.argsort(pieces)[::-1][: round(ELITE * settings.population)]]
         mean = best.mean(0)
         # Some of the old width stays, or it narrows before it has found the way.
         deviation = 0.7 * best.std(0) + 0.3 * deviation
-        save(mean, wanted)
+        save(mean, settings)
         print(
             f"generation {generation}: {np.mean(pieces):.1f} pieces a shift, best"
             f" {max(pieces):.1f}; {time.process_time() - begin:.0f} s of CPU",
@@ -112,8 +114,8 @@ def trained(env, wanted, mean):
     return mean
 
 
-def save(weights, wanted):
-    linear(weights).save(wanted.out, wanted.decides, about=repr(vars(wanted)))
+def save(weights, settings):
+    linear(weights).save(settings.out, settings.decides, about=repr(vars(settings)))
 
 
 def returns(env, choose, seeds):

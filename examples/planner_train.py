@@ -19,39 +19,41 @@ import numpy as np
 
 from kiva_plugin_cpp import World
 from warehouse_fleet import Rules, epibt
-from warehouse_fleet.planners import scorer
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
+from warehouse_fleet.hosts.random_transports import RandomTransports
+from warehouse_fleet.planners import scorer
 from warehouse_fleet.planners.learned_planner import ROLE, Learned, Rollout
 from warehouse_fleet.planners.local_view import LocalView
 from warehouse_fleet.planners.plan_loop import GUIDANCE, HORIZON
-from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_learning.marl.mlp import Adam, log_softmax
 
 BATCH, RATE = 512, 3e-3
 
 
 def main():
-    wanted = arguments()
+    options = arguments()
     try:
-        teach(wanted)
+        teach(options)
     except KeyboardInterrupt:
         raise SystemExit(130) from None
 
 
-def teach(wanted):
+def teach(options):
     """Writes the network after each round."""
-    network = beginning(wanted.hidden, np.random.default_rng(wanted.seed))
-    seen, told = [], []
-    for number in range(wanted.rounds):
-        for size in wanted.size:
-            teacher = Teacher(network, leads=number / wanted.rounds, seed=number)
-            stored = drive(size, teacher, 60 * wanted.minutes, number)
-            seen += teacher.seen
-            told += teacher.told
-            print(f"round {number}, {size}: {stored} units stored, {len(seen):,} ticks", flush=True)
-        agrees = learn(network, np.concatenate(seen), np.concatenate(told), wanted.steps)
+    network = beginning(options.hidden, np.random.default_rng(options.seed))
+    inputs, targets = [], []
+    for number in range(options.rounds):
+        for size in options.size:
+            teacher = Teacher(network, leads=number / options.rounds, seed=number)
+            stored = drive(size, teacher, 60 * options.minutes, number)
+            inputs += teacher.inputs
+            targets += teacher.targets
+            print(
+                f"round {number}, {size}: {stored} units stored, {len(inputs):,} ticks", flush=True
+            )
+        agrees = learn(network, np.concatenate(inputs), np.concatenate(targets), options.steps)
         print(f"  {agrees:.1%} of what it would do is what EPIBT does", flush=True)
-        network.save(wanted.out, ROLE, about=repr(vars(wanted)))
+        network.save(options.out, ROLE, about=repr(vars(options)))
 
 
 def arguments():
@@ -84,7 +86,7 @@ class Teacher:
         self.learner, self.leads = Learned(), leads
         self.learner.scorer = network
         self.random = np.random.default_rng(seed)
-        self.seen, self.told = [], []
+        self.inputs, self.targets = [], []
 
     def start(self, floor):
         rules = Rules(turning=True)
@@ -119,8 +121,8 @@ class Teacher:
             choice = (targets == enters[:, None]).argmax(1)
             rows[..., 0] = np.where(possible, rows[..., 0], -np.inf)
             kept = rollout.is_free() & possible[np.arange(len(fleet)), choice] & (fleet.goal >= 0)
-            self.seen.append(rows[kept])
-            self.told.append(choice[kept])
+            self.inputs.append(rows[kept])
+            self.targets.append(choice[kept])
 
     def cells(self, rollout, actions):
         out = [rollout.scene.cell]

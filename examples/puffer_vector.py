@@ -36,13 +36,13 @@ def main():
         make, num_envs=ENVIRONMENTS, backend=pufferlib.vector.Serial, seed=1
     )
     puffer.reset(seed=1)
-    told("PufferLib", puffer.step, (puffer.num_agents,), steps)
+    report("PufferLib", puffer.step, (puffer.num_agents,), steps)
     envs = gymnasium.make_vec(f"kiva-rware-{task}-v2", num_envs=ENVIRONMENTS)
     envs.reset(seed=1)
-    told("make_vec", envs.step, envs.action_space.shape, steps)
+    report("make_vec", envs.step, envs.action_space.shape, steps)
 
 
-def told(name, step, shape, steps):
+def report(name, step, shape, steps):
     """Prints how many agent steps a second of CPU there are, by actions that chance takes."""
     random, rewards, begin = np.random.default_rng(1), 0.0, time.process_time()
     for _ in range(steps):

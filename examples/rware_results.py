@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Measures what examples/rware_train.py has trained, beside the fleet's planner and chance, on the
-grid and with bodies, and draws learning curves. Of several seeds the interquartile mean is told,
+grid and with bodies, and draws learning curves. For several seeds it prints the interquartile mean,
 with 95 % bands by the stratified bootstrap, as rliable has them.
 
 examples/rware_results.py results                               # all that lies in that folder
@@ -24,8 +24,8 @@ POINTS = 50  # of a curve
 
 
 def main():
-    wanted = arguments()
-    folder = Path(wanted.folder)
+    options = arguments()
+    folder = Path(options.folder)
     trained = defaultdict(list)  # by task and algorithm
     for file in sorted(folder.glob("*.json")):
         record = json.loads(file.read_text())
@@ -39,11 +39,11 @@ def main():
     print("| task | who | physics | seeds | steps each | return | 95 % | seconds an episode |")
     print("|---|---|---|---|---|---|---|---|")
     for (task, algorithm), files in trained.items():
-        for physics in wanted.physics or PHYSICS:
-            of_policies(task, algorithm, files, physics, wanted.episodes)
+        for physics in options.physics or PHYSICS:
+            of_policies(task, algorithm, files, physics, options.episodes)
     for task in dict.fromkeys(task for task, _ in trained):
-        for physics in wanted.physics or PHYSICS:
-            scripted(task, physics, wanted.episodes)
+        for physics in options.physics or PHYSICS:
+            scripted(task, physics, options.episodes)
     draw(folder / "curves.png", trained)
 
 
@@ -66,9 +66,9 @@ def of_policies(task, algorithm, files, physics, count):
     scores, seconds, steps = [], [], []
     for file in files:
         learnt = policy.load(file.with_suffix(".npz"))
-        told = played(evaluation.by_policy(learnt), task, physics, count)
-        scores.append(told["returns"].mean())
-        seconds.append(told.get("seconds", np.zeros(1)).mean())
+        results = played(evaluation.by_policy(learnt), task, physics, count)
+        scores.append(results["returns"].mean())
+        seconds.append(results.get("seconds", np.zeros(1)).mean())
         steps.append(learnt.about["steps"])
     mean, low, high = statistics.interval([np.array(scores)])
     band = f"{low:.1f} to {high:.1f}" if len(files) > 1 else "one seed"
@@ -77,11 +77,11 @@ def of_policies(task, algorithm, files, physics, count):
 
 def scripted(task, physics, count):
     for name, act in (("planner", evaluation.by_planner), ("chance", evaluation.by_chance)):
-        told = played(act, task, physics, count)
-        error = 1.96 * told["returns"].std(ddof=1) / np.sqrt(count)
-        mean = told["returns"].mean()
+        results = played(act, task, physics, count)
+        error = 1.96 * results["returns"].std(ddof=1) / np.sqrt(count)
+        mean = results["returns"].mean()
         band = f"{mean - error:.1f} to {mean + error:.1f}"
-        line(task, name, physics, "", "", mean, band, told.get("seconds", np.zeros(1)))
+        line(task, name, physics, "", "", mean, band, results.get("seconds", np.zeros(1)))
 
 
 def line(task, who, physics, seeds, steps, mean, band, seconds):

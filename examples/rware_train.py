@@ -24,24 +24,26 @@ from gymnasium.vector import AutoresetMode
 
 import warehouse_learning.rware  # noqa: F401  registers the tasks
 from warehouse_learning.marl import policy
-from warehouse_learning.marl.training import ALGORITHMS, Settings, Training
+from warehouse_learning.marl.training import ALGORITHMS, TrainingSettings, Training
 from warehouse_learning.rware.motion import PHYSICS
 
 
 def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's Ctrl-C
-    wanted = arguments()
-    out = Path(wanted.out)
-    settings = Settings(algorithm=wanted.algorithm, steps=wanted.steps, imitation=wanted.imitate)
+    options = arguments()
+    out = Path(options.out)
+    settings = TrainingSettings(
+        algorithm=options.algorithm, steps=options.steps, imitation=options.imitate
+    )
     try:
-        begin = policy.load(wanted.policy) if wanted.policy else None
+        begin = policy.load(options.policy) if options.policy else None
     except policy.PolicyError as error:
         raise SystemExit(f"rware_train: {error}") from error
-    if wanted.imitate or begin:
+    if options.imitate or begin:
         # Gently: what was learnt is soon unlearnt.
         settings = replace(settings, warm_up=15, rate=7e-4, entropy=0.003)
-    for seed in range(wanted.first_seed, wanted.first_seed + wanted.seeds):
-        train(wanted, settings, seed, out, begin)
+    for seed in range(options.first_seed, options.first_seed + options.seeds):
+        train(options, settings, seed, out, begin)
 
 
 def arguments():
@@ -51,7 +53,10 @@ def arguments():
     parser.add_argument("task", help="as RWARE registers it, without rware- and -v2: tiny-4ag")
     parser.add_argument("--algorithm", choices=ALGORITHMS, default="mappo")
     parser.add_argument(
-        "--steps", type=int, default=Settings.steps, help="of all environments (%(default)s)"
+        "--steps",
+        type=int,
+        default=TrainingSettings.steps,
+        help="of all environments (%(default)s)",
     )
     parser.add_argument(
         "--imitate",
@@ -73,9 +78,9 @@ def arguments():
     return parser.parse_args()
 
 
-def train(wanted, settings, seed, out, begin):
+def train(options, settings, seed, out, begin):
     """One seed, from its checkpoint if there is one."""
-    task, physics = wanted.task, wanted.physics
+    task, physics = options.task, options.physics
     if f"kiva-rware-{task}-v2" not in gymnasium.registry:
         raise SystemExit(f"rware_train: there is no task {task!r}; tiny-4ag or small-2ag-hard are")
     envs = gymnasium.make_vec(
@@ -85,7 +90,7 @@ def train(wanted, settings, seed, out, begin):
         autoreset_mode=AutoresetMode.SAME_STEP,
         physics=physics,
     )
-    about = {"task": task, "physics": physics, "from": wanted.policy}
+    about = {"task": task, "physics": physics, "from": options.policy}
     training = Training(envs, settings, seed, about)
     on = "" if physics == "grid" else f"-{physics}"
     name = f"{task}-{settings.algorithm}{on}-{seed}"
@@ -115,7 +120,7 @@ def train(wanted, settings, seed, out, begin):
             keep()
 
     try:
-        training.run(wanted.minutes, report)
+        training.run(options.minutes, report)
     except KeyboardInterrupt:
         print(f"{name}: stopped; the same command goes on from {checkpoint}")
         raise SystemExit(130) from None

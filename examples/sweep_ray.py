@@ -18,7 +18,7 @@ def train(settings):
     """One trial: reports units delivered an episode as it learns, and what it delivers at last."""
     from warehouse_learning import Options
     from warehouse_learning.baselines import measure
-    from warehouse_learning.ppo import REWARDS, Settings
+    from warehouse_learning.ppo import REWARDS, PpoSettings
     from warehouse_learning.ppo import train as train_ppo
 
     options = Options.of({"size": "tiny", "max_cycles": 200, "rewards": REWARDS})
@@ -26,7 +26,7 @@ def train(settings):
         options,
         settings["decisions"],
         settings["seed"],
-        Settings(rate=settings["rate"], threads=1),
+        PpoSettings(rate=settings["rate"], threads=1),
         report=lambda row: tune.report({"decisions": row[0], "delivered": row[1]}),
     )
     delivered, _ = measure(policy, options, episodes=8, seed=1000, threads=1)
@@ -40,17 +40,17 @@ def main():
     parser.add_argument("--rates", type=float, nargs="+", default=[3e-4, 1e-3, 3e-3])
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--storage", default="sweep", help="folder of what was tried (./sweep)")
-    wanted = parser.parse_args()
-    ray.init(address=wanted.address)
+    options = parser.parse_args()
+    ray.init(address=options.address)
     tuner = tune.Tuner(
         tune.with_resources(train, {"cpu": 1}),
         param_space={
-            "decisions": wanted.decisions,
-            "rate": tune.grid_search(wanted.rates),
-            "seed": tune.grid_search(list(range(wanted.seeds))),
+            "decisions": options.decisions,
+            "rate": tune.grid_search(options.rates),
+            "seed": tune.grid_search(list(range(options.seeds))),
         },
         tune_config=tune.TuneConfig(metric="delivered", mode="max"),
-        run_config=tune.RunConfig(name="kiva", storage_path=str(Path(wanted.storage).resolve())),
+        run_config=tune.RunConfig(name="kiva", storage_path=str(Path(options.storage).resolve())),
     )
     results = tuner.fit()
     if results.errors:

@@ -7,7 +7,7 @@ def circles(graph):
 
     `graph` maps each node to those that it leads to.
     """
-    index, low, stack, found = {}, {}, [], []
+    index, low, stack, rings = {}, {}, [], []
 
     def visit(node):
         index[node] = low[node] = len(index)
@@ -19,10 +19,10 @@ def circles(graph):
                 low[node] = min(low[node], low[other])
         if low[node] == index[node]:
             at = stack.index(node)
-            found.append(sorted(stack[at:]))
+            rings.append(sorted(stack[at:]))
             del stack[at:]
 
     for node in list(graph):
         if node not in index:
             visit(node)
-    return [circle for circle in found if len(circle) > 1]
+    return [circle for circle in rings if len(circle) > 1]

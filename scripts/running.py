@@ -25,22 +25,22 @@ signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what was started ends t
 def wait(true, what):
     """Returns what true() returns once that is something; raises TimeoutError."""
     end = time.monotonic() + PATIENCE
-    while not (found := true()):
+    while not (result := true()):
         if time.monotonic() > end:
             raise TimeoutError(f"{what} did not come in {PATIENCE:g} s")
         time.sleep(0.2)
-    return found
+    return result
 
 
 @contextmanager
 def process(*command, **options):
     """A process that ends with the context, or with this program, however that ends."""
     command = ["setpriv", "--pdeathsig", "TERM", *map(str, command)]
-    with subprocess.Popen(command, text=True, **options) as one:
+    with subprocess.Popen(command, text=True, **options) as running:
         try:
-            yield one
+            yield running
         finally:
-            one.terminate()
+            running.terminate()
 
 
 def program(name):
@@ -57,25 +57,25 @@ def run(name, *arguments):
 @contextmanager
 def served(node, *arguments):
     """The address that a program of the viewer tells: edit, replay or whatif."""
-    with process(program(node), *arguments, "--port", 0, stdout=subprocess.PIPE) as one:
-        yield re.search(r"http://\S+", one.stdout.readline())[0]
+    with process(program(node), *arguments, "--port", 0, stdout=subprocess.PIPE) as server:
+        yield re.search(r"http://\S+", server.stdout.readline())[0]
 
 
 @contextmanager
 def shift(folder, **arguments):
     """The address of a shift under ROS; `arguments` are those of operations.launch."""
-    given = {"database": folder / "shift.db"} | arguments
-    with launched("operations.launch", folder, {}, given) as (one, uri):
+    settings = {"database": folder / "shift.db"} | arguments
+    with launched("operations.launch", folder, {}, settings) as (running, uri):
         master = xmlrpc.client.ServerProxy(uri)
-        yield wait(lambda: _told(one, master, "/viewer/address"), "a shift")
+        yield wait(lambda: _parameter(running, master, "/viewer/address"), "a shift")
 
 
 @contextmanager
 def warehouse(folder, environment, **arguments):
     """The ROS master's address of a warehouse; `arguments` are those of warehouse.launch."""
-    with launched("warehouse.launch", folder, environment, arguments) as (one, uri):
+    with launched("warehouse.launch", folder, environment, arguments) as (running, uri):
         master = xmlrpc.client.ServerProxy(uri)
-        wait(lambda: _told(one, master, "/viewer/address"), "a warehouse")
+        wait(lambda: _parameter(running, master, "/viewer/address"), "a warehouse")
         yield uri
 
 
@@ -85,11 +85,11 @@ def launched(file, folder, environment, arguments):
     port = free_port()
     uri = f"http://localhost:{port}"
     own = {"ROS_MASTER_URI": uri, "ROS_HOME": str(folder)}
-    told = [f"{name}:={value}" for name, value in ({"viewer_port": 0} | arguments).items()]
-    command = ["roslaunch", "-p", port, "warehouse_sim", file, *told]
+    words = [f"{name}:={value}" for name, value in ({"viewer_port": 0} | arguments).items()]
+    command = ["roslaunch", "-p", port, "warehouse_sim", file, *words]
     options = {"env": os.environ | own | environment, "stdout": subprocess.DEVNULL}
-    with process(*command, **options) as one:
-        yield one, uri
+    with process(*command, **options) as running:
+        yield running, uri
 
 
 def node(uri, name):
@@ -98,7 +98,7 @@ def node(uri, name):
     return address if code == 1 else None
 
 
-def _told(launch, master, name):
+def _parameter(launch, master, name):
     """Returns a ROS parameter, None as long as there is none."""
     if launch.poll() is not None:
         raise RuntimeError(f"roslaunch has ended with {launch.returncode}")
@@ -111,9 +111,9 @@ def _told(launch, master, name):
 
 def free_port():
     """Returns a port of this machine that is not in use."""
-    with socket.socket() as one:
-        one.bind(("localhost", 0))
-        return one.getsockname()[1]
+    with socket.socket() as listener:
+        listener.bind(("localhost", 0))
+        return listener.getsockname()[1]
 
 
 def ask(address, body=None, method=None):
@@ -137,7 +137,7 @@ def compare(address, scenarios):
         ask(f"{address}/scenarios/{urllib.request.quote(name)}/run", {})
 
     def done():
-        told = ask(f"{address}/scenarios")
-        return told and not told["running"] + told["waiting"]
+        scenarios = ask(f"{address}/scenarios")
+        return scenarios and not scenarios["running"] + scenarios["waiting"]
 
     wait(done, "the last run's end")

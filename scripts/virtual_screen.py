@@ -36,7 +36,7 @@ def screen(folder: Path, width: int, height: int):
     """A screen of Xvfb's [px]; its number is the first that is free."""
     file = folder / "Xvfb_screen0"
     arguments = ("-displayfd", 1, "-screen", 0, f"{width}x{height}x24", "-fbdir", folder)
-    with running.process("Xvfb", *arguments, stdout=-1, stderr=-3) as one:
-        number = one.stdout.readline().strip()
+    with running.process("Xvfb", *arguments, stdout=-1, stderr=-3) as server:
+        number = server.stdout.readline().strip()
         running.wait(file.exists, "a screen")
         yield Screen(f":{number}", file)

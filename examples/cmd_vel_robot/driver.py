@@ -25,7 +25,7 @@ class CmdVelDriver(Driver):
         self._path_id = 0
         self._refusal = ""
         self._stopped = self._busy = False
-        self._speed = self._rate = 0.0  # as told [m/s, rad/s]
+        self._speed = self._rate = 0.0  # as commanded [m/s, rad/s]
         self._is_news = False  # odometry came since the last command
         self._heard_at = -math.inf
         self._now = 0.0

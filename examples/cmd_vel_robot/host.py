@@ -29,8 +29,8 @@ class Host:
         rospy.Timer(rospy.Duration(PERIOD), self._command, reset=True)
 
     def _on_odometry(self, odometry: Odometry) -> None:
-        told = odometry.pose.pose
-        at, turned = told.position, told.orientation
+        pose = odometry.pose.pose
+        at, turned = pose.position, pose.orientation
         if self._map_frame:
             try:
                 transform = self._frames.lookup_transform(
@@ -48,7 +48,7 @@ class Host:
         self._publish(*self._driver.command(rospy.get_time(), PERIOD))
 
     def _stand(self) -> None:
-        """Leaves no speed behind: many a robot goes on by the last that it was told."""
+        """Leaves no speed behind: many robots go on with the last command."""
         self._publish(0.0, 0.0)
 
     def _publish(self, speed: float, rate: float) -> None:

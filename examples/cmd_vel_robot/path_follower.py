@@ -66,16 +66,16 @@ class PathFollower:
 
     @property
     def moves(self) -> bool:
-        """Whether it is told to drive or turn."""
+        """Whether its command is to drive or turn."""
         return bool(self._speed or self._rate)
 
     def command(self, pose: Pose, dt: float, stopped: bool = False) -> tuple[float, float]:
         """Returns the speeds ahead [m/s] and counterclockwise [rad/s] for the next `dt` [s]."""
         stands = stopped or self.reached >= self._released
-        wanted = (0.0, 0.0) if stands else self._go(pose)
+        speeds = (0.0, 0.0) if stands else self._go(pose)
         limits = self.limits
-        self._speed = _approach(self._speed, wanted[0], 2 * limits.acceleration * dt)
-        self._rate = _approach(self._rate, wanted[1], 2 * limits.turn_acceleration * dt)
+        self._speed = _approach(self._speed, speeds[0], 2 * limits.acceleration * dt)
+        self._rate = _approach(self._rate, speeds[1], 2 * limits.turn_acceleration * dt)
         return self._speed, self._rate
 
     def _go(self, pose: Pose) -> tuple[float, float]:
@@ -116,7 +116,7 @@ class PathFollower:
         return math.dist(self._points[self.reached - 1], self._points[self.reached])
 
     def _run_length(self, heading: float) -> float:
-        """From the last point reached to the corner, or the last released point, ahead [m]."""
+        """Returns the distance from the last point reached to the next corner or end [m]."""
         length, i = 0.0, self.reached
         while i < self._released and abs(_wrapped(_heading(self._points, i) - heading)) < 0.1:
             length += math.dist(self._points[i - 1], self._points[i])
@@ -130,7 +130,7 @@ class PathFollower:
 
 
 def _heading(points: Sequence[Point], i: int) -> float:
-    """Of the leg that ends at point i [rad]."""
+    """Returns the heading of the leg that ends at point i [rad]."""
     (x0, y0), (x1, y1) = points[i - 1], points[i]
     return math.atan2(y1 - y0, x1 - x0)
 

@@ -15,12 +15,12 @@ class PoseFilter:
         self._time = 0.0
         self.pose: Pose | None = None
 
-    def update(self, time: float, told: Pose, speed: float, rate: float) -> Pose:
-        """Returns the pose at a time [s], by the pose told then and the speeds [m/s, rad/s]."""
+    def update(self, time: float, measured: Pose, speed: float, rate: float) -> Pose:
+        """Returns the pose at a time [s], by the pose measured then and the speeds [m/s, rad/s]."""
         if self.pose is None or not 0 <= time - self._time < 1:
-            self.pose = told
+            self.pose = measured
         else:
-            self.pose = self._blend(self._ahead(time - self._time, speed, rate), told)
+            self.pose = self._blend(self._ahead(time - self._time, speed, rate), measured)
         self._time = time
         return self.pose
 
@@ -29,7 +29,7 @@ class PoseFilter:
         middle = yaw + rate * dt / 2
         return x + speed * dt * math.cos(middle), y + speed * dt * math.sin(middle), yaw + rate * dt
 
-    def _blend(self, expected: Pose, told: Pose) -> Pose:
-        x, y = (e + self._trust * (t - e) for e, t in zip(expected[:2], told[:2]))
-        turn = math.remainder(told[2] - expected[2], math.tau)
+    def _blend(self, expected: Pose, measured: Pose) -> Pose:
+        x, y = (e + self._trust * (t - e) for e, t in zip(expected[:2], measured[:2]))
+        turn = math.remainder(measured[2] - expected[2], math.tau)
         return x, y, expected[2] + self._trust * turn

@@ -59,14 +59,14 @@ def examples(of: Iterable[Path]) -> Iterator[Example]:
     """Yields the blocks of pages, in order. Raises ValueError where a note is not known."""
     for page in of:
         text = page.read_text()
-        for found in BLOCK.finditer(text):
-            if found["language"].startswith("{"):  # a directive of Sphinx
+        for match in BLOCK.finditer(text):
+            if match["language"].startswith("{"):  # a directive of Sphinx
                 continue
-            line = text.count("\n", 0, found.start("language")) + 1
-            body = textwrap.dedent(found["text"])
-            one = Example(page, line, found["language"], body, {})
-            one.notes.update(_note(one, note) for note in NOTE.findall(found["notes"]))
-            yield one
+            line = text.count("\n", 0, match.start("language")) + 1
+            body = textwrap.dedent(match["text"])
+            example = Example(page, line, match["language"], body, {})
+            example.notes.update(_note(example, note) for note in NOTE.findall(match["notes"]))
+            yield example
 
 
 def _note(example, text):

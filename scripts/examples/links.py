@@ -31,12 +31,12 @@ def addresses(pages: Iterable[Path]) -> dict[str, list[str]]:
     """Returns {address elsewhere: the pages that lead to it}."""
     out = defaultdict(list)
     for page in pages:
-        for found in ADDRESS.findall(page.read_text()):
-            address = next(filter(None, found)).partition("#")[0]
+        for match in ADDRESS.findall(page.read_text()):
+            address = next(filter(None, match)).partition("#")[0]
             place = str(page.relative_to(ROOT)) if page.is_relative_to(ROOT) else str(page)
             if not HERE.match(address) and place not in out[address]:
                 out[address].append(place)
-    return {one: places for one, places in out.items() if places}
+    return {url: places for url, places in out.items() if places}
 
 
 def ask(address: str, timeout: float) -> Answer:
@@ -51,7 +51,7 @@ def ask(address: str, timeout: float) -> Answer:
         return Answer(address, 0, str(getattr(error, "reason", error)))
 
 
-def answers(found: Iterable[str], timeout: float) -> list[Answer]:
+def answers(urls: Iterable[str], timeout: float) -> list[Answer]:
     """Returns what all addresses answer, in their order."""
     with ThreadPoolExecutor(AT_ONCE) as pool:
-        return list(pool.map(lambda one: ask(one, timeout), found))
+        return list(pool.map(lambda url: ask(url, timeout), urls))

@@ -58,12 +58,12 @@ def read_xml(example: Example) -> None:
 def read_yaml(example: Example) -> None:
     """Has the reader of a YAML file read a block. Raises what that raises."""
     check(example)
-    given = yaml.safe_load(example.text)
-    reader = next((read for mark, read in READERS.items() if mark in given), None)
-    if reader is None and all(isinstance(key, int) for key in given):
+    document = yaml.safe_load(example.text)
+    reader = next((read for mark, read in READERS.items() if mark in document), None)
+    if reader is None and all(isinstance(key, int) for key in document):
         reader = _robots
     if reader is None:
-        raise ValueError(f"no reader is known for the keys {', '.join(map(str, given))}")
+        raise ValueError(f"no reader is known for the keys {', '.join(map(str, document))}")
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "example.layout.yaml"
         file.write_text(example.text)
@@ -130,6 +130,12 @@ def _planner(file):
         make_planner(Floor(np.ones((4, 4), bool)), Rules(), 1, yaml.safe_load(file.read_text()))
 
 
+def _costs(file):
+    from warehouse_operations.sizing import costs
+
+    costs.read(file)
+
+
 def _prices(file):
     from warehouse_operations.sizing import prices
 
@@ -143,5 +149,6 @@ READERS: dict[str, Callable[[Path], None]] = {
     "localisation": _realism,
     "walls": _layers,
     "planner": _planner,
+    "currency": _costs,
     "robot": _prices,
 }

@@ -58,8 +58,10 @@ class Program:
     def check(self) -> None:
         """Raises ValueError where it has ended."""
         if self._process.poll() is not None:
-            told = self._output.read_text()[-2000:]
-            raise ValueError(f"$ {self.command}\nhas ended with {self._process.returncode}\n{told}")
+            output = self._output.read_text()[-2000:]
+            raise ValueError(
+                f"$ {self.command}\nhas ended with {self._process.returncode}\n{output}"
+            )
 
     def end(self) -> None:
         """Presses Ctrl-C, and waits. What does not end is terminated, then killed."""
@@ -143,8 +145,8 @@ class Session:
         """
         kept = self._folder / "environment"
         body = "\n".join(self._local(line) for line in text.splitlines() if not _sourced(line))
-        told = "trap 'echo \"this failed: $BASH_COMMAND\" >&2' ERR"
-        script = f"set -e\n{before}\n{told}\n{body}\nenv -0 >{kept}\n"
+        trap = "trap 'echo \"this failed: $BASH_COMMAND\" >&2' ERR"
+        script = f"set -e\n{before}\n{trap}\n{body}\nenv -0 >{kept}\n"
         done = subprocess.run(
             ["timeout", "--kill-after=5", f"{patience:g}", "bash", "-c", script],
             env=self.environment,
@@ -158,7 +160,7 @@ class Session:
         if done.returncode or re.search(r"\bsuccess: False", done.stdout):
             raise ValueError(f"{done.stderr[-3000:]}{done.stdout[-2000:]}")
         entries = kept.read_text().split("\0")
-        self.environment = dict(one.split("=", 1) for one in entries if "=" in one)
+        self.environment = dict(entry.split("=", 1) for entry in entries if "=" in entry)
         for program in self._programs:
             program.check()
         return done.stdout
@@ -179,7 +181,7 @@ class Session:
         master = xmlrpc.client.ServerProxy(self.uri)
         published, _, services = master.getSystemState("/examples")[2]
         types = dict(master.getTopicTypes("/examples")[2])
-        return {one: types.get(one, "") for one, _ in published}, [one for one, _ in services]
+        return {name: types.get(name, "") for name, _ in published}, [name for name, _ in services]
 
     def _local(self, command):
         """A command with the port of this session's page."""
@@ -256,10 +258,10 @@ class Shells:
             return
         if robot := notes.get("wait"):
             before += WAITING.format(robot=robot)
-        told = session.run(text, before, patience)
-        if not re.search(notes.get("expect", ""), told):
+        result = session.run(text, before, patience)
+        if not re.search(notes.get("expect", ""), result):
             expected = notes["expect"]
-            raise ValueError(f"{expected} was expected in what it prints:\n{told[-2000:]}")
+            raise ValueError(f"{expected} was expected in what it prints:\n{result[-2000:]}")
 
     def _leave(self):
         while self._helpers:
@@ -307,13 +309,13 @@ def begins_world(command: str) -> bool:
 
 def _launch(command):
     """What a target of make launches, without its builds."""
-    found = LAUNCHED.match(command)
-    if not found:
+    match = LAUNCHED.match(command)
+    if not match:
         return command
     launch = "roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim"
     if command.startswith("make operate"):
         return f"{launch} operations.launch"
-    return f"{launch} warehouse.launch {found['run'] or ''}"
+    return f"{launch} warehouse.launch {match['run'] or ''}"
 
 
 def linked_folder(stack: contextlib.ExitStack) -> Path:

@@ -24,13 +24,13 @@ OPTIONS = {
 def modules(package: str) -> list[str]:
     """Returns a package's public modules, the package itself first."""
     top = ROOT / "src" / package / "python"
-    found = []
+    names = []
     for file in sorted(top.rglob("*.py")):
         parts = file.relative_to(top).with_suffix("").parts
         if any(part.startswith("_") for part in parts if part != "__init__"):
             continue
-        found.append(".".join(part for part in parts if part != "__init__"))
-    return sorted(found)
+        names.append(".".join(part for part in parts if part != "__init__"))
+    return sorted(names)
 
 
 def python(package: str) -> str:
@@ -40,7 +40,7 @@ def python(package: str) -> str:
         options = [":members:", ":undoc-members:", ":show-inheritance:", *OPTIONS.get(module, [])]
         if "." in module:
             options.append(":ignore-module-all:")  # what is another's is described there
-        lines = "\n".join(f"   {one}" for one in options)
+        lines = "\n".join(f"   {option}" for option in options)
         parts.append(f"## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n{lines}\n```")
     return "\n\n".join(parts) + "\n"
 

@@ -13,17 +13,13 @@ from unittest import mock
 from reference.markdown import block, code, page, prose, table
 from reference.pages import ROOT
 
-# Where rosrun finds a program, if not in the package of its folder; `drive` is in two.
+# Where rosrun finds a program, if not in the package of its folder.
 PACKAGES = {
     "warehouse_viewer/drive": "warehouse_fleet",
-    "warehouse_viewer/simulate": "warehouse_fleet",
-    "warehouse_viewer/replay": "warehouse_fleet",
-    "warehouse_viewer/whatif": "warehouse_fleet",
+    "warehouse_viewer/simulate": "warehouse_operations",
+    "warehouse_viewer/replay": "warehouse_operations",
+    "warehouse_viewer/whatif": "warehouse_operations",
     "warehouse_viewer/edit": "warehouse_layout",
-    "warehouse_operations/report": "warehouse_fleet",
-    "warehouse_operations/sweep": "warehouse_fleet",
-    "warehouse_operations/size": "warehouse_fleet",
-    "warehouse_operations/check": "warehouse_fleet",
 }
 NODES = (
     "viewer",
@@ -36,7 +32,7 @@ NODES = (
 
 def programs() -> list[Path]:
     """Returns the programs of all packages."""
-    return sorted(ROOT.glob("src/*/nodes/*"), key=lambda one: one.name)
+    return sorted(ROOT.glob("src/*/nodes/*"), key=lambda path: path.name)
 
 
 def package(program: Path) -> str:
@@ -47,13 +43,13 @@ def package(program: Path) -> str:
 
 def modules() -> list[str]:
     """Returns the modules that a person calls by python3 -m."""
-    found = []
+    names = []
     for file in ROOT.glob("src/*/python/**/*.py"):
         text = file.read_text()
         if "__main__" in text and "ArgumentParser" in text:
-            top = next(one for one in file.parents if one.name == "python")
-            found.append(".".join(file.relative_to(top).with_suffix("").parts))
-    return sorted(found)
+            top = next(parent for parent in file.parents if parent.name == "python")
+            names.append(".".join(file.relative_to(top).with_suffix("").parts))
+    return sorted(names)
 
 
 def is_command(program: Path) -> bool:
@@ -65,15 +61,17 @@ def is_command(program: Path) -> bool:
 def written() -> str:
     """Returns the page of command lines: what each prints on --help."""
     called = [
-        (f"rosrun {package(one)} {one.name}", [str(one)]) for one in programs() if is_command(one)
+        (f"rosrun {package(program)} {program.name}", [str(program)])
+        for program in programs()
+        if is_command(program)
     ]
-    called += [(f"python3 -m {one}", ["-m", one]) for one in modules()]
+    called += [(f"python3 -m {program}", ["-m", program]) for program in modules()]
     called.append(("scripts/film", [str(ROOT / "scripts/film")]))
-    sections = [section(*one) for one in called]
+    sections = [section(*program) for program in called]
     nodes = [
-        (code(one.name), code(one.parts[-3]), prose(docstring(one)))
-        for one in programs()
-        if not is_command(one)
+        (code(program.name), code(program.parts[-3]), prose(docstring(program)))
+        for program in programs()
+        if not is_command(program)
     ]
     return page(
         "Command lines",
@@ -87,11 +85,11 @@ def written() -> str:
 
 def section(name: str, command: list[str]) -> str:
     """Returns a program's help, with that of its commands."""
-    told = helped(command)
-    inner = re.search(r"\{([\w,-]+)\}\s*\.\.\.", told)
-    parts = [f"## {name}", block(told)]
-    for one in inner[1].split(",") if inner else []:
-        parts += [f"### {name} {one}", block(helped([*command, one]))]
+    text = helped(command)
+    inner = re.search(r"\{([\w,-]+)\}\s*\.\.\.", text)
+    parts = [f"## {name}", block(text)]
+    for subcommand in inner[1].split(",") if inner else []:
+        parts += [f"### {name} {subcommand}", block(helped([*command, subcommand]))]
     return "\n\n".join(parts)
 
 
@@ -102,7 +100,8 @@ def helped(command: list[str]) -> str:
     """
     out = io.StringIO()
     handlers = {
-        one: signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM, signal.SIGPIPE)
+        subcommand: signal.getsignal(subcommand)
+        for subcommand in (signal.SIGINT, signal.SIGTERM, signal.SIGPIPE)
     }
     environment = mock.patch.dict("os.environ", COLUMNS="100", NO_COLOR="1")
     as_module = command[0] == "-m"
@@ -111,8 +110,8 @@ def helped(command: list[str]) -> str:
     run = runpy.run_module if as_module else runpy.run_path
     with environment, arguments, contextlib.redirect_stdout(out), contextlib.suppress(SystemExit):
         run(argv[0], run_name="__main__")
-    for one, handler in handlers.items():
-        signal.signal(one, handler)
+    for subcommand, handler in handlers.items():
+        signal.signal(subcommand, handler)
     if "usage:" not in out.getvalue():
         raise ValueError(f"{' '.join(command)} --help prints no usage")
     return out.getvalue()
@@ -120,5 +119,5 @@ def helped(command: list[str]) -> str:
 
 def docstring(program: Path) -> str:
     """Returns the first paragraph of a program's docstring."""
-    found = re.search(r'^"""(.*?)(?:\n\n|""")', program.read_text(), re.M | re.S)
-    return " ".join(found[1].split()) if found else ""
+    match = re.search(r'^"""(.*?)(?:\n\n|""")', program.read_text(), re.M | re.S)
+    return " ".join(match[1].split()) if match else ""

@@ -24,22 +24,24 @@ def kinds() -> dict[str, list[tuple[str, str, str]]]:
     files = sorted(ROOT.glob("src/warehouse_msgs/msg/*.msg")) + sorted(
         ROOT.glob("src/warehouse_msgs/srv/*.srv")
     )
-    return {one.stem: found for one in files if (found := CONSTANT.findall(one.read_text()))}
+    return {
+        path.stem: constants for path in files if (constants := CONSTANT.findall(path.read_text()))
+    }
 
 
 def refusals() -> dict[str, list[tuple[str, str]]]:
     """Returns {package: (sentence, place)}, with … for what only running code knows."""
     out: dict[str, list[tuple[str, str]]] = {}
     for package in sorted(ROOT.glob("src/*/package.xml")):
-        found = []
+        sentences = []
         for file in sorted(package.parent.rglob("*")):
             place = str(file.relative_to(package.parent))
             if file.suffix in (".cpp", ".h") and "examples" not in file.parts:
-                found += [(one, place) for one in of_cpp(file.read_text())]
+                sentences += [(sentence, place) for sentence in of_cpp(file.read_text())]
             elif is_python(file):
-                found += [(one, place) for one in of_python(file.read_text())]
-        if found:
-            out[package.parent.name] = list(dict.fromkeys(found))
+                sentences += [(sentence, place) for sentence in of_python(file.read_text())]
+        if sentences:
+            out[package.parent.name] = list(dict.fromkeys(sentences))
     return out
 
 
@@ -94,7 +96,9 @@ def of_python(text: str) -> list[str]:
             or ERRORS.search(name)
             or name in ("exit", "logwarn", "logerr", "warn")
         ):
-            out += [sentence for one in call.args if is_sentence(sentence := _sentence(one))]
+            out += [
+                sentence for argument in call.args if is_sentence(sentence := _sentence(argument))
+            ]
     return list(dict.fromkeys(out))
 
 
@@ -103,7 +107,9 @@ def _sentence(node):
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
     if isinstance(node, ast.JoinedStr):
-        return "".join(one.value if isinstance(one, ast.Constant) else "…" for one in node.values)
+        return "".join(
+            part.value if isinstance(part, ast.Constant) else "…" for part in node.values
+        )
     if isinstance(node, ast.BinOp):
         return _sentence(node.left) + _sentence(node.right)
     return ""
@@ -114,7 +120,10 @@ def advices() -> list[tuple[re.Pattern[str], bool, str]]:
     """Returns what to do, by a pattern; whether the pattern is one of places, else of sentences."""
     lines = [line for line in ADVICE.read_text().splitlines() if line and line[0] != "#"]
     parts = [line.partition(" => ") for line in lines]
-    return [(re.compile(one.removeprefix("@")), one[0] == "@", told) for one, _, told in parts]
+    return [
+        (re.compile(pattern.removeprefix("@")), pattern[0] == "@", advice)
+        for pattern, _, advice in parts
+    ]
 
 
 def advice(package: str, sentence: str, place: str) -> str:
@@ -123,22 +132,22 @@ def advice(package: str, sentence: str, place: str) -> str:
     The first pattern that is found holds.
     """
     of_sentence, of_place = f"{package}: {sentence}", f"{package}/{place}"
-    found = (
-        told
-        for pattern, is_place, told in advices()
+    remedies = (
+        remedy
+        for pattern, is_place, remedy in advices()
         if pattern.search(of_place if is_place else of_sentence)
     )
-    return next(found, "")
+    return next(remedies, "")
 
 
 def written() -> str:
     """Returns the page of events and refusals."""
     parts = []
-    for name, found in kinds().items():
+    for name, constants in kinds().items():
         folder = (
             "messages" if (ROOT / f"src/warehouse_msgs/msg/{name}.msg").exists() else "services"
         )
-        rows = [(code(one), number, prose(comment)) for one, number, comment in found]
+        rows = [(code(constant), number, prose(comment)) for constant, number, comment in constants]
         parts.append(
             f"### [{name}]({folder}.md#warehouse_msgs{name.lower()})\n\n"
             + table(["name", "number", ""], rows)
@@ -147,9 +156,12 @@ def written() -> str:
         f"### {package}\n\n"
         + table(
             ["sentence", "what to do", "in"],
-            [(prose(one), advice(package, one, place), code(place)) for one, place in found],
+            [
+                (prose(sentence), advice(package, sentence, place), code(place))
+                for sentence, place in sentences
+            ],
         )
-        for package, found in refusals().items()
+        for package, sentences in refusals().items()
     ]
     return page(
         "Events and refusals",

@@ -54,12 +54,12 @@ def section(path: str, method: str, operation: dict[str, Any]) -> str:
     ]
     rows = [
         (
-            code(one["name"]),
-            one["in"],
-            kind(one.get("schema", {})),
-            prose(one.get("description", "")),
+            code(parameter["name"]),
+            parameter["in"],
+            kind(parameter.get("schema", {})),
+            prose(parameter.get("description", "")),
         )
-        for one in operation.get("parameters", [])
+        for parameter in operation.get("parameters", [])
     ]
     if rows:
         parts.append(table(["parameter", "in", "type", ""], rows))
@@ -68,10 +68,10 @@ def section(path: str, method: str, operation: dict[str, Any]) -> str:
     answers = [
         (
             status,
-            prose(one.get("description", "")),
-            ", ".join(kind(c.get("schema", {})) for c in one.get("content", {}).values()),
+            prose(response.get("description", "")),
+            ", ".join(kind(c.get("schema", {})) for c in response.get("content", {}).values()),
         )
-        for status, one in operation.get("responses", {}).items()
+        for status, response in operation.get("responses", {}).items()
     ]
     return "\n\n".join([*parts, table(["status", "", "answer"], answers)])
 
@@ -80,13 +80,13 @@ def socket(path: str, about: dict[str, Any]) -> str:
     """Returns a WebSocket."""
     rows = [
         (
-            code(one["name"]),
-            prose(one.get("description", "")),
-            ", ".join(map(str, one.get("enum", []))),
+            code(parameter["name"]),
+            prose(parameter.get("description", "")),
+            ", ".join(map(str, parameter.get("enum", []))),
         )
-        for one in about["parameters"]
+        for parameter in about["parameters"]
     ]
-    sent = ", ".join(kind(one) for one in about.get("messages", []))
+    sent = ", ".join(kind(parameter) for parameter in about.get("messages", []))
     parts = [
         f"### {path}",
         prose(" ".join(about["description"].split())),
@@ -101,15 +101,15 @@ def schema(name: str, about: dict[str, Any]) -> str:
     rows = [
         (
             code(field),
-            kind(one),
+            kind(description),
             "yes" if field in needed else "",
-            limits(one),
-            prose(one.get("description", "")),
+            limits(description),
+            prose(description.get("description", "")),
         )
-        for field, one in about.get("properties", {}).items()
+        for field, description in about.get("properties", {}).items()
     ]
-    told = table(["field", "type", "required", "limits", ""], rows) if rows else kind(about)
-    return "\n\n".join([f"### {name}", prose(about.get("description", "")), told])
+    text = table(["field", "type", "required", "limits", ""], rows) if rows else kind(about)
+    return "\n\n".join([f"### {name}", prose(about.get("description", "")), text])
 
 
 def kind(about: dict[str, Any]) -> str:
@@ -119,9 +119,9 @@ def kind(about: dict[str, Any]) -> str:
         return f"[{name}](#{name.lower()})"
     for key in ("anyOf", "allOf", "oneOf"):
         if key in about:
-            return " or ".join(kind(one) for one in about[key])
+            return " or ".join(kind(value) for value in about[key])
     if "enum" in about or "const" in about:
-        return ", ".join(code(one) for one in about.get("enum", [about.get("const")]))
+        return ", ".join(code(value) for value in about.get("enum", [about.get("const")]))
     if about.get("type") == "array":
         return f"list of {kind(about.get('items', {}))}"
     return str(about.get("type", "any"))

@@ -39,17 +39,22 @@ def launches() -> str:
     for file in launch_files():
         package = "warehouse_vda5050" if "vda5050" in str(file) else "warehouse_sim"
         rows = [
-            (code(one.get("name")), code(one.get("default", "")), prose(one.get("doc", "")))
-            for one in ElementTree.parse(file).getroot().iter("arg")
-            if "value" not in one.attrib and one.get("doc")
+            (
+                code(argument.get("name")),
+                code(argument.get("default", "")),
+                prose(argument.get("doc", "")),
+            )
+            for argument in ElementTree.parse(file).getroot().iter("arg")
+            if "value" not in argument.attrib and argument.get("doc")
         ]
-        told = (
+        description = (
             table(["argument", "default", ""], rows)
             if rows
             else "It takes no arguments of its own."
         )
         sections.append(
-            f"## {file.name}\n\n`roslaunch {package} {file.name}`\n\n{comment(file)}\n\n{told}"
+            f"## {file.name}\n\n`roslaunch {package} {file.name}`\n\n{comment(file)}"
+            f"\n\n{description}"
         )
     about = (
         "Give arguments as `NAME:=VALUE`. A wrong value or an unknown argument ends the "
@@ -60,10 +65,12 @@ def launches() -> str:
 
 def comment(file: Path) -> str:
     """Returns what a launch file says of itself."""
-    found = [
-        one for one in re.findall(r"<!--(.*?)-->", file.read_text(), re.S) if "SPDX" not in one
+    comments = [
+        remark
+        for remark in re.findall(r"<!--(.*?)-->", file.read_text(), re.S)
+        if "SPDX" not in remark
     ]
-    return prose(" ".join(found[0].split())) if found else ""
+    return prose(" ".join(comments[0].split())) if comments else ""
 
 
 def settings() -> dict[str, str]:
@@ -86,14 +93,14 @@ def asked() -> dict[str, dict[str, str]]:
     out: dict[str, dict[str, str]] = {}
     for file in sorted(ROOT.glob("src/*/nodes/*")) + sorted(ROOT.glob("src/*/python/**/*.py")):
         text = file.read_text()
-        found = {}
+        arguments_of = {}
         for name, rest in re.findall(r'get_param\(\s*"([~\w][\w/]+)"(?:,\s*([^()]*?))?\)', text):
             key = name if name.startswith("~") else f"/{name}"
-            found[key] = DEFAULTS.get(rest.strip(), rest.strip())
+            arguments_of[key] = DEFAULTS.get(rest.strip(), rest.strip())
         for name, default in viewer_settings(text) if file.name == "viewer" else ():
-            found[name] = DEFAULTS.get(default, default)
-        if found:
-            out[str(file.relative_to(ROOT / "src"))] = found
+            arguments_of[name] = DEFAULTS.get(default, default)
+        if arguments_of:
+            out[str(file.relative_to(ROOT / "src"))] = arguments_of
     return out
 
 
@@ -101,9 +108,9 @@ def viewer_settings(text: str) -> list[tuple[str, str]]:
     """Returns the parameters of the viewer, which it reads from a table of defaults."""
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict):
-            keys = [one.value for one in node.value.keys if isinstance(one, ast.Constant)]
+            keys = [value.value for value in node.value.keys if isinstance(value, ast.Constant)]
             if "port" in keys:
-                values = [ast.unparse(one) for one in node.value.values]
+                values = [ast.unparse(value) for value in node.value.values]
                 return [(f"~{key}", value) for key, value in zip(keys, values)]
     return []
 
@@ -112,11 +119,11 @@ def meanings() -> dict[str, str]:
     """Returns what parameters mean, as launch files tell of the arguments of the same name."""
     out = dict(MEANINGS)
     for file in launch_files():
-        for one in ElementTree.parse(file).getroot().iter("arg"):
-            if one.get("doc"):
-                out.setdefault(f"~{one.get('name')}", one.get("doc", ""))
+        for argument in ElementTree.parse(file).getroot().iter("arg"):
+            if argument.get("doc"):
+                out.setdefault(f"~{argument.get('name')}", argument.get("doc", ""))
                 out.setdefault(
-                    f"~{one.get('name', '').removeprefix('viewer_')}", one.get("doc", "")
+                    f"~{argument.get('name', '').removeprefix('viewer_')}", argument.get("doc", "")
                 )
     return out
 
@@ -125,10 +132,10 @@ def parameters() -> str:
     """Returns the page of the nodes' parameters."""
     rows = [(code(name), prose(text)) for name, text in settings().items()]
     known, sections = meanings(), []
-    for file, found in asked().items():
+    for file, arguments_of in asked().items():
         own = [
             (code(name), code(value), prose(known.get(name, "")))
-            for name, value in found.items()
+            for name, value in arguments_of.items()
             if name.startswith("~")
         ]
         if own:
@@ -137,7 +144,8 @@ def parameters() -> str:
                 + table(["parameter", "default", ""], own)
             )
     shared = sorted(
-        {name for found in asked().values() for name in found if name.startswith("/")} | set(SHARED)
+        {name for arguments_of in asked().values() for name in arguments_of if name.startswith("/")}
+        | set(SHARED)
     )
     return page(
         "Parameters",
@@ -145,7 +153,7 @@ def parameters() -> str:
         "## gazebo\n\nThe node of the world.\n\n" + table(["parameter", ""], rows),
         *sections,
         "## Of the warehouse\n\n"
-        + table(["parameter", ""], [(code(one), SHARED.get(one, "")) for one in shared]),
+        + table(["parameter", ""], [(code(name), SHARED.get(name, "")) for name in shared]),
     )
 
 

@@ -7,7 +7,7 @@ from reference.markdown import block, page, prose
 from reference.pages import ROOT
 
 PACKAGES = {
-    "warehouse_msgs": "What the warehouse says and is told.",
+    "warehouse_msgs": "What the warehouse publishes and takes.",
     "gazebo_msgs": "Gazebo's, so that its clients connect.",
 }
 # What a file leaves out, since its fields say it all.
@@ -22,11 +22,11 @@ def files(folder: str) -> list[Path]:
     """Returns the files of a kind: msg, srv or action."""
     return sorted(
         (
-            one
+            file
             for package in PACKAGES
-            for one in (ROOT / "src" / package / folder).glob(f"*.{folder}")
+            for file in (ROOT / "src" / package / folder).glob(f"*.{folder}")
         ),
-        key=lambda one: (one.parts[-3] != "warehouse_msgs", one.name),
+        key=lambda file: (file.parts[-3] != "warehouse_msgs", file.name),
     )
 
 

@@ -52,10 +52,10 @@ class Number(NamedTuple):
 def structs(header: str) -> dict[str, tuple[str, str]]:
     """Returns {struct: (comment, body)} of a header."""
     text = (HEADERS / header).read_text()
-    found = re.findall(r"((?:^///[^\n]*\n)*)^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S)
+    matches = re.findall(r"((?:^///[^\n]*\n)*)^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S)
     return {
         name: (" ".join(re.sub(r"^/// ?", "", about, flags=re.M).split()), body)
-        for about, name, body in found
+        for about, name, body in matches
     }
 
 
@@ -69,7 +69,7 @@ def numbers(body: str, method: str = "fields") -> list[Number]:
         (
             name,
             member,
-            *(re.sub(r"\w+$", lambda m: limits.get(m[0], m[0]), one.strip()) for one in ends),
+            *(re.sub(r"\w+$", lambda m: limits.get(m[0], m[0]), limit.strip()) for limit in ends),
         )
         for name, member, *ends in calls
     ]
@@ -81,8 +81,8 @@ def numbers(body: str, method: str = "fields") -> list[Number]:
 
 def default_of(body: str, member: str) -> str:
     """Returns a member's default."""
-    found = re.search(rf"^  \w+ {member} = ([^;]+);", body, re.M)
-    return found[1] if found else ""
+    match = re.search(rf"^  \w+ {member} = ([^;]+);", body, re.M)
+    return match[1] if match else ""
 
 
 def comment_of(body: str, member: str) -> str:
@@ -104,8 +104,8 @@ def comment_of(body: str, member: str) -> str:
 def sections() -> dict[str, str]:
     """Returns {section of a realism file: struct}."""
     text = (HEADERS / "realism.h").read_text()
-    found = re.findall(r"^  (\w+Realism) (\w+);", text, re.M)
-    members = {member: struct for struct, member in found}
+    matches = re.findall(r"^  (\w+Realism) (\w+);", text, re.M)
+    members = {member: struct for struct, member in matches}
     return {
         name: members[member]
         for name, member in re.findall(r'call\("(\w+)", realism\.(\w+)\)', text)
@@ -119,22 +119,24 @@ def realism() -> str:
     for section, struct in sections().items():
         about, body = known[struct]
         rows = []
-        for one in numbers(body):
-            values = [valued(day.get(section), one.name) for day in days.values()]
+        for field in numbers(body):
+            values = [valued(day.get(section), field.name) for day in days.values()]
             rows.append(
                 (
-                    code(one.name),
-                    one.default,
-                    f"{one.least} … {one.most}",
+                    code(field.name),
+                    field.default,
+                    f"{field.least} … {field.most}",
                     *values,
-                    prose(one.comment),
+                    prose(field.comment),
                 )
             )
         on = ", ".join(day for day, text in days.items() if text.get(section))
-        told = (
+        description = (
             table(["number", "default", "range", *DAYS, ""], rows) if rows else "It has no numbers."
         )
-        parts.append(f"## {section}\n\n{prose(about)}\n\nOn in: {on or 'neither day'}.\n\n{told}")
+        parts.append(
+            f"## {section}\n\n{prose(about)}\n\nOn in: {on or 'neither day'}.\n\n{description}"
+        )
     return page(
         "Realism parameters",
         "A realism file is YAML: a section is on if it is `true` or any of its "
@@ -157,8 +159,8 @@ def plugins() -> str:
     for plugin, (struct, method) in ROBOT.items():
         about, body = known[struct]
         rows = [
-            (code(one.name), one.default, f"{one.least} … {one.most}", prose(one.comment))
-            for one in numbers(body, method)
+            (code(field.name), field.default, f"{field.least} … {field.most}", prose(field.comment))
+            for field in numbers(body, method)
         ]
         parts.append(f"## {plugin}\n\n" + table(["parameter", "default", "range", ""], rows))
     for file, title in WORLD.items():
@@ -166,10 +168,10 @@ def plugins() -> str:
             f"## {title}\n\n" + taken((ROOT / "src/kiva_plugin_cpp/src" / file).read_text())
         )
     for file in sorted(GAZEBO.rglob("*.cpp"), key=lambda file: file.stem):
-        if told := taken(file.read_text()):
+        if text := taken(file.read_text()):
             names = ", ".join(code(name) for name in libraries().get(file.stem, []))
             note = f"In {names}.\n\n" if names else ""
-            parts.append(f"## gazebo_ros: {file.stem}\n\n{note}{told}")
+            parts.append(f"## gazebo_ros: {file.stem}\n\n{note}{text}")
     return page(
         "Plugins and their parameters",
         PLUGINS,

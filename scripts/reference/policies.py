@@ -23,17 +23,17 @@ def section(role: str, names: dict[str, Any], policies: Any) -> str:
     rows = [
         (
             code(name) + (" (default)" if name == policies.DEFAULTS[role] else ""),
-            options(one),
-            prose(about(one)),
+            options(policy),
+            prose(about(policy)),
         )
-        for name, one in names.items()
+        for name, policy in names.items()
     ]
-    told = inspect.getdoc(getattr(protocol, method)) or ""
+    documentation = inspect.getdoc(getattr(protocol, method)) or ""
     return "\n\n".join(
         [
             f"## {role}",
             prose(inspect.getdoc(protocol) or ""),
-            block(signature + "\n\n" + told),
+            block(signature + "\n\n" + documentation),
             table(["name", "options", ""], rows),
         ]
     )
@@ -52,12 +52,14 @@ def options(kind: Any) -> str:
     """Returns a class's options with their defaults."""
     if kind.__init__ is object.__init__:
         return ""
-    given = list(inspect.signature(kind).parameters.values())
-    return ", ".join(
-        f"`{one.name}: {'needed' if one.default is one.empty else one.default}`" for one in given
-    )
+    parameters = list(inspect.signature(kind).parameters.values())
+    return ", ".join(f"`{parameter.name}: {_default(parameter)}`" for parameter in parameters)
 
 
 def about(kind: Any) -> str:
     """Returns the first paragraph of a class's docstring."""
     return (inspect.getdoc(kind) or "").split("\n\n")[0]
+
+
+def _default(parameter: inspect.Parameter) -> str:
+    return "needed" if parameter.default is parameter.empty else str(parameter.default)

@@ -40,15 +40,17 @@ BROUGHT = re.compile(r"/(move|carry)/\w+$|/rosout\w*$|/statistics$|logger(s|_lev
 
 def unlisted(published: dict[str, str], offered: list[str]) -> list[str]:
     """Returns the topics (given with types) and services that run and that the tables lack."""
-    known = {one.name: one.type for one in names("published") + names("taken")}
-    told = []
+    known = {topic.name: topic.type for topic in names("published") + names("taken")}
+    undocumented = []
     for name, kind in published.items():
         plain = re.sub(r"^/(items|storage_units)/[^/]+/", r"/\1/<name>/", name)
         plain = re.sub(r"^/kiva\d+/", "/kiva<id>/", plain)
         if not BROUGHT.search(name) and known.get(plain) != kind:
-            told.append(f"{name} {kind}")
-    listed = {one.name for one in services()}
-    return told + [name for name in offered if not BROUGHT.search(name) and name not in listed]
+            undocumented.append(f"{name} {kind}")
+    listed = {topic.name for topic in services()}
+    return undocumented + [
+        name for name in offered if not BROUGHT.search(name) and name not in listed
+    ]
 
 
 def about(type_name: str) -> str:
@@ -75,27 +77,27 @@ def _leading(file, lines):
         yield words
 
 
-def rows(found: list[Name], with_notes: bool = True) -> list[tuple[str, ...]]:
+def rows(listed: list[Name], with_notes: bool = True) -> list[tuple[str, ...]]:
     """Returns the rows of a table."""
     kinds = {"msg": "messages", "srv": "services", "action": "actions"}
 
-    def linked(one):
-        package, name = one.type.split("/")
+    def linked(topic):
+        package, name = topic.type.split("/")
         for folder, where in kinds.items():
             bare = name.removesuffix("Action") if folder == "action" else name
             if (ROOT / "src" / package / folder / f"{bare}.{folder}").exists():
                 anchor = f"{package}/{bare}".lower().replace("/", "")
-                return f"[{one.type}]({where}.md#{anchor})"
-        return code(one.type)
+                return f"[{topic.type}]({where}.md#{anchor})"
+        return code(topic.type)
 
     return [
         (
-            code(one.name),
-            linked(one),
-            one.node,
-            ". ".join(part for part in (one.note, prose(about(one.type))) if part),
+            code(topic.name),
+            linked(topic),
+            topic.node,
+            ". ".join(part for part in (topic.note, prose(about(topic.type))) if part),
         )
-        for one in found
+        for topic in listed
     ]
 
 
@@ -115,9 +117,9 @@ GOALS = "With feedback and a result. A cancelled goal ends with the command that
 def written() -> str:
     """Returns the page of names."""
 
-    def section(title, found, about=""):
+    def section(title, listed, about=""):
         head = [title.split()[0].rstrip("s").lower(), "type", "node", ""]
-        return f"## {title}\n\n{about}\n\n{table(head, rows(found))}"
+        return f"## {title}\n\n{about}\n\n{table(head, rows(listed))}"
 
     return page(
         "Topics, services and actions",

@@ -33,11 +33,11 @@ def actions(known) -> str:
     """Returns the actions, with their parameters."""
     rows = [
         (
-            code(one.type),
-            ", ".join(one.scopes),
-            ", ".join(f"`{name}` ({prose(text)})" for name, _, _, text in one.parameters),
-            prose(one.description),
+            code(action.type),
+            ", ".join(action.scopes),
+            ", ".join(f"`{name}` ({prose(text)})" for name, _, _, text in action.parameters),
+            prose(action.description),
         )
-        for one in known
+        for action in known
     ]
     return f"## Actions\n\n{table(['action', 'scope', 'parameters', ''], rows)}"

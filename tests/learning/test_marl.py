@@ -12,7 +12,7 @@ from warehouse_learning.marl import evaluation, policy, statistics  # noqa: E402
 from warehouse_learning.marl.encoding import Encoder  # noqa: E402
 from warehouse_learning.marl.mlp import Mlp  # noqa: E402
 from warehouse_learning.marl.rollouts import Rollouts  # noqa: E402
-from warehouse_learning.marl.training import Settings, Training  # noqa: E402
+from warehouse_learning.marl.training import Training, TrainingSettings  # noqa: E402
 from warehouse_learning.rware import RwareVectorEnv, options_of  # noqa: E402
 
 # A floor on which chance delivers now and then.
@@ -29,7 +29,7 @@ QUICK = {"environments": 32, "rollout": 16, "steps": 30_000, "rate": 3e-3, "disc
 def training(seed=0, **settings):
     settings = QUICK | settings
     envs = RwareVectorEnv(settings["environments"], autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR)
-    return Training(envs, Settings(**settings), seed, {"task": "floor"})
+    return Training(envs, TrainingSettings(**settings), seed, {"task": "floor"})
 
 
 def test_slopes_are_those_of_the_loss():
@@ -68,9 +68,9 @@ def test_rollouts_tell_where_episodes_were_cut():
     random = np.random.default_rng(3)
     rollout = Rollouts(envs, encoder, random).collect(Mlp([encoder.size, 5], 0.01, random), 120)
     cut = np.zeros_like(rollout.end)
-    for t, which, seen in rollout.cut:
+    for t, which, rows in rollout.cut:
         cut[t] |= which
-        assert seen.shape == (which.sum(), 2, encoder.size)
+        assert rows.shape == (which.sum(), 2, encoder.size)
     assert (cut == rollout.end).all()
     # Each begins at another time, then ends after 50 steps, or was reset once more before.
     assert 8 * 2 <= rollout.end.sum() <= 8 * 4
@@ -96,7 +96,7 @@ def test_a_training_goes_on_from_its_checkpoint(tmp_path):
     assert (other.done, other.curve) == (first.done, first.curve)
     for mine, theirs in zip(first.actor.parameters, other.actor.parameters):
         assert (mine == theirs).all()
-    other.settings = Settings(**vars(other.settings) | {"steps": 8192})
+    other.settings = TrainingSettings(**vars(other.settings) | {"steps": 8192})
     other.run()
     assert other.done == 8192
     with pytest.raises(ValueError, match="its hidden is 64, not 8"):

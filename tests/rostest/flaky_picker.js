@@ -33,8 +33,8 @@ function scan(code) {
     return gone();
   };
   page.outbox.sleep = (ms, wake) => setTimeout(wake, ms / 20);
-  const { refused } = page.outbox.told;
-  page.outbox.told.refused = (entry, reason) => {
+  const { refused } = page.outbox.handlers;
+  page.outbox.handlers.refused = (entry, reason) => {
     picker.refused.push(reason);
     refused(entry, reason);
   };

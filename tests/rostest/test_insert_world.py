@@ -39,6 +39,23 @@ class InsertWorld(unittest.TestCase):
         self.assertIn("already: person1, wall1, wall2", text)
         self.assertEqual(standing(), before)
 
+    def test_nothing_where_something_stands(self):
+        self.assertEqual(run("insert_world", "paper")[0], 0)
+        before = standing()
+        code, text = run("insert_world", "paper")
+        self.assertEqual(code, 3)
+        self.assertRegex(text, r"nothing was added: \w+ would stand in \w+; .* at:=X,Y")
+        self.assertEqual(standing(), before)
+        code, text = run("insert_world", "paper", "at:=40,0", "yaw:=1.5")
+        self.assertEqual(code, 0, text)
+        self.assertIn("kiva3", standing())
+
+    def test_wrong_places_are_refused(self):
+        for place in ("at:=1", "at:=nan,0", "yaw:=north"):
+            code, text = run("insert_world", "paper", place)
+            self.assertEqual(code, 1, text)
+            self.assertIn(place, text)
+
     def test_beside_a_warehouse_it_takes_free_numbers(self):
         create("small")
         code, text = run("insert_world", "obstacles")

@@ -38,16 +38,16 @@ LONG = 120.0  # [s, wall]
 
 
 def submit(*lines, reference=""):
-    wanted = [OrderLine(sku, quantity) for sku, quantity in lines]
-    return call("/warehouse/submit_order", SubmitOrder, reference=reference, lines=wanted)
+    lines_of_order = [OrderLine(sku, quantity) for sku, quantity in lines]
+    return call("/warehouse/submit_order", SubmitOrder, reference=reference, lines=lines_of_order)
 
 
 def station(name, condition=lambda station: True):
     def holds(message):
-        return condition({one.name: one for one in message.stations}[name])
+        return condition({station.name: station for station in message.stations}[name])
 
     states = latched("/warehouse/stations", StationStates, holds)
-    return {one.name: one for one in states.stations}[name]
+    return {station.name: station for station in states.stations}[name]
 
 
 def bring_a_unit(station):
@@ -85,19 +85,19 @@ class Operations(unittest.TestCase):
     def tearDown(self):
         self.events.close()
 
-    def told(self, order_id, kind):
+    def events_of(self, order_id, kind):
         return [e for e in self.events.messages if (e.order_id, e.kind) == (order_id, kind)]
 
     def wait_for(self, order_id, kind):
-        wait_until(lambda: self.told(order_id, kind), f"order {order_id}: {kind}", LONG)
-        return self.told(order_id, kind)[0]
+        wait_until(lambda: self.events_of(order_id, kind), f"order {order_id}: {kind}", LONG)
+        return self.events_of(order_id, kind)[0]
 
     def test_1_an_order_is_picked_and_told(self):
         answer = submit(("sku-1", 1), ("sku-2", 2), reference="A-1")
         self.assertTrue(answer.accepted, answer.message)
         completed = self.wait_for(answer.order_id, OrderEvent.COMPLETED)
         self.assertTrue(completed.station.startswith("pick"), completed)
-        picked = self.told(answer.order_id, OrderEvent.PICKED)
+        picked = self.events_of(answer.order_id, OrderEvent.PICKED)
         self.assertEqual(sorted(event.sku for event in picked), ["sku-1", "sku-2", "sku-2"])
         self.assertTrue(all(event.shelf_id > 0 for event in picked))
         kpis = latched("/warehouse/kpis", Kpis, lambda kpis: kpis.orders_completed)
@@ -115,7 +115,7 @@ class Operations(unittest.TestCase):
         self.assertTrue(set_station("pick1", True, MANUAL).success)
         self.assertTrue(set_station("pick2", False, AUTOMATIC).success)
         order = submit(("sku-3", 2))
-        there = station("pick1", lambda one: one.picks)
+        there = station("pick1", lambda state: state.picks)
         pick = there.picks[0]
         self.assertEqual((pick.sku, pick.quantity, pick.order_id), ("sku-3", 2, order.order_id))
         self.assertIn(order.order_id, there.orders)
@@ -129,21 +129,21 @@ class Operations(unittest.TestCase):
         self.wait_for(order.order_id, OrderEvent.COMPLETED)
 
     def test_4_over_http(self):
-        wanted = {"reference": "web-1", "lines": [{"sku": "sku-5", "quantity": 2}]}
-        status, answer = ask("/orders", wanted)
+        order = {"reference": "web-1", "lines": [{"sku": "sku-5", "quantity": 2}]}
+        status, answer = ask("/orders", order)
         self.assertEqual(status, 201, answer)
         number = answer["order_id"]
         self.wait_for(number, OrderEvent.COMPLETED)
         wait_until(lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED", "it is kept")
-        found = ask("/orders?search=web-1&state=COMPLETED")[1]
-        self.assertEqual((found["total"], found["orders"][0]["order_id"]), (1, number))
+        orders = ask("/orders?search=web-1&state=COMPLETED")[1]
+        self.assertEqual((orders["total"], orders["orders"][0]["order_id"]), (1, number))
         self.assertEqual(
-            found["orders"][0]["lines"], [{"sku": "sku-5", "quantity": 2, "picked": 2}]
+            orders["orders"][0]["lines"], [{"sku": "sku-5", "quantity": 2, "picked": 2}]
         )
         self.assertEqual(ask("/orders?search=sku-5")[1]["total"], 1)
         stock = ask("/stock?sku=sku-5")[1]
         self.assertEqual(sum(place["quantity"] for place in stock["places"]), stock["pieces"])
-        stations = {one["name"]: one for one in ask("/stations")[1]["stations"]}
+        stations = {station["name"]: station for station in ask("/stations")[1]["stations"]}
         self.assertEqual(stations["pick1"]["mode"], "AUTOMATIC")
         self.assertGreaterEqual(ask("/kpis")[1]["orders_completed"], 1)
         for path, body, expected in (
@@ -180,7 +180,7 @@ class Operations(unittest.TestCase):
         latched(
             "/warehouse/throughput",
             Throughput,
-            lambda told: sum(told.items_picked) == picked(engine),
+            lambda throughput: sum(throughput.items_picked) == picked(engine),
         )
 
     def test_6_time_goes_back_and_it_goes_on(self):
@@ -197,12 +197,12 @@ class Operations(unittest.TestCase):
         self.assertEqual(check.faults(engine), [])
 
     def test_7_what_it_can_not_take_is_refused_or_told_and_it_goes_on(self):
-        wanted = {"reference": "evil", "lines": [{"sku": "sku-1", "quantity": 2**31 - 1}]}
-        status, answer = ask("/orders", wanted)
+        order = {"reference": "evil", "lines": [{"sku": "sku-1", "quantity": 2**31 - 1}]}
+        status, answer = ask("/orders", order)
         self.assertEqual(status, 409, answer)
         self.assertIn("pieces; all bins of the warehouse together hold", str(answer))
-        found = call("/warehouse/find_orders", FindOrders, 2**64 - 1, "", -1, False, 1, 0)
-        self.assertEqual(found.total, 0)
+        answer = call("/warehouse/find_orders", FindOrders, 2**64 - 1, "", -1, False, 1, 0)
+        self.assertEqual(answer.total, 0)
         self.assertEqual(ask("/notices")[1], {"notices": []})
         good = submit(*((f"sku-{i}", 1) for i in range(1, 20)))
         engine = open_engine(rospy.get_param("~database"))
@@ -219,9 +219,9 @@ class Operations(unittest.TestCase):
         self.assertEqual(check.faults(engine), [])
 
     def is_complete(self, order_id):
-        told = self.told(order_id, OrderEvent.COMPLETED)
-        self.assertLessEqual(len(told), 1)
-        return bool(told)
+        completions = self.events_of(order_id, OrderEvent.COMPLETED)
+        self.assertLessEqual(len(completions), 1)
+        return bool(completions)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from node_test import Listener, Robot, call, create, latched, wait_until
 from gazebo_msgs.srv import DeleteModel
 from warehouse_layout.file.request import resolve
 from warehouse_layout.floor import poses
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 from warehouse_msgs.msg import Lift, TrackedObjects
 
 

@@ -17,8 +17,8 @@ import rostest
 from node_test import call, latched, wait_until
 from warehouse_test import Collector
 
-from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import FailureKind
+from warehouse_client.warehouse import WarehouseClient
+from warehouse_layout.message_enums import FailureKind
 from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent, Vda5050
 from warehouse_msgs.srv import SetRobotMode, Transport
 from warehouse_vda5050.codec import codec_for
@@ -93,7 +93,7 @@ class Master(unittest.TestCase):
         cls.events = Collector("/warehouse/events", Event)
         cls.transports = Collector("/warehouse/transports", TransportEvent)
         cls.state.first(lambda state: state.automatic == 4, PATIENCE)
-        warehouse = Warehouse(rospy)
+        warehouse = WarehouseClient(rospy)
         wait_until(lambda: warehouse.is_known, "the warehouse")
         cls.plan = warehouse.plan()
         cls.broker = OwnBroker()

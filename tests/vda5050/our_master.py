@@ -22,9 +22,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "rostest"))
 from node_test import call, wait_until
 from warehouse_test import Collector
 
-from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import FailureKind, Status
+from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import FailureKind, Status
 from warehouse_msgs.msg import CoordinatorState, Event, FleetState, TransportEvent
 from warehouse_msgs.srv import ReleaseTransport, Transport
 from warehouse_vda5050.mqtt.broker import OwnBroker
@@ -81,7 +81,7 @@ class Floor:
         self.state = Collector("/warehouse/coordinator", CoordinatorState)
         self.events = Collector("/warehouse/events", Event)
         self.transports = Collector("/warehouse/transports", TransportEvent)
-        self.warehouse = Warehouse(rospy)
+        self.warehouse = WarehouseClient(rospy)
         self.state.first(lambda state: state.automatic > 0, PATIENCE)
         wait_until(lambda: self.warehouse.is_known, "the warehouse")
         self.plan = self.warehouse.plan()
@@ -192,8 +192,8 @@ def main():
         master = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *launch], stdout=sys.stderr)
         stack.callback(master.wait)
         stack.callback(master.terminate)
-        told = [sys.executable, HERE / "witness.py", str(broker.port), "master"]
-        witness = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *told])
+        arguments = [sys.executable, HERE / "witness.py", str(broker.port), "master"]
+        witness = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *arguments])
         floor = Floor(broker.port)
         stack.callback(floor.close)
         for number, cell in zip(NAMES, floor.free_places()):

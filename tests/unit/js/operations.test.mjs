@@ -10,7 +10,8 @@ import { whole } from '../../../src/warehouse_viewer/web/js/operations/order_ent
 import { lateness } from '../../../src/warehouse_viewer/web/js/operations/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/operations/order_upload.js';
 import { sharesOf } from '../../../src/warehouse_viewer/web/js/operations/robot_shares.js';
-import { waitsOf, Wanted } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
+import { Choice } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
+import { waitsOf } from '../../../src/warehouse_viewer/web/js/base/station_waits.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/operations/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/scene/where.js';
@@ -27,16 +28,16 @@ test('rates are of the time that an interval really had', () => {
 
 test('what was set at a station counts until the server tells of it, for five seconds', () => {
   const closed = { name: 'pick1', open: false, mode: 0 }, byHand = { ...closed, mode: 1 };
-  const wanted = new Wanted();
-  assert.deepEqual(wanted.upon(closed, 0), closed);
-  wanted.note({ open: false, mode: 1 }, 1000);
-  assert.deepEqual(wanted.upon(closed, 1100), byHand); // from before
-  wanted.note({ open: true, mode: 1 }, 1200);
-  assert.deepEqual(wanted.upon(byHand, 1300), { ...byHand, open: true });
-  assert.deepEqual(wanted.upon({ ...byHand, open: true }, 1400), { ...byHand, open: true });
-  assert.deepEqual(wanted.upon(closed, 1500), closed); // another person did that
-  wanted.note({ open: true, mode: 1 }, 2000);
-  assert.deepEqual(wanted.upon(closed, 7000), closed);
+  const choice = new Choice();
+  assert.deepEqual(choice.upon(closed, 0), closed);
+  choice.note({ open: false, mode: 1 }, 1000);
+  assert.deepEqual(choice.upon(closed, 1100), byHand); // from before
+  choice.note({ open: true, mode: 1 }, 1200);
+  assert.deepEqual(choice.upon(byHand, 1300), { ...byHand, open: true });
+  assert.deepEqual(choice.upon({ ...byHand, open: true }, 1400), { ...byHand, open: true });
+  assert.deepEqual(choice.upon(closed, 1500), closed); // another person did that
+  choice.note({ open: true, mode: 1 }, 2000);
+  assert.deepEqual(choice.upon(closed, 7000), closed);
 });
 
 test('points of a chart lie in the middle of their intervals, in minutes before now', () => {

@@ -118,7 +118,7 @@ test('a refusal ends a report, and the next one goes on', async () => {
   const refused = [], { outbox } = benchWith(async ({ sequence }) => {
     if (sequence === 1) throw new Refused('that is no longer asked for');
   });
-  outbox.told.refused = ({ sequence }, reason) => refused.push([sequence, reason]);
+  outbox.handlers.refused = ({ sequence }, reason) => refused.push([sequence, reason]);
   for (const sequence of [1, 2]) outbox.add({ kind: 'report', sequence, body: {} });
   await settled();
   assert.deepEqual(refused, [[1, 'that is no longer asked for']]);

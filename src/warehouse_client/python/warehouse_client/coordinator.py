@@ -10,7 +10,7 @@ from warehouse_msgs.msg import CoordinatorState, TransportEvent
 from warehouse_msgs.srv import CancelTransport, ReleaseTransport, Transport
 
 
-class Answer(NamedTuple):
+class ServiceAnswer(NamedTuple):
     """The answer to a request for a transport; `transport_id` is 0 if it was refused."""
 
     transport_id: int
@@ -18,7 +18,7 @@ class Answer(NamedTuple):
     message: str
 
 
-class Coordinator:
+class CoordinatorClient:
     """A client of the coordinator.
 
     ros: rospy, or what stands in for it in a test. state: its last CoordinatorState, or None.
@@ -43,7 +43,7 @@ class Coordinator:
         y: float = 0.0,
         then: int = 0,
         priority: int = 0,
-    ) -> Answer:
+    ) -> ServiceAnswer:
         """Asks for a transport to a station, or without one to x, y in world [m].
 
         A coordinator that does not answer refuses.
@@ -51,8 +51,8 @@ class Coordinator:
         try:
             answer = self._transport(shelf_id, station, x, y, then, priority)
         except self._ros.ServiceException as error:
-            return Answer(0, False, str(error))
-        return Answer(answer.transport_id, answer.accepted, answer.message)
+            return ServiceAnswer(0, False, str(error))
+        return ServiceAnswer(answer.transport_id, answer.accepted, answer.message)
 
     def release(self, transport_id: int) -> tuple[bool, str]:
         """Lets a unit leave its station. Returns success and the fault."""

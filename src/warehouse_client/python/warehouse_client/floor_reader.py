@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stations and storage places as messages, told by the world's scenery and its map."""
+"""Stations and storage places as messages, read from the world's scenery and its map."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ def station_messages(plan: FloorPlan) -> list[Station]:
 
 
 class FloorReader:
-    """Of the warehouse that stands. `ros` is rospy.
+    """Stations and storage places of the warehouse that stands. `ros` is rospy.
 
     `stations` are Station messages, `places` are the x and the y of storage places [m].
     """
@@ -32,7 +32,7 @@ class FloorReader:
     def __init__(self, ros: Any) -> None:
         self._ros = ros
         self._scenery: Any = None
-        self._told: str | None = None
+        self._warning: str | None = None
         self.stations: list[Station] = []
         self.places: Any = ([], [])
 
@@ -60,9 +60,9 @@ class FloorReader:
             self._tell(reason)
 
     def _tell(self, text: str) -> None:
-        if text != self._told:
+        if text != self._warning:
             self._ros.logwarn(text)
-        self._told = text
+        self._warning = text
 
 
 def same_things(a: Any, b: Any) -> bool:

@@ -162,4 +162,4 @@ _OTHERS = {
     "sensor_msgs/LaserScan": Contract(any_number=frozenset({"ranges", "intensities"})),
 }
 
-CONTRACTS = {f"warehouse_msgs/{name}": one for name, one in _WAREHOUSE.items()} | _OTHERS
+CONTRACTS = {f"warehouse_msgs/{name}": contract for name, contract in _WAREHOUSE.items()} | _OTHERS

@@ -23,15 +23,15 @@ def add_robot(engine: Engine, x: float, y: float, heading: float) -> int:
 
     It gets the lowest free one. Raises PlaceError, EngineError.
     """
-    found = survey.of_engine(engine, without=("item", "storage_unit"))
-    if len(found.kiva) >= LIMITS["robots"]:
-        raise PlaceError(f"there are {len(found.kiva)} robots; that is the limit")
+    standing = survey.of_engine(engine, without=("item", "storage_unit"))
+    if len(standing.kiva) >= LIMITS["robots"]:
+        raise PlaceError(f"there are {len(standing.kiva)} robots; that is the limit")
     point = _grid_point(x, y)
-    _check_free(point, found, _cells(engine))
+    _check_free(point, standing, _cells(engine))
     quarters = round(heading / (math.pi / 2))
     if abs(heading - quarters * math.pi / 2) > OFF:
         raise PlaceError(f"heading {heading:g} rad is not a whole number of quarter turns")
-    number = next(n for n in count(1) if n not in found.kiva)
+    number = next(n for n in count(1) if n not in standing.kiva)
     part = models.include("kiva", number, *point, yaw=quarters * math.pi / 2)
     engine.spawn(models.document([part]), part.name)
     return number
@@ -51,13 +51,13 @@ def _cells(engine: Engine) -> Cells:
         raise PlaceError(str(error)) from error
 
 
-def _check_free(point: tuple[int, int], found: survey.Survey, cells: Cells) -> None:
+def _check_free(point: tuple[int, int], standing: survey.Survey, cells: Cells) -> None:
     """Raises PlaceError if a grid point is taken; a storage unit takes none."""
     i, j = point[0] - cells.x, point[1] - cells.y
     if not (0 <= i < cells.taken.shape[0] and 0 <= j < cells.taken.shape[1]):
         raise PlaceError(f"{point} is outside the floor")
-    for number, (x, y, _) in found.kiva.items():
+    for number, (x, y, _) in standing.kiva.items():
         if max(abs(point[0] - x), abs(point[1] - y)) < NEAR:
             raise PlaceError(f"{point} is taken by kiva{number}")
-    if point in found.obstacles():
+    if point in standing.obstacles():
         raise PlaceError(f"{point} is taken by something that no robot can pass")

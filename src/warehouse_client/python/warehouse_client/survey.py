@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands in the world, told by the names and poses of its models."""
+"""What stands in the world, by the names and poses of its models."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -13,7 +13,7 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, People, Scenery, UnitStates, WarehouseObjects
 
 
-class Warehouse:
+class WarehouseClient:
     """The last messages of a running warehouse; None before the first.
 
     ros: rospy, or what stands in for it in a test. on_fleet: called with (FleetState before it or

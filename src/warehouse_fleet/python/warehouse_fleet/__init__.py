@@ -23,7 +23,6 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
 """
 
 from enum import IntEnum
-from typing import Any
 
 from warehouse_fleet._core import (
     Execution,
@@ -51,15 +50,6 @@ __all__ = [
     "load_planner",
     "validate",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    """Imports warehouse_operations.Operations, which was released under this name as well."""
-    if name != "Operations":
-        raise AttributeError(f"module {__name__} has no attribute {name}")
-    from warehouse_operations import Operations
-
-    return Operations
 
 
 class Action(IntEnum):

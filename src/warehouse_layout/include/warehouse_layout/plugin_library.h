@@ -28,21 +28,21 @@ class PluginLibrary {
   /// The first class for that interface; null if there is none.
   template <typename Interface>
   const PluginClass* first() const {
-    for (const PluginClass* one : classes_) {
-      if (is<Interface>(*one)) return one;
+    for (const PluginClass* plugin : classes_) {
+      if (is<Interface>(*plugin)) return plugin;
     }
     return nullptr;
   }
 
   template <typename Interface>
-  static bool is(const PluginClass& one) {
-    return *one.type == typeid(Interface);
+  static bool is(const PluginClass& plugin) {
+    return *plugin.type == typeid(Interface);
   }
 
   /// A new object of a class that is for that interface.
   template <typename Interface>
-  static std::shared_ptr<Interface> make(const PluginClass& one) {
-    return std::shared_ptr<Interface>(static_cast<Interface*>(one.make()));
+  static std::shared_ptr<Interface> make(const PluginClass& plugin) {
+    return std::shared_ptr<Interface>(static_cast<Interface*>(plugin.make()));
   }
 
  private:

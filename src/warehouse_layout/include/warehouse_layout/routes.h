@@ -20,8 +20,8 @@ struct RouteGraph {
   double turn;  ///< by a quarter [s]
 };
 
-/// By node: how long the way to it takes [s], infinity if no quickest way to a cell comes by it;
-/// how many steps the way has; and the node before, -1 for the first.
+/// The quickest ways, an entry a node: duration [s], infinity if no quickest way to a cell passes
+/// the node; count of steps; the node before, -1 for the first.
 struct Routes {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;
@@ -32,8 +32,8 @@ struct Routes {
 /// are those to the cell.
 Routes routesFrom(const RouteGraph& graph, Cell start);
 
-/// By cell of those asked for, in the heading that is reached first: how long the way takes [s],
-/// infinity if there is none; and how many steps it has.
+/// The quickest ways to a list of cells, each in the heading that is reached first: duration [s],
+/// infinity if there is no way; count of steps.
 struct Ways {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;

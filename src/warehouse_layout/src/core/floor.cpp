@@ -9,14 +9,14 @@
 namespace layout {
 namespace {
 
-std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& given, Cell size,
+std::vector<std::uint8_t> filled(const std::vector<std::uint8_t>& values, Cell size,
                                  std::uint8_t otherwise, const char* name) {
-  if (given.empty()) return std::vector<std::uint8_t>(size, otherwise);
-  if (static_cast<Cell>(given.size()) != size) {
-    throw FloorError(std::string(name) + " has " + std::to_string(given.size()) +
+  if (values.empty()) return std::vector<std::uint8_t>(size, otherwise);
+  if (static_cast<Cell>(values.size()) != size) {
+    throw FloorError(std::string(name) + " has " + std::to_string(values.size()) +
                      " elements; width * height = " + std::to_string(size) + " were expected");
   }
-  return given;
+  return values;
 }
 
 Cell checkedSize(const FloorDescription& description) {
@@ -95,7 +95,7 @@ int alongAxes(const Floor& floor, Cell a, Cell b) {
   return std::abs(floor.x(a) - floor.x(b)) + std::abs(floor.y(a) - floor.y(b));
 }
 
-struct Reached {
+struct Step {
   Cell cell;
   int steps;
 };
@@ -108,7 +108,7 @@ int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
   thread_local Distances distances;
   distances.begin(floor.size());
   distances.set(from, 0);
-  std::vector<Reached> now{{from, 0}}, later;
+  std::vector<Step> now{{from, 0}}, later;
   for (; !now.empty(); std::swap(now, later)) {
     while (!now.empty()) {
       const auto [cell, steps] = now.back();

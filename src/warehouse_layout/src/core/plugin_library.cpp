@@ -21,21 +21,22 @@ PluginLibrary::PluginLibrary(const std::string& path) {
   using Classes = const PluginClass* (*)();
   const auto classes = reinterpret_cast<Classes>(dlsym(library, kPluginClassesSymbol));
   if (!classes) return;
-  for (const PluginClass* one = classes(); one; one = one->next) classes_.push_back(one);
+  for (const PluginClass* plugin = classes(); plugin; plugin = plugin->next)
+    classes_.push_back(plugin);
   std::reverse(classes_.begin(), classes_.end());
 }
 
 std::string PluginLibrary::contents() const {
   std::string list;
-  for (const PluginClass* one : classes_) {
-    list += std::string(list.empty() ? "" : ", ") + one->name + " (" + one->interface + ")";
+  for (const PluginClass* plugin : classes_) {
+    list += std::string(list.empty() ? "" : ", ") + plugin->name + " (" + plugin->interface + ")";
   }
   return list;
 }
 
 const PluginClass* PluginLibrary::find(const std::string& name) const {
-  for (const PluginClass* one : classes_) {
-    if (withoutNamespace(one->name) == withoutNamespace(name)) return one;
+  for (const PluginClass* plugin : classes_) {
+    if (withoutNamespace(plugin->name) == withoutNamespace(name)) return plugin;
   }
   return nullptr;
 }

@@ -7,7 +7,7 @@
 namespace layout {
 namespace {
 
-struct Found {
+struct Arrival {
   double seconds;
   std::int32_t node;
 };
@@ -15,12 +15,12 @@ struct Found {
 /// Nodes come in by rising time, since each is found from one that was taken out by rising time, at
 /// the same cost. So two queues do what a heap does for edges of any cost.
 struct Queue {
-  std::vector<Found> found;
+  std::vector<Arrival> nodes;
   std::size_t first = 0;
 
-  bool empty() const { return first == found.size(); }
+  bool empty() const { return first == nodes.size(); }
   double next() const {
-    return empty() ? std::numeric_limits<double>::infinity() : found[first].seconds;
+    return empty() ? std::numeric_limits<double>::infinity() : nodes[first].seconds;
   }
 };
 
@@ -38,41 +38,41 @@ class Search {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const std::int32_t node = start_ * kHeadings + heading;
       out_.seconds[node] = 0;
-      turns_.found.push_back({0, node});
+      turns_.nodes.push_back({0, node});
     }
     while (!steps_.empty() || !turns_.empty()) {
       const bool has_turned = turns_.next() < steps_.next();
       Queue& queue = has_turned ? turns_ : steps_;
-      const Found found = queue.found[queue.first++];
-      if (found.seconds <= out_.seconds[found.node]) goOn(found, has_turned);
+      const Arrival reached = queue.nodes[queue.first++];
+      if (reached.seconds <= out_.seconds[reached.node]) goOn(reached, has_turned);
     }
   }
 
  private:
   /// Nothing turns twice in a cell: it would go back to where it came from.
-  void goOn(Found found, bool has_turned) {
-    stepOn(found);
+  void goOn(Arrival reached, bool has_turned) {
+    stepOn(reached);
     if (has_turned) return;
-    const Cell cell = found.node / kHeadings;
+    const Cell cell = reached.node / kHeadings;
     for (const int quarters : {1, kHeadings - 1}) {
-      const int node = cell * kHeadings + (found.node + quarters) % kHeadings;
+      const int node = cell * kHeadings + (reached.node + quarters) % kHeadings;
       const Cell next = graph_.next[node];
-      if (next == kNowhere || !reach(found, node, graph_.turn, 0)) continue;
-      const Found turned{out_.seconds[node], node};
+      if (next == kNowhere || !reach(reached, node, graph_.turn, 0)) continue;
+      const Arrival turned{out_.seconds[node], node};
       // Most turn into an end: no need to wait for its turn.
-      graph_.end[next] ? stepOn(turned) : turns_.found.push_back(turned);
+      graph_.end[next] ? stepOn(turned) : turns_.nodes.push_back(turned);
     }
   }
 
-  void stepOn(Found found) {
-    const Cell next = graph_.next[found.node];
+  void stepOn(Arrival reached) {
+    const Cell next = graph_.next[reached.node];
     if (next == kNowhere) return;
-    const std::int32_t node = next * kHeadings + found.node % kHeadings;
-    if (!reach(found, node, graph_.step, 1) || graph_.end[next]) return;
-    steps_.found.push_back({out_.seconds[node], node});
+    const std::int32_t node = next * kHeadings + reached.node % kHeadings;
+    if (!reach(reached, node, graph_.step, 1) || graph_.end[next]) return;
+    steps_.nodes.push_back({out_.seconds[node], node});
   }
 
-  bool reach(Found from, std::int32_t node, double cost, int steps) {
+  bool reach(Arrival from, std::int32_t node, double cost, int steps) {
     const double seconds = from.seconds + cost;
     if (seconds >= out_.seconds[node]) return false;
     out_.seconds[node] = seconds;
@@ -105,9 +105,9 @@ Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends
   out.steps.reserve(ends.size());
   for (const Cell end : ends) {
     const auto first = all.seconds.begin() + static_cast<std::ptrdiff_t>(end) * kHeadings;
-    const auto found = std::min_element(first, first + kHeadings);
-    out.seconds.push_back(*found);
-    out.steps.push_back(all.steps[found - all.seconds.begin()]);
+    const auto first_reached = std::min_element(first, first + kHeadings);
+    out.seconds.push_back(*first_reached);
+    out.steps.push_back(all.steps[first_reached - all.seconds.begin()]);
   }
   return out;
 }

@@ -10,11 +10,11 @@ namespace {
 /// Returns all nodes in the order in which a depth-first search leaves them.
 std::vector<Cell> postorder(const Neighbours& ahead) {
   std::vector<Cell> order;
-  std::vector<std::uint8_t> seen(ahead.size(), 0);
+  std::vector<std::uint8_t> visited(ahead.size(), 0);
   std::vector<std::pair<Cell, int>> stack;
   for (Cell root = 0; root < static_cast<Cell>(ahead.size()); ++root) {
-    if (seen[root]) continue;
-    seen[root] = 1;
+    if (visited[root]) continue;
+    visited[root] = 1;
     stack.emplace_back(root, 0);
     while (!stack.empty()) {
       const auto [node, heading] = stack.back();
@@ -25,8 +25,8 @@ std::vector<Cell> postorder(const Neighbours& ahead) {
       }
       ++stack.back().second;
       const Cell to = ahead[node][heading];
-      if (to == kNowhere || seen[to]) continue;
-      seen[to] = 1;
+      if (to == kNowhere || visited[to]) continue;
+      visited[to] = 1;
       stack.emplace_back(to, 0);
     }
   }

@@ -32,8 +32,8 @@ def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
 def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]:
     """Returns a Layout without items, which nothing asks for here, and the world around it."""
     if not options.layout:
-        wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
-        return generated.plan(wanted), "empty"
+        resolved = request.resolve("", robots=options.robots, shelves=options.shelves)
+        return generated.plan(resolved), "empty"
     file = replace(layout_choice.chosen(options.layout), items=0, stock="")
     laid = placement.place(file, robots=options.robots)
     hall = layout_world.world_of(file, folder)
@@ -44,10 +44,10 @@ def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]
 
 def _part(element: ElementTree.Element, tag: str) -> ElementTree.Element:
     """The first child of that tag. Raises ValueError."""
-    found = element.find(tag)
-    if found is None:
+    child = element.find(tag)
+    if child is None:
         raise ValueError(f"<{element.tag}> has no <{tag}>")
-    return found
+    return child
 
 
 def write_kiva(folder: Path, acceleration: float, lift_time: float, lasers: bool) -> None:

@@ -92,17 +92,17 @@ class KivaDispatcherEnv(gymnasium.Env):
         """
         if not self._driver:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
-        given = np.asarray(action)
+        actions = np.asarray(action)
         if (
-            given.shape != ()
-            or given.dtype.kind not in "iu"
-            or not 0 <= given < self.action_space.n
+            actions.shape != ()
+            or actions.dtype.kind not in "iu"
+            or not 0 <= actions < self.action_space.n
         ):
             raise ActionError(
                 f"dispatcher: action {action!r}; a whole number from 0 to"
                 f" {self.action_space.n - 1} was expected"
             )
-        refused = not self._assign(int(given))
+        refused = not self._assign(int(actions))
         collisions, before = self._driver.collisions, self.delivered
         end = self._driver.time + self.options.decision
         while self._driver.time < end - 1e-9:

@@ -14,7 +14,7 @@ from warehouse_learning._core import Floor
 
 
 class Grid:
-    """Of a warehouse_fleet FloorPlan. rim: cells around it, and how far robots see."""
+    """The grid of a FloorPlan. rim: cells around it, and how far robots see."""
 
     def __init__(self, plan: Any, rim: int) -> None:
         self.spacing = plan.spacing

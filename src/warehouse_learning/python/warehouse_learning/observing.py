@@ -8,7 +8,7 @@ from warehouse_learning.warehouses import Warehouses
 
 
 class Observer:
-    """Of `warehouses`. Each call makes new arrays."""
+    """Observes `warehouses`. Each call makes new arrays."""
 
     def __init__(self, warehouses: Warehouses) -> None:
         self._of = warehouses
@@ -17,8 +17,8 @@ class Observer:
         self.fields = fields.robot_fields(options, self._rays)
         self.state_fields = fields.state_fields(options)
         self._at = fields.slices(self.fields)
-        self.size = sum(one.size for one in self.fields)
-        self.state_size = sum(one.size for one in self.state_fields)
+        self.size = sum(field.size for field in self.fields)
+        self.state_size = sum(field.size for field in self.state_fields)
         share = grid.share_of(np.arange(grid.cells)).astype(np.float32)
         self._share = np.clip(share, 0, 1)
         self._one_hot = np.eye(4, dtype=np.float32)

@@ -101,15 +101,15 @@ class KivaOperationsEnv(gymnasium.Env):
         """
         if self._shift is None or self._is_over:
             raise gymnasium.error.ResetNeeded("reset() begins an episode")
-        given = np.asarray(action)
-        if given.shape != () or given.dtype.kind not in "iu" or not 0 <= given < SHORTLIST:
+        actions = np.asarray(action)
+        if actions.shape != () or actions.dtype.kind not in "iu" or not 0 <= actions < SHORTLIST:
             raise ActionError(
                 f"dispatcher: action {action!r}; a whole number below {SHORTLIST} was expected"
             )
         if self._decision:
             # What is beyond the candidates is the last one: an agent without a mask can't go wrong.
             last = len(self._decision.keys) - 1
-            self._decision = self._shift.next(min(int(given), last))
+            self._decision = self._shift.next(min(int(actions), last))
         self._is_over = self._decision is None
         picked = self._shift.operations.shift.tally.items_picked
         reward, self._picked = float(picked - self._picked), picked

@@ -83,11 +83,6 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             self._infos(happened),
         )
 
-    @property
-    def unit_deliveries(self) -> np.ndarray:
-        """Returns (robots,) units that each has delivered in this episode."""
-        return self._in.delivered[0].copy()
-
     def _chosen(self, actions):
         missing = [a for a in self.agents if a not in actions]
         if missing:
@@ -133,13 +128,13 @@ def in_turns(env: Any) -> Any:
 
 def check_action(agent: str, action: Any, space: Any) -> None:
     """Raises ActionError that names the agent, unless the action is one of the space."""
-    given = np.asarray(action)
+    values = np.asarray(action)
     if isinstance(space, spaces.Discrete):
-        good = given.shape == () and given.dtype.kind in "iu" and 0 <= given < space.n
+        good = values.shape == () and values.dtype.kind in "iu" and 0 <= values < space.n
         expected = f"a whole number from 0 to {space.n - 1}"
     else:
-        good = given.shape == space.shape and given.dtype.kind in "iuf"
-        good = good and bool((np.isfinite(given) & (np.abs(given) <= 1)).all())
+        good = values.shape == space.shape and values.dtype.kind in "iuf"
+        good = good and bool((np.isfinite(values) & (np.abs(values) <= 1)).all())
         expected = f"{space.shape[0]} numbers from -1 to 1"
     if not good:
         raise ActionError(f"{agent}: action {action!r}; {expected} was expected")

@@ -24,8 +24,8 @@ REWARDS = {"lifted": 0.3, "dropped": -0.3, "stored": 0.3, "approached": 0.05, "s
 
 
 @dataclass(frozen=True)
-class Settings:
-    """Of the training."""
+class PpoSettings:
+    """Training hyperparameters."""
 
     worlds: int = 32
     rollout: int = 64  # decisions between two updates
@@ -109,7 +109,7 @@ def train(
     options: Options,
     decisions: int,
     seed: int = 0,
-    settings: Settings = Settings(),
+    settings: PpoSettings = PpoSettings(),
     report: Callable[..., Any] | None = None,
 ) -> tuple[Policy, np.ndarray]:  # noqa: B008
     """(Policy, curve): `decisions` of all robots together. The curve has rows (decisions so far,
@@ -165,8 +165,8 @@ class _Run:
         return batch
 
     def _step(self):
-        seen, mask = self._seen(), self._warehouses.masks().reshape(self.rows, -1)
-        logits, value, _ = self.network.forward(seen)
+        observations, mask = self._seen(), self._warehouses.masks().reshape(self.rows, -1)
+        logits, value, _ = self.network.forward(observations)
         chances = probabilities(logits, mask)
         action = _drawn(chances, self._random)
         reward, _ = self._warehouses.step(action.reshape(self._settings.worlds, -1))
@@ -175,7 +175,7 @@ class _Run:
         if ends.any():
             reward += self._cut(ends)
         return {
-            "x": seen,
+            "x": observations,
             "mask": mask,
             "action": action,
             "chance": np.take_along_axis(chances, action[:, None], 1)[:, 0],
@@ -253,19 +253,19 @@ def main() -> None:
         default="",
         help="PNG file for the learning curves; a JSON file is written beside it",
     )
-    wanted = parser.parse_args()
-    options = Options.of({"size": wanted.size, "max_cycles": 200, "rewards": REWARDS})
-    settings = Settings(threads=0 if wanted.jobs == 1 else 1)
-    jobs = [(options, wanted.decisions, seed, settings) for seed in range(wanted.seeds)]
-    if wanted.jobs == 1:
+    args = parser.parse_args()
+    options = Options.of({"size": args.size, "max_cycles": 200, "rewards": REWARDS})
+    settings = PpoSettings(threads=0 if args.jobs == 1 else 1)
+    jobs = [(options, args.decisions, seed, settings) for seed in range(args.seeds)]
+    if args.jobs == 1:
         curves = [_trained(job) for job in jobs]
     else:
-        with multiprocessing.get_context("spawn").Pool(wanted.jobs) as pool:
+        with multiprocessing.get_context("spawn").Pool(args.jobs) as pool:
             curves = pool.map(_trained, jobs, chunksize=1)
-    if wanted.out:
+    if args.out:
         from warehouse_learning.curves import draw
 
-        draw(wanted.out, options, curves)
+        draw(args.out, options, curves)
 
 
 def _trained(job):

@@ -17,7 +17,7 @@ from warehouse_learning.warehouses import Warehouses
 
 
 class Stage:
-    """Of n warehouses; a mixin, to be the first among an environment's bases."""
+    """The stage of n warehouses; a mixin, to be the first among an environment's bases."""
 
     def _set_up(self, n, render_mode, options, threads):
         """options: by name, as of warehouse_learning.Options."""
@@ -33,7 +33,7 @@ class Stage:
 
     @property
     def render_mode(self) -> str | None:
-        """As given: None, "human" or "rgb_array"."""
+        """The render mode: None, "human" or "rgb_array"."""
         return self._screen.mode
 
     @property
@@ -57,7 +57,7 @@ class Stage:
 
 
 class OneWarehouse(Stage):
-    """Of one warehouse: its episode can be saved."""
+    """The stage of one warehouse: its episode can be saved."""
 
     def _set_up_one(self, render_mode, options):
         self._set_up(1, render_mode, options, threads=1)

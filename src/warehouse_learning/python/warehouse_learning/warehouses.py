@@ -25,7 +25,7 @@ STANDS = 0.02  # and slower: it can lift [m/s]
 
 
 class Action(IntEnum):
-    """Of a robot; numbered as in RWARE."""
+    """The actions of a robot; numbered as in RWARE."""
 
     WAIT = 0
     FORWARD = 1  # one cell
@@ -133,37 +133,37 @@ class Warehouses:
 
     def check(self, actions: Any) -> np.ndarray:
         """Returns actions as (n, robots) or, for wheels, (n, robots, 3). Raises ActionError."""
-        given = np.asarray(actions)
+        values = np.asarray(actions)
         if self.options.continuous:
-            return self._check_wheels(given)
-        if given.shape != (self.n, self.robots):
+            return self._check_wheels(values)
+        if values.shape != (self.n, self.robots):
             raise ActionError(
                 f"actions: shape {(self.n, self.robots)} was expected, one for each robot of each"
-                f" world, not {given.shape}"
+                f" world, not {values.shape}"
             )
-        if given.dtype.kind not in "iuf":
-            raise ActionError(self._complaint(given, np.ones(given.shape, bool)))
+        if values.dtype.kind not in "iuf":
+            raise ActionError(self._complaint(values, np.ones(values.shape, bool)))
         # NaN is unequal to itself.
-        if given.dtype.kind == "f" and (given != np.rint(given)).any():
-            raise ActionError(self._complaint(given, given != np.rint(given)))
-        if given.min() < 0 or given.max() > 4:
-            raise ActionError(self._complaint(given, (given < 0) | (given > 4)))
-        return given.astype(np.int8)
+        if values.dtype.kind == "f" and (values != np.rint(values)).any():
+            raise ActionError(self._complaint(values, values != np.rint(values)))
+        if values.min() < 0 or values.max() > 4:
+            raise ActionError(self._complaint(values, (values < 0) | (values > 4)))
+        return values.astype(np.int8)
 
-    def _check_wheels(self, given):
-        if given.shape != (self.n, self.robots, 3) or given.dtype.kind not in "iuf":
+    def _check_wheels(self, actions):
+        if actions.shape != (self.n, self.robots, 3) or actions.dtype.kind not in "iuf":
             raise ActionError(
                 f"actions: numbers of shape {(self.n, self.robots, 3)} were expected, left wheel,"
-                f" right wheel and lift, not {given.dtype} of shape {given.shape}"
+                f" right wheel and lift, not {actions.dtype} of shape {actions.shape}"
             )
-        bad = ~(np.isfinite(given) & (np.abs(given) <= 1)).all(-1)
+        bad = ~(np.isfinite(actions) & (np.abs(actions) <= 1)).all(-1)
         if bad.any():
-            raise ActionError(self._complaint(given, bad, "three numbers from -1 to 1"))
-        return given.astype(float)
+            raise ActionError(self._complaint(actions, bad, "three numbers from -1 to 1"))
+        return actions.astype(float)
 
-    def _complaint(self, given, bad, expected="a whole number from 0 to 4"):
+    def _complaint(self, actions, bad, expected="a whole number from 0 to 4"):
         w, robot = np.argwhere(bad)[0]
-        action = given.tolist()[w][robot]  # as its caller would write it
+        action = actions.tolist()[w][robot]  # as its caller would write it
         return f"robot_{robot + 1} of world {w}: action {action!r}; {expected} was expected"
 
     def step(self, actions: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -188,7 +188,7 @@ class Warehouses:
         return rewards, happened
 
     def _pass_time(self):
-        """As much as a decision lasts. Returns Worlds.counts of it."""
+        """Steps all worlds for one decision; returns the event counts."""
         steps, until_idle = self._fixed or self._limit, not self._fixed
         if not self.on_moved:
             self.worlds.step(steps, until_idle=until_idle)

@@ -69,44 +69,44 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, help="of the policy's first episode (0)")
     speed = "simulated seconds a wall second, 0: as fast as possible (5); the page can change it"
     parser.add_argument("--speed", type=float, default=SPEED, help=speed)
-    wanted = parser.parse_args()
-    if (wanted.file is None) == (wanted.policy is None):
+    args = parser.parse_args()
+    if (args.file is None) == (args.policy is None):
         parser.error("an episode's file or --policy was expected, one of them")
     try:
-        (_watch_policy if wanted.policy else _watch_episode)(wanted)
+        (_watch_policy if args.policy else _watch_episode)(args)
     except KeyboardInterrupt:
         sys.exit(130)
 
 
-def _watch_episode(wanted):
+def _watch_episode(args):
     try:
-        options, seed, actions = episodes.load(wanted.file)
+        options, seed, actions = episodes.load(args.file)
     except episodes.EpisodeError as error:
         sys.exit(f"watch: {error}")
     warehouses = Warehouses(1, options)
     warehouses.reset([0], [seed])
-    with _open(warehouses.worlds[0], options.title, wanted.speed) as page:
+    with _open(warehouses.worlds[0], options.title, args.speed) as page:
         delivered = play(page, warehouses, actions)
         print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
         while True:
             time.sleep(3600)
 
 
-def _watch_policy(wanted):
+def _watch_policy(args):
     from warehouse_learning.marl import policy
     from warehouse_learning.rware import options_of
     from warehouse_learning.rware.env import Warehouse
 
     try:
-        trained = policy.load(wanted.policy)
+        trained = policy.load(args.policy)
     except policy.PolicyError as error:
         sys.exit(f"watch: {error}")
     task = trained.about["task"]
     env = Warehouse(physics="bodies", **options_of(task))
-    env.reset(seed=wanted.seed)
+    env.reset(seed=args.seed)
     bodies: Any = env.motion
-    with _open(bodies.worlds[0], f"{task}, by {wanted.policy}", wanted.speed) as page:
-        for seed in itertools.count(wanted.seed):
+    with _open(bodies.worlds[0], f"{task}, by {args.policy}", args.speed) as page:
+        for seed in itertools.count(args.seed):
             print(f"episode {seed}: {drive(page, env, trained, seed):g} delivered; Ctrl-C ends it")
 
 

@@ -11,13 +11,16 @@ print(ops.kpis()["item_score"])
 Rooms, from the lowest; a module imports from its own room and from lower ones:
 
     stock     SKUs, bins, orders, stations, where units stand
+    document  pages: style, sheets, charts on a canvas
     policies  decisions: which order, unit, bin, place, robot
     shift     a shift at work: picking, replenishing, visits, manual stations
     store     the database: written, read back, searched, checked
     fleets    robots for a shift in one process: ideal ones, or those of a simulated world
     runs      whole shifts in folders: simulate, sweep
+    demand    a day of orders, described: its peak, its oddities
     reports   figures, comparisons, charts, pages
-    sizing    how many robots and stations a wish takes
+    sizing    numbers of robots and stations for a wish or a day, with costs
+    design    layouts that a search finds
     ros       the nodes
 """
 

@@ -158,11 +158,11 @@ class RobotActions:
     def _place(self, name):
         """The grid point of a storage unit, or None."""
         end = time.monotonic() + PATIENCE
-        while (place := self._told_place(name)) is None and time.monotonic() < end:
+        while (place := self._tracked_place(name)) is None and time.monotonic() < end:
             self._places.wait(end - time.monotonic())
         return place
 
-    def _told_place(self, name):
+    def _tracked_place(self, name):
         known = self._places.units_and_objects
         units = tracking.storage_units(*known) if known else tracking.Tracked()
         return point(units.pose[units.names.index(name)]) if name in units.names else None
@@ -184,8 +184,8 @@ class RobotActions:
 
     def _send(self, work):
         work.command = None
-        wanted = work.steps[0].command
-        self._publishers[wanted.topic].publish(wanted.message)
+        request = work.steps[0].command
+        self._publishers[request.topic].publish(request.message)
 
     def _take(self, event):
         work = self._works.get(event.model)

@@ -42,7 +42,7 @@ class Demo:
 
     def __init__(self, ros: Any, executor: Any, tell: Callable[[str], Any]) -> None:
         self._ros, self._executor, self._tell = ros, executor, tell
-        self._found: Any = None
+        self._standing: Any = None
         self.cast: list[int] = []
         self.failed: list[str] = []
         self._newest = LatestMessages(
@@ -119,12 +119,12 @@ class Demo:
         self._executor.play({b: _drive(b, route(after, chart.robots[b], end_b))})
         return {a: end_b, b: end_a}
 
-    def _meet(self, wanted):
+    def _meet(self, goals):
         self._tell("\nEach sets off for the other's place. A blocked robot finds another way.\n")
-        self._executor.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
+        self._executor.play({kiva: _try(kiva, goal) for kiva, goal in goals.items()})
         blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
         self._expect("meeting head on, one of them was blocked at least", blocked)
-        for kiva, goal in wanted.items():
+        for kiva, goal in goals.items():
             chart = self._map()
             way = route(chart.grid([kiva]), chart.robots[kiva], goal)
             self._executor.play({kiva: _drive(kiva, way)})
@@ -140,25 +140,25 @@ class Demo:
         except self._ros.ROSException as error:
             raise DemoError("no warehouse is running") from error
         with Engine(self._ros) as engine:
-            self._found = survey.of_engine(engine)
-        if not self._executor.until(self._told, PATIENCE):
+            self._standing = survey.of_engine(engine)
+        if not self._executor.until(self._is_tracked, PATIENCE):
             raise DemoError("the tracking nodes do not publish where storage units and items are")
 
-    def _told(self):
+    def _is_tracked(self):
         """Whether the tracking nodes know of all that stands."""
         units, items = self._newest["units"], self._newest["items"]
         if not (units and items):
             return False
         known = (len(units.objects), len(items.objects))
-        return known == (len(self._found.storage_unit), len(self._found.item))
+        return known == (len(self._standing.storage_unit), len(self._standing.item))
 
     def _map(self):
-        """As it is now: the cast by their statuses, the units by their tracked poses."""
-        self._found.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
+        """Returns the map as it is now: the cast by status, the units by tracked poses."""
+        self._standing.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
         tracked = of_tracked(self._newest["units"])
-        self._found.storage_unit = tracked.storage_unit
+        self._standing.storage_unit = tracked.storage_unit
         bounds = self._ros.get_param("warehouse/floor", None)
-        return Map(self._found, Floor(*bounds) if bounds else None)
+        return Map(self._standing, Floor(*bounds) if bounds else None)
 
     def _robot(self, kiva):
         pose = self._executor.status(kiva).pose
@@ -180,8 +180,8 @@ class Demo:
         self._expect(f"kiva{mission.kiva} left it there", left)
 
     def _happened(self, kind, mission, name):
-        wanted = (kind, f"kiva{mission.kiva}", name)
-        return any((e.kind, e.model, e.other) == wanted for e in self._executor.events)
+        fact = (kind, f"kiva{mission.kiva}", name)
+        return any((e.kind, e.model, e.other) == fact for e in self._executor.events)
 
     def _stands(self, name, at):
         unit = next((o for o in self._newest["units"].objects if o.name == name), None)
@@ -269,10 +269,10 @@ def _drive(kiva, points):
         yield from _do(command("mov", kiva, x=x, y=y))
 
 
-def _do(wanted):
-    event = yield wanted
+def _do(wish):
+    event = yield wish
     if event.kind != Event.DONE:
-        raise DemoError(f"{event.model}: {wanted} was not done: {event.text}")
+        raise DemoError(f"{event.model}: {wish} was not done: {event.text}")
 
 
 def _try(kiva, goal):

@@ -40,7 +40,8 @@ def line(event: Event, coloured: bool = False) -> str:
     number = f"#{event.command}" if event.command else ""
     kind = _kind(event, coloured)
     model, other, text = map(_plain, (event.model, event.other, event.text))
-    why = ": ".join(filter(None, (other, text)))
+    named = other and text.startswith(other)  # "kiva2 is in the way" names it itself
+    why = text if named else ": ".join(filter(None, (other, text)))
     return f"{event.header.stamp.to_sec():10.3f} s  {model:<14} {kind} {number:<6} {why}".rstrip()
 
 
@@ -50,7 +51,7 @@ def _kind(event, coloured):
 
 
 SUMMED = (Event.SPAWNED, Event.DELETED)
-FEW = 3  # in a row that are told one by one
+FEW = 3  # in a row that have a line each
 _NOUNS = {
     "kiva": "robot",
     "storage_unit": "storage unit",
@@ -62,8 +63,8 @@ _NOUNS = {
 class Teller:
     """Lines of events as they come; of many models that come or go in a row, one line of all.
 
-    take() and rest() return the lines that are to be told now; rest() is for when nothing has come
-    for a while. `each`: every event is told by itself.
+    take() and rest() return the lines to print now; rest() is for when nothing has come
+    for a while. `each`: every event has a line.
     """
 
     def __init__(self, coloured: bool = False, each: bool = False) -> None:
@@ -74,9 +75,9 @@ class Teller:
         """Takes an Event in; returns the lines of what is over now."""
         if self._each or event.kind not in SUMMED:
             return [*self.rest(), line(event, self._coloured)]
-        told = self.rest() if self._row and self._row[0].kind != event.kind else []
+        lines = self.rest() if self._row and self._row[0].kind != event.kind else []
         self._row.append(event)
-        return told
+        return lines
 
     def rest(self) -> list[str]:
         """Returns the lines of what has been kept."""
@@ -93,8 +94,8 @@ def _counted(row):
     nouns = (_NOUNS.get(kind_and_number(event.model)[0] or "", "other model") for event in row)
     counts = Counter(nouns)
     order = [*_NOUNS.values(), "other model"]
-    found = ((counts[noun], noun) for noun in order if counts[noun])
-    return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in found)
+    counted = ((counts[noun], noun) for noun in order if counts[noun])
+    return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in counted)
 
 
 def _plain(text):

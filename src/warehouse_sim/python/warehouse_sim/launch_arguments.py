@@ -62,8 +62,8 @@ def unknown(names: Iterable[str], known: Collection[str]) -> list[str]:
 
 def near(text: str, known: Iterable[str]) -> str:
     """Returns the question whether the nearest known word was meant; "" if none is near."""
-    found = get_close_matches(text, known, 1)
-    return f" (did you mean '{found[0]}'?)" if found else ""
+    matches = get_close_matches(text, known, 1)
+    return f" (did you mean '{matches[0]}'?)" if matches else ""
 
 
 # --- checks

@@ -51,7 +51,7 @@ class Caller:
         return {pair[1]: pair[2] for pair in pairs if pair}
 
     def launch_file(self) -> Path | None:
-        """Returns the launch file that was called; None if that can't be told."""
+        """Returns the launch file that was called; None if that can't be known."""
         files = [word for word in self.words if word.endswith((".launch", ".xml"))]
         if len(files) != 1:
             return None
@@ -72,7 +72,7 @@ class Caller:
         return path.name if path else "warehouse.launch"
 
     def known(self) -> set[str] | None:
-        """Returns the arguments that the launch file takes; None if that can't be told."""
+        """Returns the arguments that the launch file takes; None if that can't be known."""
         path = self.launch_file()
         return known_arguments(path, self._share) if path else None
 
@@ -96,7 +96,7 @@ def known_arguments(path: str | Path, share: Path) -> set[str] | None:
     return known
 
 
-def check_arguments(given: Mapping[str, str], caller: Caller, place: Place) -> None:
+def check_arguments(arguments: Mapping[str, str], caller: Caller, place: Place) -> None:
     """Checks the arguments {name: text} that a launch file passes on, and those that were typed.
 
     Raises LaunchError with a sentence for each that is wrong."""
@@ -108,7 +108,7 @@ def check_arguments(given: Mapping[str, str], caller: Caller, place: Place) -> N
     is_ours = path is not None and path.resolve().is_relative_to(launch)
     typed = caller.typed if is_ours else {}
     checked = launch_arguments.ARGUMENTS.keys() & (known or ())
-    values = {**given, **{name: text for name, text in typed.items() if name in checked}}
+    values = {**arguments, **{name: text for name, text in typed.items() if name in checked}}
     texts += launch_arguments.faults(values, place) or launch_arguments.conflicts(values, place)
     if texts:
         raise LaunchError("\n  ".join(texts))
@@ -165,7 +165,7 @@ def check_master(
 def _runs_already(uri: str, namespace: str, name: str, page: str) -> str:
     within = f" in {namespace.rstrip('/')}" if namespace != "/" else ""
     events, create = (
-        f"{namespace}warehouse/{one}" for one in ("events", "create_warehouse_models")
+        f"{namespace}warehouse/{topic}" for topic in ("events", "create_warehouse_models")
     )
     lines = [
         f"a warehouse{f' ({name})' if name else ''} runs at {uri}{within} already; nothing was"

@@ -37,13 +37,13 @@ def conflicts(values: Mapping[str, str], worlds: Path, cwd: Path) -> list[str]:
     layout, robots = values.get("layout", ""), values.get("robots", "")
     if not layout:
         return [f"robots:={robots}: it is for layout:="] if robots else []
-    told = [
+    faults = [
         f"{name}:={values[name]}: with layout:={layout} it was expected to be left out"
         for name in ("size", "at", "replay")
         if values.get(name, "") not in ("", NONE)
     ]
     try:
-        return told or _in_world(layout, values.get("world", ""), int(robots or -1), worlds, cwd)
+        return faults or _in_world(layout, values.get("world", ""), int(robots or -1), worlds, cwd)
     except LayoutFileError as error:
         return [f"layout:={layout}: {error}"]
 

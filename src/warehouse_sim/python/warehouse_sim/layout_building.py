@@ -99,7 +99,7 @@ class LayoutBuilding:
         grid = engine.map()
         info, corner = grid.info, grid.info.origin.position
         occupancy = occupancy_of(grid)
-        # Belts and units go with their warehouse; its walls can't be told from the hall's.
+        # Belts and units go with their warehouse; its walls can't be distinguished from the hall's.
         occupancy[occupancy < TAKEN] = UNIT
         if f"{models.WALLS}1" in engine.names():
             occupancy[:] = UNIT

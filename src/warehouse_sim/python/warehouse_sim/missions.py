@@ -94,8 +94,8 @@ def two_missions(chart: Map) -> list[Mission]:
 
     Raises NoRouteError if there is no such pair on the Map.
     """
-    found = sorted(_all_missions(chart), key=lambda m: m.length)
-    pairs = (pair for pair in combinations(found, 2) if _apart(*pair))
+    missions = sorted(_all_missions(chart), key=lambda m: m.length)
+    pairs = (pair for pair in combinations(missions, 2) if _apart(*pair))
     best = min(pairs, key=lambda pair: pair[0].length + pair[1].length, default=None)
     if not best:
         raise NoRouteError("no two robots can fetch two storage units at once here")

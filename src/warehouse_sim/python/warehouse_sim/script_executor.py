@@ -136,10 +136,10 @@ class ScriptExecutor:
 
     def _advance(self, kiva, event):
         try:
-            wanted = self._scripts[kiva].send(event)
+            wish = self._scripts[kiva].send(event)
         except StopIteration:
             del self._scripts[kiva]
             return
-        self._pending[kiva] = wanted
-        self._say(self._now, f"kiva{kiva}", str(wanted))
-        self._publishers[wanted.topic].publish(wanted.message)
+        self._pending[kiva] = wish
+        self._say(self._now, f"kiva{kiva}", str(wish))
+        self._publishers[wish.topic].publish(wish.message)

@@ -72,10 +72,10 @@ class WarehouseService:
         with self._lock, Engine(self._ros) as engine:
             if self._layouts.takes(name) and not any(counts):
                 name, path, layout = self._layouts.place(name, engine)
-                wanted: Any = _counted(layout)
+                request: Any = _counted(layout)
             else:
                 fits = name == FIT and not any(counts)
-                wanted, layout = self._layout(None if fits else resolve(name, *counts), engine)
+                request, layout = self._layout(None if fits else resolve(name, *counts), engine)
             transaction = BuildTransaction(self._ros, engine)
             transaction.begin(name)
             try:
@@ -85,19 +85,19 @@ class WarehouseService:
                 raise
             self._finish(transaction, name, number, layout.floor, path)
         title = f"{name}: " if name else ""
-        return f"{title}{wanted} {_where(layout)}"
+        return f"{title}{request} {_where(layout)}"
 
-    def _layout(self, wanted, engine):
+    def _layout(self, request, engine):
         """(Request, Layout); `wanted` is None where as much is wanted as fits."""
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
         if cells is None or not cells.taken.size:
-            if wanted is None:
+            if request is None:
                 raise RequestError(f"size {FIT} is for a world that is given (world:=…)")
             self._layouts.check_grid(engine)
-            return wanted, plan(wanted, self._seed)
-        if wanted is None:
+            return request, plan(request, self._seed)
+        if request is None:
             return fit_largest(cells, self._seed, self._at)
-        return wanted, fit(wanted, cells, self._seed, self._at)
+        return request, fit(request, cells, self._seed, self._at)
 
     def _finish(self, transaction, name, number, floor, path=""):
         identity.write(self._ros, name, number)
@@ -139,9 +139,9 @@ class WarehouseService:
     def _greet(self, title=""):
         """Tells what stands there and what to try."""
         with Engine(self._ros) as engine:
-            found = survey.of_engine(engine)
-        title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
-        to_try = hints.commands(found, self._ros.has_param(COORDINATOR))
+            standing = survey.of_engine(engine)
+        title = title or f"{identity.read(self._ros)[0] or 'world'}: {standing}"
+        to_try = hints.commands(standing, self._ros.has_param(COORDINATOR))
         to_try = hints.within(self._ros.get_namespace(), to_try)
         self._tell(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
@@ -154,7 +154,7 @@ def _counted(layout: Layout) -> Request:
 
 
 def _where(layout):
-    """On which floor, and how its stations are served if otherwise than usual."""
+    """Returns on which floor a layout stands, and how its stations are served if not as usual."""
     if layout.has_own_floor:
         width, length = layout.floor.size
         return f"on a {width:g} x {length:g} m floor"

@@ -154,14 +154,14 @@ class PoseTopic:
         poller.close()
 
 
-def topics_allowed(wanted: int) -> int:
+def topics_allowed(count: int) -> int:
     """How many topics a process can have: rospy opens a file for each, beside those of sockets."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    needed = wanted + SPARE_FILES
+    needed = count + SPARE_FILES
     if soft < needed:
         soft = needed if hard == resource.RLIM_INFINITY else min(needed, hard)
         resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
-    return min(wanted, max(0, soft - SPARE_FILES))
+    return min(count, max(0, soft - SPARE_FILES))
 
 
 def follow(ros: Any, kind: Any, prefix: str) -> None:

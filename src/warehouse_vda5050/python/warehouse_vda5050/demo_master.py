@@ -22,9 +22,9 @@ from warehouse_vda5050.model import (
     Edge,
     InstantActions,
     Node,
-    Order,
     Position,
-    State,
+    VehicleOrder,
+    VehicleState,
 )
 from warehouse_vda5050.mqtt.loop import Link, MqttLoop, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
@@ -38,7 +38,7 @@ class TripError(RuntimeError):
 
 def order_of(
     id: str, cells: Sequence[Cell], grid: Grid, actions: dict[int, Action] | None = None
-) -> Order:
+) -> VehicleOrder:
     """Returns an order through cells, all released; `actions` maps a node's index to its action."""
     actions = actions or {}
     nodes = tuple(
@@ -54,7 +54,7 @@ def order_of(
     edges = tuple(
         Edge(f"{a.id}-{b.id}", a.sequence + 1, True, a.id, b.id) for a, b in zip(nodes, nodes[1:])
     )
-    return Order(id, 0, nodes, edges)
+    return VehicleOrder(id, 0, nodes, edges)
 
 
 class DemoMaster:
@@ -67,7 +67,7 @@ class DemoMaster:
         topics: Topics,
         tell: Callable[[str], None] = print,
     ) -> None:
-        self.states: dict[Identity, State] = {}
+        self.states: dict[Identity, VehicleState] = {}
         self.online: dict[Identity, bool] = {}
         self._codec, self._topics, self._tell = codec, topics, tell
         self._headers: dict[Identity, Headers] = {}
@@ -95,11 +95,11 @@ class DemoMaster:
     def until(self, condition: Callable[[], Any], seconds: float, what: str) -> Any:
         """Waits for condition() to be true; returns what it returned. Raises TripError."""
         end = time.monotonic() + seconds
-        while not (found := condition()):
+        while not (result := condition()):
             self._loop.poll(0.05)
             if time.monotonic() > end:
                 raise TripError(f"{what} did not come in time")
-        return found
+        return result
 
     def ask_for_state(self, who: Identity) -> None:
         """Asks a vehicle for its state."""
@@ -129,14 +129,14 @@ class DemoMaster:
         payload = self._codec.encode(replace(message, header=headers.next(kind)))
         self._link.publish(Outgoing(self._topics.of(who, kind), payload, kind.qos))
 
-    def carry_out(self, who: Identity, order: Order, seconds: float = 300.0) -> State:
+    def carry_out(self, who: Identity, order: VehicleOrder, seconds: float = 300.0) -> VehicleState:
         """Sends an order and waits until it is carried out. Raises TripError."""
         self._tell(f"{who.serial}: order {order.id}, {len(order.nodes)} nodes")
         self._send(who, Kind.ORDER, order)
-        told: list[str] = []
-        return self.until(lambda: self._follow(who, order, told), seconds, f"order {order.id}")
+        lines: list[str] = []
+        return self.until(lambda: self._follow(who, order, lines), seconds, f"order {order.id}")
 
-    def _follow(self, who: Identity, order: Order, told: list[str]) -> State | None:
+    def _follow(self, who: Identity, order: VehicleOrder, states: list[str]) -> VehicleState | None:
         """Tells how far an order is; returns the state once it is over."""
         state = self.states[who]
         if state.order_id != order.id:
@@ -144,8 +144,8 @@ class DemoMaster:
                 raise TripError(f"{who.serial} refuses: {state.errors[-1].description}")
             return None
         for line in _progress(state):
-            if line not in told:
-                told.append(line)
+            if line not in states:
+                states.append(line)
                 self._tell(f"{who.serial}: {line}")
         failed = [a for a in state.actions if a.status is ActionStatus.FAILED and not a.instant]
         if failed:
@@ -157,7 +157,7 @@ class DemoMaster:
         return state
 
 
-def _progress(state: State) -> Iterable[str]:
+def _progress(state: VehicleState) -> Iterable[str]:
     yield f"at {state.last_node}"
     yield from (f"{action.type} is {action.status.value}" for action in state.actions)
     yield from (f"{error.level.value}: {error.description}" for error in state.errors)

@@ -129,7 +129,7 @@ class Edge:
 
 
 @dataclass(frozen=True)
-class Order:
+class VehicleOrder:
     """Nodes with the edges between them; those released come first and are the base, the rest is
     the horizon."""
 
@@ -205,7 +205,7 @@ class AgvPosition:
 
 @dataclass(frozen=True)
 class Velocity:
-    """In the vehicle's own frame, x forward [m/s, rad/s]."""
+    """A velocity in the vehicle's own frame, x forward [m/s, rad/s]."""
 
     vx: float = 0.0
     vy: float = 0.0
@@ -221,7 +221,7 @@ class Load:
 
 
 @dataclass(frozen=True)
-class State:
+class VehicleState:
     """All that a vehicle tells: at every event, and after 30 s at the latest."""
 
     order_id: str = ""
@@ -313,4 +313,4 @@ class Factsheet:
     header: Header = field(default_factory=Header)
 
 
-Message = Order | InstantActions | State | Connection | Visualization | Factsheet
+Message = VehicleOrder | InstantActions | VehicleState | Connection | Visualization | Factsheet

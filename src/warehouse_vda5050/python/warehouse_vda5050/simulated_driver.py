@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from warehouse_fleet.robots.message_enums import FailureKind, Mode, State, Status
+from warehouse_layout.message_enums import FailureKind, State, Status
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_vda5050.driver import Driver, Point, Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType
 from warehouse_vda5050.model import Battery, Factsheet, OperatingMode
@@ -140,41 +141,41 @@ class SimulatedDriver(Driver):
 
     def report(self) -> Report | None:
         """Returns what the world told last."""
-        seen = self.sighting
-        return None if seen is None else self._report(seen)
+        sighting = self.sighting
+        return None if sighting is None else self._report(sighting)
 
-    def _report(self, seen: Sighting) -> Report:
-        blocked = seen.status == Status.BLOCKED or seen.state == State.BLOCKED
-        standing = abs(seen.vx) + abs(seen.vy) + abs(seen.yaw_rate) < 1e-3
-        self._charged_enough &= seen.at_charger
-        charging = seen.at_charger and standing and not self._charged_enough
+    def _report(self, sighting: Sighting) -> Report:
+        blocked = sighting.status == Status.BLOCKED or sighting.state == State.BLOCKED
+        standing = abs(sighting.vx) + abs(sighting.vy) + abs(sighting.yaw_rate) < 1e-3
+        self._charged_enough &= sighting.at_charger
+        charging = sighting.at_charger and standing and not self._charged_enough
         return Report(
-            seen.x,
-            seen.y,
-            seen.yaw,
-            seen.vx,
-            seen.vy,
-            seen.yaw_rate,
-            busy=seen.status != Status.IDLE,
-            moving=not standing or (seen.state in MOVING and not blocked and not self._stopped),
-            path_id=seen.path_id,
-            reached=seen.reached,
-            load=str(seen.shelf_id) if seen.shelf_id else "",
+            sighting.x,
+            sighting.y,
+            sighting.yaw,
+            sighting.vx,
+            sighting.vy,
+            sighting.yaw_rate,
+            busy=sighting.status != Status.IDLE,
+            moving=not standing or (sighting.state in MOVING and not blocked and not self._stopped),
+            path_id=sighting.path_id,
+            reached=sighting.reached,
+            load=str(sighting.shelf_id) if sighting.shelf_id else "",
             refusal=self.refusal,
-            blocked=blocked or seen.held_by_person,
-            localized=not seen.lost,
-            heard=not seen.failures & 1 << FailureKind.RADIO_LOST,
-            battery=Battery(100.0 * seen.charge, charging),
-            mode=self._mode(self._told_mode(seen)),
-            errors=_errors(seen),
+            blocked=blocked or sighting.held_by_person,
+            localized=not sighting.lost,
+            heard=not sighting.failures & 1 << FailureKind.RADIO_LOST,
+            battery=Battery(100.0 * sighting.charge, charging),
+            mode=self._mode(self._told_mode(sighting)),
+            errors=_errors(sighting),
             silent=self.silence,
         )
 
-    def _told_mode(self, seen: Sighting) -> int:
+    def _told_mode(self, sighting: Sighting) -> int:
         """The mode that the world tells, or will tell in a moment."""
         if self._gave_back and time.monotonic() < self._gave_back[1]:
             return self._gave_back[0]
-        return seen.mode
+        return sighting.mode
 
     def _mode(self, mode: int) -> OperatingMode:
         # MANUAL by an order from here is AUTOMATIC to whom the order came from.
@@ -203,10 +204,10 @@ class SimulatedDriver(Driver):
     def give_back(self) -> None:
         """Makes the robot what it was, unless it was put out of service meanwhile."""
         before, self._taken_from = self._taken_from, None
-        seen = self.sighting
+        sighting = self.sighting
         if before is None:
             return
-        if seen and seen.mode == Mode.MANUAL:
+        if sighting and sighting.mode == Mode.MANUAL:
             self._world.set_mode(self.kiva_id, before)
             self._gave_back = before, time.monotonic() + SETTLING
         self._world.note_taken(self.kiva_id, None)
@@ -221,17 +222,19 @@ class SimulatedDriver(Driver):
 
     def init_position(self, x: float, y: float, yaw: float) -> str:
         """Returns '' if the robot is there, else where it is."""
-        seen = self.sighting
-        if seen and not seen.lost and max(abs(seen.x - x), abs(seen.y - y)) < 0.1:
+        sighting = self.sighting
+        if sighting and not sighting.lost and max(abs(sighting.x - x), abs(sighting.y - y)) < 0.1:
             return ""
-        where = f"at {seen.x:.2f}, {seen.y:.2f}" if seen and not seen.lost else "lost"
+        where = (
+            f"at {sighting.x:.2f}, {sighting.y:.2f}" if sighting and not sighting.lost else "lost"
+        )
         return f"the robot finds its position by itself: it is {where}"
 
 
-def _errors(seen: Sighting) -> tuple[Error, ...]:
+def _errors(sighting: Sighting) -> tuple[Error, ...]:
     errors = [
         Error(type.value, level, text)
         for kind, (type, level, text) in FAILURES.items()
-        if seen.failures & 1 << kind
+        if sighting.failures & 1 << kind
     ]
-    return (*errors, LOST) if seen.lost else tuple(errors)
+    return (*errors, LOST) if sighting.lost else tuple(errors)

@@ -113,25 +113,25 @@ class WorldLink:
             zip(fleet.status, fleet.state, fleet.shelf_id, fleet.path_id, fleet.reached),
             zip(fleet.failures, fleet.charge, fleet.mode),
         )
-        return {one: self._sighting(one, *parts) for one, *parts in columns}
+        return {kiva_id: self._sighting(kiva_id, *parts) for kiva_id, *parts in columns}
 
-    def _sighting(self, one: int, motion: Any, work: Any, health: Any) -> Sighting:
+    def _sighting(self, kiva_id: int, motion: Any, work: Any, health: Any) -> Sighting:
         x, y = motion[0], motion[1]
         at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
-        lost = one in self._lost and not self._was_moved(one, x, y, work[0] == 0)
-        told = [*motion, *work, *health, one in self._people, at_charger, lost]
-        return Sighting(*told)
+        lost = kiva_id in self._lost and not self._was_moved(kiva_id, x, y, work[0] == 0)
+        values = [*motion, *work, *health, kiva_id in self._people, at_charger, lost]
+        return Sighting(*values)
 
-    def _was_moved(self, one: int, x: float, y: float, idle: bool) -> bool:
+    def _was_moved(self, kiva_id: int, x: float, y: float, idle: bool) -> bool:
         """Returns whether a lost robot was moved by others, and knows its place since then."""
         with self._lock:
-            where = self._lost.get(one)
+            where = self._lost.get(kiva_id)
             if where is None or not idle:
-                self._lost[one] = (x, y)
+                self._lost[kiva_id] = (x, y)
                 return False
             moved = max(abs(where[0] - x), abs(where[1] - y)) > TOWED
             if moved:
-                del self._lost[one]
+                del self._lost[kiva_id]
             return moved
 
     def unit_at(self, x: float, y: float) -> int:
@@ -141,8 +141,8 @@ class WorldLink:
             return 0
         xs, ys, _ = unit_poses(units)
         near = np.maximum(np.abs(np.asarray(xs) - x), np.abs(np.asarray(ys) - y)) < 0.3
-        found = np.flatnonzero(near & (np.asarray(units.carrier) == 0))
-        return int(unit_ids(objects)[found[0]]) if len(found) else 0
+        units_there = np.flatnonzero(near & (np.asarray(units.carrier) == 0))
+        return int(unit_ids(objects)[units_there[0]]) if len(units_there) else 0
 
     def read_floor(self) -> bool:
         """Reads the map again if robots came or went, or the world was reset. Returns whether the
@@ -154,11 +154,11 @@ class WorldLink:
         if floor_of == self._floor_of and self.grid is not None:
             return False
         try:
-            told = read_map()
+            grid = read_map()
         except rospy.ServiceException:
             return False  # the world comes or goes; there is another time
-        before, self.grid = self.grid, grid_of(told)
-        self.chargers = _chargers(told)
+        before, self.grid = self.grid, grid_of(grid)
+        self.chargers = _chargers(grid)
         self._floor_of = floor_of
         return self.grid != before
 
@@ -212,11 +212,11 @@ class WorldLink:
         return self._taken.get(f"kiva{kiva_id}")
 
 
-def _chargers(told: Any) -> frozenset[tuple[int, int]]:
+def _chargers(message: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
         scenery = wait_for(rospy, "warehouse/scenery", Scenery, WAIT)
-        plan = FloorPlan.of_messages(told, scenery)
+        plan = FloorPlan.of_messages(message, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()
     return frozenset((int(cell) % plan.width, int(cell) // plan.width) for cell in plan.charging)

@@ -1,21 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """The messages in a bag, which anybody may have written."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import rosbag
 
 from warehouse_client import message_check
 from warehouse_layout.file import user_file
 
+if TYPE_CHECKING:
+    from genpy import Message
+
 
 class Recorded(NamedTuple):
     """A message, when it was recorded [s], and how much of the bag is read with it, 0 … 1."""
 
     topic: str
-    message: Any
+    message: Message
     time: float
     part: float
 

@@ -3,12 +3,11 @@
 
 import json
 import math
-from typing import Any
 
 from starlette import responses
 
 
-def dumps(value: Any) -> str:
+def dumps(value: object) -> str:
     """Returns compact JSON text; null where a number is not finite."""
     try:
         return _compact(value)
@@ -19,16 +18,16 @@ def dumps(value: Any) -> str:
 class JSONResponse(responses.JSONResponse):
     """A response in such JSON."""
 
-    def render(self, content: Any) -> bytes:
+    def render(self, content: object) -> bytes:
         """Returns the body."""
         return dumps(content).encode()
 
 
-def _compact(value: Any) -> str:
+def _compact(value: object) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False)
 
 
-def _finite(value: Any) -> Any:
+def _finite(value: object) -> object:
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, dict):

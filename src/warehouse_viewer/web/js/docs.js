@@ -2,11 +2,12 @@
 // The API's description as a page on which each request can be tried.
 
 import { $, make, on } from './base/dom.js';
+import { at } from './base/root.js';
 
 const OPENAPI = '/api/v1/openapi.json';
 
 async function show() {
-  const api = await (await fetch(OPENAPI)).json();
+  const api = await (await fetch(at(OPENAPI))).json();
   $('about').textContent = api.info.description;
   for (const [path, methods] of Object.entries(api.paths)) {
     for (const [method, operation] of Object.entries(methods)) {
@@ -77,7 +78,7 @@ async function attempt(filled, path, method, parameters) {
   const headers = body ? { 'content-type': 'application/json' } : {};
   const text = String(query) ? `${url}?${query}` : url;
   try {
-    const answer = await fetch(text, { method: method.toUpperCase(), headers, body });
+    const answer = await fetch(at(text), { method: method.toUpperCase(), headers, body });
     const came = JSON.stringify(await answer.json(), null, 2);
     return `${method.toUpperCase()} ${text}\n${answer.status} ${answer.statusText}\n${came}`;
   } catch (error) {

@@ -10,10 +10,10 @@ from paths import ROOT
 from kiva_plugin_cpp import World
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.transports.transports import STAY, Kind, Step
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 
@@ -95,14 +95,14 @@ class HardOfHearing:
 
     def __init__(self, world, in_vain):
         self._world, self._in_vain = world, in_vain
-        self._told = collections.Counter()
+        self._counts = collections.Counter()
 
     def __getattr__(self, name):
         return getattr(self._world, name)
 
     def _tell(self, *command):
-        self._told[command] += 1
-        if self._told[command] > self._in_vain:
+        self._counts[command] += 1
+        if self._counts[command] > self._in_vain:
             getattr(self._world, command[0])(*command[1:])
 
     def carry(self, kiva_id, shelf_id):

@@ -12,8 +12,7 @@ import pytest
 from warehouse_client.routes import Grid, covered, point
 from warehouse_layout.file.items import BOARDS, CAPACITY, PLACES, spread
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, resolve
-from warehouse_layout.generate import generated
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 
@@ -60,12 +59,12 @@ def all_cells(layout):
 def reachable(grid, starts):
     """All grid points reached from `starts` (which themselves need not be free)."""
     queue = [point(p) for p in starts]
-    seen = set(queue)
+    visited = set(queue)
     for here in queue:
-        new = [q for q in grid.neighbours(here) if q not in seen]
-        seen.update(new)
+        new = [q for q in grid.neighbours(here) if q not in visited]
+        visited.update(new)
         queue += new
-    return seen
+    return visited
 
 
 def test_counts(case):
@@ -116,9 +115,9 @@ def test_parked_robots_face_a_street(case):
 def test_a_robot_without_load_reaches_every_unit_and_drop_point(case):
     layout = case[1]
     grid = Grid(layout.floor, belt_cells(layout) + list(layout.robots))
-    wanted = {*map(point, layout.units), *map(point, layout.drops)}
+    goals = {*map(point, layout.units), *map(point, layout.drops)}
     for robot in layout.robots[:: max(1, len(layout.robots) // 5)]:
-        assert wanted <= reachable(grid, [robot])
+        assert goals <= reachable(grid, [robot])
 
 
 def test_a_loaded_robot_reaches_every_drop_point_from_every_unit(case):
@@ -157,7 +156,7 @@ def test_a_full_unit_uses_every_place():
 
 
 def test_the_largest_warehouse_is_planned():
-    layout = generated.plan(resolve("", **LIMITS))
+    layout = plan(resolve("", **LIMITS))
     assert (len(layout.robots), len(layout.units)) == (LIMITS["robots"], LIMITS["shelves"])
     assert len(layout.belts) == MOST_STATIONS
     assert max(layout.floor.size) / min(layout.floor.size) < 2
@@ -165,8 +164,8 @@ def test_the_largest_warehouse_is_planned():
 
 def test_stations_beyond_one_side_lie_on_all_sides():
     regular, compact = (resolve("", robots=25 * n, shelves=6000) for n in (60, 100))
-    assert same(generated.plan(regular, 3), plan(regular, 3)) >= {"robots", "units", "drops"}
-    drops = generated.plan(compact).drops
+    assert len(set(plan(regular).drops[:, 0])) == 1
+    drops = plan(compact).drops
     (west, south), (east, north) = drops.min(axis=0), drops.max(axis=0)
     for x, y in ((west, None), (east, None), (None, south), (None, north)):
         on_side = (drops[:, 0] == x) if y is None else (drops[:, 1] == y)

@@ -9,9 +9,8 @@ import pytest
 
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.request import PRESETS, Request, RequestError, resolve
-from warehouse_layout.generate import compact, generator
+from warehouse_layout.generate import compact, generated, generator
 from warehouse_layout.place import file_check, placement
-from warehouse_layout.place import layout as regular
 
 ARRAYS = ("robots", "units", "places", "item_unit", "item_place", "belts", "drops")
 PLAN = ("passable", "storage", "parking", "exits")
@@ -21,25 +20,29 @@ def through_text(file):
     return lf.parse(lf.text_of(file))
 
 
-def assert_same(laid, wanted):
+def assert_same(laid, expected):
     for name in ARRAYS:
-        np.testing.assert_allclose(getattr(laid, name), getattr(wanted, name), atol=1e-9)
+        np.testing.assert_allclose(getattr(laid, name), getattr(expected, name), atol=1e-9)
     for name in PLAN:
-        assert (getattr(laid.plan, name) == getattr(wanted.plan, name)).all(), name
-    assert laid.plan.origin == wanted.plan.origin
-    assert laid.floor == wanted.floor
-    assert list(laid.plan.charging) == list(wanted.plan.charging)
-    for one, other in zip(laid.plan.stations, wanted.plan.stations, strict=True):
-        assert (one.name, one.kind, one.service) == (other.name, other.kind, other.service)
-        assert (one.cells == other.cells).all()
-        assert one.belt == other.belt
+        assert (getattr(laid.plan, name) == getattr(expected.plan, name)).all(), name
+    assert laid.plan.origin == expected.plan.origin
+    assert laid.floor == expected.floor
+    assert list(laid.plan.charging) == list(expected.plan.charging)
+    for station, other in zip(laid.plan.stations, expected.plan.stations, strict=True):
+        assert (station.name, station.kind, station.service) == (
+            other.name,
+            other.kind,
+            other.service,
+        )
+        assert (station.cells == other.cells).all()
+        assert station.belt == other.belt
 
 
 @pytest.mark.parametrize("preset", ["small", "medium", "large"])
 def test_a_preset_stands_the_same_through_its_file(preset):
     request = PRESETS[preset]
     file = through_text(generator.of_request(request, preset))
-    assert_same(placement.place(file), regular.plan(request))
+    assert_same(placement.place(file), generated.plan(request))
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -47,7 +50,7 @@ def test_so_do_other_counts(seed):
     rng = random.Random(seed)
     request = resolve("", rng.randrange(1, 60), rng.randrange(0, 200), rng.randrange(5, 400))
     file = through_text(generator.of_request(request))
-    assert_same(placement.place(file), regular.plan(request))
+    assert_same(placement.place(file), generated.plan(request))
     assert file_check.faults(file) == []
 
 
@@ -78,8 +81,8 @@ def outward(station):
 @pytest.mark.parametrize("sides", [1, 2, 3, 4])
 def test_stations_are_on_as_many_sides_as_asked(sides):
     file = compact.of_request(Request(4, 40, 0, 6), 2, compact.Style(sides))
-    wanted = [(1, 0), (-1, 0), (0, 1), (0, -1)][:sides]
-    assert {outward(station) for station in file.stations} == set(wanted)
+    directions = [(1, 0), (-1, 0), (0, 1), (0, -1)][:sides]
+    assert {outward(station) for station in file.stations} == set(directions)
 
 
 def test_storage_lies_by_the_stations_of_all_sides_around_a_hole():

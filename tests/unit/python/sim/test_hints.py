@@ -11,7 +11,7 @@ import yaml
 from warehouse_client.routes import Grid, covered, elbow, point
 from warehouse_client.survey import BELT, Survey, of_models
 from warehouse_layout.file.request import PRESETS, resolve
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 from warehouse_sim import hints
 
 

@@ -11,7 +11,8 @@ from test_hints import survey_of
 from warehouse_client.routes import Grid, NoRouteError, point
 from warehouse_client.survey import Survey
 from warehouse_layout.file.request import resolve
-from warehouse_layout.place.layout import Floor, plan
+from warehouse_layout.generate.generated import plan
+from warehouse_layout.place.layout import Floor
 from warehouse_sim.missions import CORRIDOR, Map, meeting, two_missions
 
 

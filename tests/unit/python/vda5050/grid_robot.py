@@ -12,8 +12,8 @@ from warehouse_vda5050.model import (
     Factsheet,
     InstantActions,
     Node,
-    Order,
     Position,
+    VehicleOrder,
 )
 from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
@@ -82,7 +82,7 @@ class GridRobot(Driver):
 
     def report(self):
         moving = self.busy and not self.lifting and not self.stopped
-        told = Report(
+        status = Report(
             *map(float, self.cell),
             0.0,
             busy=self.busy,
@@ -92,7 +92,7 @@ class GridRobot(Driver):
             load=self.load,
             refusal=self.refusal,
         )
-        return replace(told, **self.extra)
+        return replace(status, **self.extra)
 
     def factsheet(self):
         return Factsheet()
@@ -202,7 +202,7 @@ def order(id, cells, released=None, update=0, first=0, actions=None, positions=T
         Edge(f"e{2 * (first + k) + 1}", a.sequence + 1, b.released, a.id, b.id)
         for k, (a, b) in enumerate(zip(nodes, nodes[1:]))
     )
-    return Order(id, update, nodes, edges)
+    return VehicleOrder(id, update, nodes, edges)
 
 
 def pick(unit="7", id="p1"):

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from warehouse_fleet.robots.message_enums import FailureKind, Status
-from warehouse_fleet.robots.message_enums import State as Does
+from warehouse_layout.message_enums import FailureKind, Status
+from warehouse_layout.message_enums import State as Does
 from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Follow, Lift, Other, Stop
@@ -25,8 +25,8 @@ from warehouse_vda5050.model import (
     Load,
     NodeState,
     OperatingMode,
-    Order,
-    State,
+    VehicleOrder,
+    VehicleState,
 )
 from warehouse_vda5050.topics import Identity
 
@@ -41,7 +41,7 @@ class Bench:
     def __init__(self, robot=ROBOT):
         self.vehicle = RemoteVehicle(robot, GRID, "run")
         self.now = 0.0
-        self.state = State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
+        self.state = VehicleState(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0"))
         self.stamps = 0
         self.vehicle.take_connection(ConnectionState.ONLINE, self.now)
         (asked,) = self.instants()
@@ -59,11 +59,11 @@ class Bench:
         return self.vehicle.messages(self.now)
 
     def order(self, wait=0.0):
-        (order,) = [one for one in self.sent(wait) if isinstance(one, Order)]
+        (order,) = [message for message in self.sent(wait) if isinstance(message, VehicleOrder)]
         return order
 
     def instants(self, wait=0.0):
-        messages = [one for one in self.sent(wait) if isinstance(one, InstantActions)]
+        messages = [instant for instant in self.sent(wait) if isinstance(instant, InstantActions)]
         return [action for message in messages for action in message.actions]
 
     def events(self):
@@ -206,7 +206,7 @@ def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
     times = []
     for _ in range(1200):
         bench.vehicle.command(Follow(9, 0, (), 4))  # as the coordinator does
-        for order in [one for one in bench.sent(0.1) if isinstance(one, Order)]:
+        for order in [message for message in bench.sent(0.1) if isinstance(message, VehicleOrder)]:
             times.append(bench.now)
             refer = (("orderId", order.id), ("orderUpdateId", str(order.update)))
             bench.tell(errors=(Error("orderUpdateError", description="no", references=refer),))
@@ -395,10 +395,10 @@ def test_a_state_from_before_ends_no_cancelled_path(bench):
 
 def test_stop_and_go_on(bench):
     bench.vehicle.command(Stop(True))
-    assert [one.type for one in bench.instants()] == ["startPause"]
+    assert [a.type for a in bench.instants()] == ["startPause"]
     bench.vehicle.command(Stop(False))
-    assert [one.type for one in bench.instants()] == ["stopPause"]
-    assert [one.type for one in bench.instants(2.5)] == ["stopPause"]  # the stop is not sent again
+    assert [a.type for a in bench.instants()] == ["stopPause"]
+    assert [a.type for a in bench.instants(2.5)] == ["stopPause"]  # the stop is not sent again
 
 
 def test_an_order_of_an_earlier_run_is_cancelled(bench):
@@ -447,7 +447,9 @@ def test_a_fatal_error_is_a_broken_drive(bench):
 
 def test_an_older_state_is_dropped(bench):
     bench.tell(position=AgvPosition(1, 0, 0))
-    bench.vehicle.take_state(State(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0")), 0)
+    bench.vehicle.take_state(
+        VehicleState(position=AgvPosition(0, 0, 0), header=Header(timestamp="t0")), 0
+    )
     assert bench.shadow.x == 1
 
 
@@ -462,14 +464,14 @@ def test_a_clock_set_back_or_numbers_that_begin_again_are_no_old_states(bench, t
 
 def test_a_vehicle_that_begins_again_unseen_is_heard(bench):
     bench.vehicle.take_connection(ConnectionState.ONLINE, 0)  # no will came before
-    bench.vehicle.take_state(State(position=AgvPosition(1, 0, 0), header=Header(0, "s")), 0)
+    bench.vehicle.take_state(VehicleState(position=AgvPosition(1, 0, 0), header=Header(0, "s")), 0)
     assert bench.shadow.x == 1
 
 
 def test_a_vehicle_that_comes_back_is_asked_for_its_state(bench):
     bench.vehicle.take_connection(ConnectionState.CONNECTIONBROKEN, 0)
     bench.vehicle.take_connection(ConnectionState.ONLINE, 0)
-    assert [action.type for action in bench.instants()] == ["stateRequest"]
+    assert [a.type for a in bench.instants()] == ["stateRequest"]
 
 
 def test_a_load_that_it_tells_is_believed(bench):
@@ -516,6 +518,6 @@ def test_kinds_of_events_are_those_of_the_messages():
 
 
 def _event_kinds():
-    from warehouse_fleet.robots.message_enums import EventKind as Kinds  # noqa: PLC0415
+    from warehouse_layout.message_enums import EventKind as Kinds  # noqa: PLC0415
 
     return Kinds

@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 from grid_robot import GRID, order, row
 
-from warehouse_fleet.robots.message_enums import Mode, Status
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 from warehouse_vda5050.model import Action, BlockingType, InstantActions, OperatingMode
 from warehouse_vda5050.simulated_driver import Sighting, SimulatedDriver
 from warehouse_vda5050.vehicle import Vehicle, VehicleSettings

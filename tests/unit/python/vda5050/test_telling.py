@@ -9,7 +9,7 @@ from warehouse_vda5050.master.commands import Follow
 from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import SILENT
-from warehouse_vda5050.model import AgvPosition, ConnectionState, State
+from warehouse_vda5050.model import AgvPosition, ConnectionState, VehicleState
 from warehouse_vda5050.telling import masters_message
 from warehouse_vda5050.topics import Identity
 
@@ -27,7 +27,7 @@ def test_the_master_tells_whose_vehicle_it_is_connection_order_and_errors():
 
     vehicle.take_connection(ConnectionState.ONLINE, 0.0)
     errors = (Error("motorError", description="no torque"), Error("x"))
-    vehicle.take_state(State(position=AgvPosition(0.0, 0.0, 0.0), errors=errors), 0.0)
+    vehicle.take_state(VehicleState(position=AgvPosition(0.0, 0.0, 0.0), errors=errors), 0.0)
     vehicle.command(Follow(1, 0, ((0.0, 0.0), (1.0, 0.0)), 2))
     message = told(vehicle)
     assert (message.connection, message.driven) == ([Vda5050.ONLINE], [True])

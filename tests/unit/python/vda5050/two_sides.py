@@ -11,7 +11,13 @@ from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.master.commands import Follow, Lift
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
-from warehouse_vda5050.model import Action, BlockingType, ConnectionState, InstantActions, Order
+from warehouse_vda5050.model import (
+    Action,
+    BlockingType,
+    ConnectionState,
+    InstantActions,
+    VehicleOrder,
+)
 from warehouse_vda5050.topics import Identity, Kind
 from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
@@ -166,7 +172,7 @@ class BothSides:
         self.events += self.master.take_events()
 
     def send(self, message):
-        kind = Kind.ORDER if isinstance(message, Order) else Kind.INSTANT_ACTIONS
+        kind = Kind.ORDER if isinstance(message, VehicleOrder) else Kind.INSTANT_ACTIONS
         if kind is Kind.ORDER:
             self.witness.note(message)
         self.post(self.down, self.master_headers, kind, message)

@@ -20,8 +20,8 @@ PAGE = """<!doctype html><html lang="en"><title>A page</title><style>
 
 @pytest.fixture(scope="module")
 def page():
-    with browser(PATIENCE) as one:
-        yield one
+    with browser(PATIENCE) as browser_page:
+        yield browser_page
 
 
 def found(page, text):
@@ -31,10 +31,13 @@ def found(page, text):
 
 def test_faults_are_found_in_both_themes(page):
     assert found(page, PAGE.format(dark="#eee", more="")) == []
-    told = found(page, PAGE.format(dark="#333", more=""))
-    assert len(told) == 1 and told[0].startswith("dark: color-contrast: p:")
-    told = found(page, PAGE.format(dark="#eee", more="<img src='x.png'>"))
-    assert [one.split(":")[:2] for one in told] == [["dark", " image-alt"], ["light", " image-alt"]]
+    result = found(page, PAGE.format(dark="#333", more=""))
+    assert len(result) == 1 and result[0].startswith("dark: color-contrast: p:")
+    result = found(page, PAGE.format(dark="#eee", more="<img src='x.png'>"))
+    assert [item.split(":")[:2] for item in result] == [
+        ["dark", " image-alt"],
+        ["light", " image-alt"],
+    ]
 
 
 @pytest.mark.parametrize("wrong", [False, True])

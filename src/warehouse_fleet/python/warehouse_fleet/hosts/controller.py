@@ -17,16 +17,15 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.traffic.people import NO_PEOPLE
 from warehouse_fleet.traffic.takeover import Handover, Takeover
 from warehouse_fleet.traffic.traffic import STAYS, Releases, Traffic
-from warehouse_fleet.transports.towing import Towing, TowOrder
-from warehouse_fleet.transports.towing import order as tow_order
+from warehouse_fleet.transports.towing import Towing, TowingService, TowOrder
 from warehouse_fleet.transports.transports import LiftOrder, Transports
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import RobotMode as Mode
 
 CANCEL_PERIOD = 1.0  # between two looks at paths that others gave out [s]
 
@@ -93,7 +92,16 @@ class FleetController:
         )
         self.robots = self.traffic.robots
         self.transports = Transports(plan, self.traffic, last)
-        self._towing = None if tow_after is None else Towing(self.transports, tow_after)
+        self._towing = Towing(
+            plan,
+            self.transports.aside,
+            self.traffic,
+            self.transports.distances,
+            self.transports.taken,
+        )
+        self._tows = None
+        if tow_after is not None:
+            self._tows = TowingService(self._towing, self.robots, tow_after)
         self._takeover = None
         if takes_over_at is not None:
             self._takeover = Takeover(self.traffic, takes_over_at)
@@ -111,28 +119,28 @@ class FleetController:
         """Returns whether a later observation than one of that time [s] has been taken in."""
         return self.traffic.is_stale(time)
 
-    def tick(self, seen: Observation) -> Decision:
+    def tick(self, observation: Observation) -> Decision:
         """Takes in an Observation and returns the Decision for it."""
         traffic, gone = self.traffic, self.robots.gone
-        reports = self.robots.align(seen.robots)
-        for model in seen.refused:
+        reports = self.robots.align(observation.robots)
+        for model in observation.refused:
             traffic.on_refused(model)
-        if seen.units is not None:
-            self.transports.update_units(seen.units)
-        cancels = self._cancels(seen.time, reports)
-        traffic.update_robots(seen.time, reports)
+        if observation.units is not None:
+            self.transports.update_units(observation.units)
+        cancels = self._cancels(observation.time, reports)
+        traffic.update_robots(observation.time, reports)
         if traffic.takes_over and self._takeover:
             self._takeover.advance(reports)
-        traffic.update_people(seen.people)
-        tows = self._towing.due() if self._towing else []
-        traffic.update_fallen(seen.fallen)
+        traffic.update_people(observation.people)
+        tows = self._tows.due(traffic.time) if self._tows else []
+        traffic.update_fallen(observation.fallen)
         looks = traffic.wants_map
         if looks:
-            traffic.update_map(seen.look_at_map())
+            traffic.update_map(observation.look_at_map())
         if not traffic.takes_over:
             self.transports.advance(reports)
         if looks or gone is not self.robots.gone:
-            units = seen.look_at_units()
+            units = observation.look_at_units()
             if units is not None:
                 self.transports.update_units(units)
         return Decision(traffic.releases(), self.transports.take_lifts(), cancels, tows)
@@ -173,4 +181,4 @@ class FleetController:
     def tow(self, kiva_id: int) -> TowOrder:
         """Returns the order to tow a broken or lost robot. Raises ValueError: it works, or there is
         no place for it."""
-        return tow_order(self.transports, kiva_id)
+        return self._towing.order(kiva_id)

@@ -17,11 +17,11 @@ from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, chec
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.served_part import LeftOut, served_part
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -39,7 +39,7 @@ STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
 
 
-class Coordinator:
+class CoordinatorNode:
     """Hosts a FleetController: /warehouse/fleet comes in, /warehouse/fleet_orders goes out.
 
     A controller begins again whenever other robots or another floor are there, and with each

@@ -10,12 +10,12 @@ import rospy
 
 from warehouse_fleet.hosts.controller import FleetController
 from warehouse_fleet.robots.failures import OUT_OF_ORDER, names_of
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE
-from warehouse_fleet.traffic.obstacles import in_the_way
 from warehouse_fleet.traffic.traffic import Releases
+from warehouse_fleet.transports.obstructions import in_the_way
 from warehouse_fleet.transports.transport_book import Step, TransportEvent
 from warehouse_fleet.transports.waiting import DOES, Waiting
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, FleetFollow
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 
@@ -85,7 +85,7 @@ def state_message(
         *_alarms(controller, watch.reasons),
         *waiting.for_people(),
         *_fallen(watch.objects),
-        *in_the_way(transports),
+        *in_the_way(controller.plan, traffic, transports.units),
         *(text for text in (traffic.plans.alarm, left_out) if text),
     ]
     return state

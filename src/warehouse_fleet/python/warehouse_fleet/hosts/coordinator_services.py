@@ -2,17 +2,19 @@
 """The services of the coordinator: requests from ROS to a FleetController."""
 
 import math
-from typing import TYPE_CHECKING
+from contextlib import AbstractContextManager
+from typing import Any, Protocol
 
 import rospy
 
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
+from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.fleet_driver import square
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
-from warehouse_fleet.transports.transport_book import Answer
+from warehouse_fleet.transports.transport_book import TransportAnswer
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.srv import (
     CancelTransport,
     CancelTransportRequest,
@@ -31,15 +33,33 @@ from warehouse_msgs.srv import (
     TransportResponse,
 )
 
-if TYPE_CHECKING:
-    from warehouse_fleet.hosts.coordinator import Coordinator
+
+class Host(Protocol):
+    """The host of a controller to which services pass their requests."""
+
+    controller: Any  # a FleetController, while there is a warehouse
+    events: EventPublisher
+
+    @property
+    def lock(self) -> AbstractContextManager[Any, Any]:
+        """The lock that is held while a request is answered."""
+
+    @property
+    def reason(self) -> str:
+        """Why there is no controller."""
+
+    def set_mode(self, kiva_id: int, mode: int) -> None:
+        """Sets the side that commands a robot. Raises ValueError with the reason if it can't."""
+
+    def yaw_of(self, kiva_id: int) -> float:
+        """Returns a robot's heading [rad] by its last report."""
 
 
 class CoordinatorServices:
-    """Offers the services of a Coordinator, whose lock is held while each is answered."""
+    """Offers the services of a coordinator, the Host."""
 
-    def __init__(self, coordinator: "Coordinator") -> None:
-        self._coordinator = coordinator
+    def __init__(self, host: Host) -> None:
+        self._host = host
         self._place = rospy.ServiceProxy("gazebo/set_model_state", SetModelState)
         rospy.Service("warehouse/transport", Transport, self._on_transport)
         rospy.Service("warehouse/release_transport", ReleaseTransport, self._on_release)
@@ -47,58 +67,63 @@ class CoordinatorServices:
         rospy.Service("warehouse/tow", Tow, self._on_tow)
         rospy.Service("warehouse/set_robot_mode", SetRobotMode, self._on_mode)
 
-    def _on_transport(self, wanted: TransportRequest) -> TransportResponse:
-        host = self._coordinator
+    def _on_transport(self, request: TransportRequest) -> TransportResponse:
+        host = self._host
         with host.lock:
             if host.controller is None:
-                return TransportResponse(*Answer(0, False, host.reason))
+                return TransportResponse(*TransportAnswer(0, False, host.reason))
             answer = host.controller.transports.submit(
-                wanted.shelf_id, wanted.station, wanted.x, wanted.y, wanted.then, wanted.priority
+                request.shelf_id,
+                request.station,
+                request.x,
+                request.y,
+                request.then,
+                request.priority,
             )
             if answer.accepted:
-                host.events.ledger.add(answer.transport_id, wanted.shelf_id, wanted.station)
+                host.events.ledger.add(answer.transport_id, request.shelf_id, request.station)
             return TransportResponse(*answer)
 
-    def _on_release(self, wanted: ReleaseTransportRequest) -> ReleaseTransportResponse:
-        host = self._coordinator
+    def _on_release(self, request: ReleaseTransportRequest) -> ReleaseTransportResponse:
+        host = self._host
         with host.lock:
             if host.controller is None:
                 return ReleaseTransportResponse(False, host.reason)
-            answer = host.controller.transports.release(wanted.transport_id)
+            answer = host.controller.transports.release(request.transport_id)
             return ReleaseTransportResponse(*answer)
 
-    def _on_cancel(self, wanted: CancelTransportRequest) -> CancelTransportResponse:
-        host = self._coordinator
+    def _on_cancel(self, request: CancelTransportRequest) -> CancelTransportResponse:
+        host = self._host
         with host.lock:
             if host.controller is None:
                 return CancelTransportResponse(False, host.reason)
-            answer = host.controller.transports.cancel(wanted.transport_id)
+            answer = host.controller.transports.cancel(request.transport_id)
             return CancelTransportResponse(*answer)
 
-    def _on_mode(self, wanted: SetRobotModeRequest) -> SetRobotModeResponse:
-        host = self._coordinator
+    def _on_mode(self, request: SetRobotModeRequest) -> SetRobotModeResponse:
+        host = self._host
         with host.lock:
             if host.controller is None:
                 return SetRobotModeResponse(False, host.reason)
             try:
-                host.set_mode(wanted.kiva_id, wanted.mode)
+                host.set_mode(request.kiva_id, request.mode)
             except ValueError as error:
                 return SetRobotModeResponse(False, str(error))
             return SetRobotModeResponse(True, "")
 
-    def _on_tow(self, wanted: TowRequest) -> TowResponse:
-        host = self._coordinator
+    def _on_tow(self, request: TowRequest) -> TowResponse:
+        host = self._host
         with host.lock:
             if host.controller is None:
                 return TowResponse(False, host.reason)
             try:
-                order = host.controller.tow(wanted.kiva_id)
+                order = host.controller.tow(request.kiva_id)
             except ValueError as error:
                 return TowResponse(False, str(error))
             traffic = host.controller.traffic
             cell = int(host.controller.plan.cell_of(order.x, order.y))
             traffic.shut(cell, traffic.time + STAYS)  # until the robot is seen there
-            state = _state_of(order, square(host.yaw_of(wanted.kiva_id)))
+            state = _state_of(order, square(host.yaw_of(request.kiva_id)))
         try:
             answer = self._place(state)
         except rospy.ServiceException as error:

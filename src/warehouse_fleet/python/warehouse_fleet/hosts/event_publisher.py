@@ -58,5 +58,5 @@ class EventPublisher:
             return True
         subscribers = rosgraph.Master(rospy.get_name()).getSystemState()[1]
         topic = self._topic.resolved_name
-        wanted = sum(len(nodes) for name, nodes in subscribers if name == topic)
-        return self._topic.get_num_connections() >= wanted
+        expected = sum(len(nodes) for name, nodes in subscribers if name == topic)
+        return self._topic.get_num_connections() >= expected

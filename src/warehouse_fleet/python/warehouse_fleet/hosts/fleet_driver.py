@@ -13,12 +13,12 @@ import numpy as np
 from warehouse_fleet.hosts.controller import Decision, FleetController, Observation
 from warehouse_fleet.robots.failures import FailureLog, heard
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import EventKind
 from warehouse_fleet.robots.robot_table import columns_of
 from warehouse_fleet.traffic.people import PeopleLog, people_in
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import EventKind
 
 UPDATE = 0.1  # between two ticks [s]
 FELL, PICKED_UP = int(EventKind.FELL), int(EventKind.PICKED_UP)

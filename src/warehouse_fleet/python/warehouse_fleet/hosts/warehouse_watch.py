@@ -65,7 +65,9 @@ class WarehouseWatch:
             self.scenery = message
 
     def _on_stations(self, message: StationStates) -> None:
-        manual = [one.name for one in message.stations if one.mode == StationState.MANUAL]
+        manual = [
+            station.name for station in message.stations if station.mode == StationState.MANUAL
+        ]
         self.by_hand = frozenset(manual)
 
     def _on_fleet(self, message: FleetState) -> None:
@@ -121,9 +123,9 @@ def request_map() -> OccupancyGrid:
     return rospy.ServiceProxy("warehouse/map", GetMap)().map
 
 
-def is_same_floor(one: Scenery, other: Scenery) -> bool:
+def is_same_floor(scenery: Scenery, other: Scenery) -> bool:
     """Returns whether two sceneries differ at most in what comes and goes: people, boxes, ..."""
-    return one is other or _floor_of(one) == _floor_of(other)
+    return scenery is other or _floor_of(scenery) == _floor_of(other)
 
 
 def _floor_of(scenery: Scenery) -> tuple:

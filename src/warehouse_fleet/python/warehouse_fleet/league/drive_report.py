@@ -87,47 +87,48 @@ def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:
     }
 
 
-def _ratio(one: float, other: float) -> float:
+def _ratio(numerator: float, denominator: float) -> float:
     """Returns one / other to four digits; 1 for nothing planned."""
-    return float(f"{one / other:.4g}") if other > 0 else 1.0
+    return float(f"{numerator / denominator:.4g}") if denominator > 0 else 1.0
 
 
-def faults(told: dict[str, Any], is_whole: bool) -> list[str]:
+def faults(report: dict[str, Any], is_whole: bool) -> list[str]:
     """Returns sentences about what a drive should not have done, by its figures. is_whole: it was
     not interrupted."""
-    found = []
-    if told["contacts"]:
-        found.append(f"{told['contacts']} contacts of robots")
-    missing = told["robots"] - told["at_their_ends"]
+    problems = []
+    if report["contacts"]:
+        problems.append(f"{report['contacts']} contacts of robots")
+    missing = report["robots"] - report["at_their_ends"]
     if is_whole and missing:
-        found.append(f"{missing} robots are not where the plan ends")
-    return found
+        problems.append(f"{missing} robots are not where the plan ends")
+    return problems
 
 
-def table(told: dict[str, Any]) -> str:
+def table(report: dict[str, Any]) -> str:
     """Returns the figures as a table for people."""
     rows = [
-        ("robots", f"{told['robots']:,}"),
-        ("ticks of the plan", f"{told['ticks']:,}"),
-        ("planned", f"{told['planned_s']:,.1f} s, {told['tick_s']:.3f} s a tick"),
-        ("executed", f"{told['executed_s']:,.1f} s"),
-        ("executed over planned", f"{told['executed_over_planned']:.3f}"),
-        ("the same, mean of robots", f"{told['executed_over_planned_of_a_robot']:.3f}"),
-        ("at their ends", f"{told['at_their_ends']:,} of {told['robots']:,}"),
-        ("contacts", f"{told['contacts']:,}"),
-        ("rings broken", f"{told['rings_broken']:,}"),
-        ("driven", f"{told['metres'] / 1000:,.1f} km"),
+        ("robots", f"{report['robots']:,}"),
+        ("ticks of the plan", f"{report['ticks']:,}"),
+        ("planned", f"{report['planned_s']:,.1f} s, {report['tick_s']:.3f} s a tick"),
+        ("executed", f"{report['executed_s']:,.1f} s"),
+        ("executed over planned", f"{report['executed_over_planned']:.3f}"),
+        ("the same, mean of robots", f"{report['executed_over_planned_of_a_robot']:.3f}"),
+        ("at their ends", f"{report['at_their_ends']:,} of {report['robots']:,}"),
+        ("contacts", f"{report['contacts']:,}"),
+        ("rings broken", f"{report['rings_broken']:,}"),
+        ("driven", f"{report['metres'] / 1000:,.1f} km"),
         (
             "real-time factor",
-            f"{told['real_time_factor']:.3g}, by CPU time {told['real_time_factor_by_cpu']:.3g}",
+            f"{report['real_time_factor']:.3g},"
+            f" by CPU time {report['real_time_factor_by_cpu']:.3g}",
         ),
     ]
-    seconds = told["robot_seconds"]
+    seconds = report["robot_seconds"]
     whole = max(sum(seconds.values()), 1e-9)
     spent = [(WORDS[cause], seconds[cause.name.lower()]) for cause in Cause]
-    rows += [("", ""), ("time of a robot", f"{whole / told['robots']:,.1f} s, of which")]
+    rows += [("", ""), ("time of a robot", f"{whole / report['robots']:,.1f} s, of which")]
     rows += [
-        (f"  {words}", f"{value / told['robots']:,.1f} s, {100 * value / whole:.1f} %")
+        (f"  {words}", f"{value / report['robots']:,.1f} s, {100 * value / whole:.1f} %")
         for words, value in spent
     ]
     wide = max(len(name) for name, _ in rows)

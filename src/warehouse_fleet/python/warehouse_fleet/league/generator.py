@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 @dataclass
-class Warehouse:
+class LeagueWarehouse:
     """A floor. All arrays are (rows, columns) of bool."""
 
     passable: NDArray[np.bool_]  # the whole floor, beneath storage units too
@@ -28,7 +28,7 @@ def warehouse(
     aisle: int = 1,
     margin: int = 4,
     stations: int = 14,
-) -> Warehouse:
+) -> LeagueWarehouse:
     """Returns a floor of `blocks` (columns, rows) blocks of `block` (columns, rows) shelves each,
     with aisles of `aisle` cells between them, a margin of `margin` cells around them, and so many
     stations along each of the top and bottom walls."""
@@ -41,10 +41,10 @@ def warehouse(
     places = np.zeros((rows, columns), bool)
     along = np.linspace(1, columns - 2, stations).round().astype(int)
     places[0, along] = places[-1, along] = True
-    return Warehouse(np.ones((rows, columns), bool), storage, places)
+    return LeagueWarehouse(np.ones((rows, columns), bool), storage, places)
 
 
-def huge(times: int = 1) -> Warehouse:
+def huge(times: int = 1) -> LeagueWarehouse:
     """Returns about the floor of the preset `huge`, or one `times` as large: blocks two deep, at
     least 4,000 storage places and 40 stations."""
     rows = 34 * times
@@ -52,7 +52,7 @@ def huge(times: int = 1) -> Warehouse:
 
 
 def tasks(
-    floor: Warehouse, count: int, rng: np.random.Generator, at_stations: float = 0.5
+    floor: LeagueWarehouse, count: int, rng: np.random.Generator, at_stations: float = 0.5
 ) -> NDArray[np.int64]:
     """Returns the cells of `count` random tasks of one errand, (count,): a station with probability
     `at_stations`, else a cell of an aisle beside a shelf."""
@@ -66,7 +66,7 @@ def tasks(
     return np.where(at_station, rng.choice(stations, count), rng.choice(shelves, count))
 
 
-def starts(floor: Warehouse, robots: int, rng: np.random.Generator) -> NDArray[np.int64]:
+def starts(floor: LeagueWarehouse, robots: int, rng: np.random.Generator) -> NDArray[np.int64]:
     """Returns random distinct cells of the aisles, (robots,); raises ValueError if there are
     fewer."""
     free = np.flatnonzero(floor.walls())

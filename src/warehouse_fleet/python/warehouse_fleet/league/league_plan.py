@@ -123,7 +123,7 @@ class _Result:
         entries = self._list("start")
         if len(entries) != robots:
             self._fail(f"start has {len(entries)} robots; actualPaths has {robots}")
-        start, heading = zip(*(self._start(i, one, passable) for i, one in enumerate(entries)))
+        start, heading = zip(*(self._start(i, row, passable) for i, row in enumerate(entries)))
         first: dict[int, int] = {}
         for robot, location in enumerate(start):
             if first.setdefault(location, robot) != robot:
@@ -172,6 +172,6 @@ def _check_conflicts(plan: LeaguePlan) -> None:
     """Raises ProblemError where robots would be in walls, in one cell, or exchange their cells."""
     fleet = Fleet(plan.start, plan.heading, plan.start)
     floor = Floor(plan.passable)
-    found = validate(floor, fleet, plan.actions, Rules(rings=True))
-    if found:
-        raise ProblemError(f"{plan.source}: actualPaths: {found[0].describe(floor)}")
+    violations = validate(floor, fleet, plan.actions, Rules(rings=True))
+    if violations:
+        raise ProblemError(f"{plan.source}: actualPaths: {violations[0].describe(floor)}")

@@ -15,8 +15,8 @@ from warehouse_fleet._core import Execution
 from warehouse_fleet.hosts.fleet_driver import UPDATE
 from warehouse_fleet.league.drive_order import DriveOrder
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import EventKind, State
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import EventKind, State
 
 STUCK = 60.0  # after which a fleet of which no robot moves is given up [s]
 STANDSTILL = 0.01  # [m/s]

@@ -96,15 +96,15 @@ class Rollout:
         scores = score(scene)
         targets = self.view.targets(scene)
         pibt = Pibt(scene.cell, targets, free, self._closed, scene.goal)
-        wanted = pibt.assign(scores, self.view.ranks(scene))
-        actions = self._towards(wanted, free)
+        wishes = pibt.assign(scores, self.view.ranks(scene))
+        actions = self._towards(wishes, free)
         if self.at < self._committed.shape[1]:
             kept = self._committed[:, self.at]
             actions = np.where(kept != FREE, kept, actions)
         if self.fleet.stopped.size:
             actions = np.where(self.fleet.stopped, WAIT, actions).astype(np.uint8)
         self.perform(actions)
-        scene.intent = wanted
+        scene.intent = wishes
         return actions
 
     def perform(self, actions: np.ndarray) -> None:
@@ -115,26 +115,26 @@ class Rollout:
         scene.move(cell, (scene.heading + QUARTERS[actions]) & 3)
         self.at += 1
 
-    def _towards(self, wanted: np.ndarray, free: np.ndarray) -> np.ndarray:
+    def _towards(self, cells: np.ndarray, free: np.ndarray) -> np.ndarray:
         scene = self.scene
-        facing = (wanted - scene.cell)[:, None] == self.view.step
+        facing = (cells - scene.cell)[:, None] == self.view.step
         quarters = (facing.argmax(1) - scene.heading) & 3
-        moves = free & (wanted != scene.cell)
+        moves = free & (cells != scene.cell)
         actions = np.where(moves, TURN[quarters], WAIT).astype(np.uint8)
-        late = (actions == FORWARD) & ~self._can_go(wanted, actions == FORWARD)
+        late = (actions == FORWARD) & ~self._can_go(cells, actions == FORWARD)
         actions[late] = WAIT
         return actions
 
-    def _can_go(self, wanted: np.ndarray, forward: np.ndarray) -> np.ndarray:
+    def _can_go(self, cells: np.ndarray, forward: np.ndarray) -> np.ndarray:
         """(robots,) bool: whose next cell is empty, or left in time by one that can go itself.
 
         A ring never comes to an empty cell, so that none of its robots goes.
         """
         holder = {int(cell): robot for robot, cell in enumerate(self.scene.cell)}
-        goes = np.zeros(len(wanted), bool)
+        goes = np.zeros(len(cells), bool)
         behind: dict[int, list[int]] = {}
         for robot in np.flatnonzero(forward).tolist():
-            behind.setdefault(int(wanted[robot]), []).append(robot)
+            behind.setdefault(int(cells[robot]), []).append(robot)
         ready = [cell for cell in behind if cell not in holder]
         while ready:
             cell = ready.pop()

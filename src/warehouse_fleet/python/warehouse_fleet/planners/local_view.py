@@ -44,7 +44,7 @@ class Scene:
 
 
 class LocalView:
-    """Of a floor."""
+    """The views of robots on a floor."""
 
     FEATURES = 16
 
@@ -112,8 +112,8 @@ class LocalView:
         return possible & ~short_cut & ~turns_tight
 
     def _holders(self, scene: Scene, other: np.ndarray, best: np.ndarray) -> list[np.ndarray]:
-        """Of the robot that stands in each candidate, (robots, 5) bool each: whether it heads the
-        same way, wants to come here, and is where it is to be."""
+        """Returns, for the robot that stands in each candidate, (robots, 5) bool each: whether it
+        heads the same way, wants to come here, and is where it is to be."""
         held, direction = other != NOWHERE, np.array([0, 0, 1, 2, 3])
         rests = (scene.goal == NOWHERE) | (scene.goal == scene.cell)
         return [
@@ -167,7 +167,8 @@ class LocalView:
         return out
 
     def _tables(self, scene: Scene) -> list[np.ndarray | None]:
-        """Of each robot the cells to its goal around obstacles, or through them if need be."""
+        """Returns, for each robot, the cells to its goal around obstacles, or through them if need
+        be."""
         if scene.ways is not None:
             return scene.ways
         out: list[np.ndarray | None] = []
@@ -196,8 +197,8 @@ class LocalView:
         far[goal], front, steps = 0, np.array([goal]), 0
         while front.size:
             steps += 1
-            found = [before[offsets[c] : offsets[c + 1]] for c in front.tolist()]
-            front = np.unique(np.concatenate(found))
+            ahead_in = [before[offsets[c] : offsets[c + 1]] for c in front.tolist()]
+            front = np.unique(np.concatenate(ahead_in))
             front = front[far[front] == UNREACHED]
             far[front] = steps
         return far

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from warehouse_fleet.robots.message_enums import EventKind, FailureKind
+from warehouse_layout.message_enums import EventKind, FailureKind
 
 # Bits of FleetState.failures are the kinds of failures, and these.
 EMPTY = 0

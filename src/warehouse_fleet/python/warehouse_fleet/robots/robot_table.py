@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from warehouse_fleet.robots.failures import LIFTS_NOT, STANDS
-from warehouse_fleet.robots.message_enums import Mode
+from warehouse_layout.message_enums import RobotMode as Mode
 
 NOWHERE = -1
 AUTOMATIC, OUT_OF_SERVICE = int(Mode.AUTOMATIC), int(Mode.OUT_OF_SERVICE)

@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import State, Status
 from warehouse_fleet.robots.robot_table import Reports
 from warehouse_fleet.traffic.traffic import Traffic
+from warehouse_layout.message_enums import State, Status
 
 IN_TRANSIT = 2.0  # for which a message may still be on its way to a robot [s]
 LONGEST = 30.0  # after which a takeover ends whatever a robot is still doing [s]
@@ -47,14 +47,14 @@ class Handover:
 
     def waiting(self, time: float, reports: Reports) -> list[int]:
         """Returns the robots that wait on a path at that time [s], which is to be cancelled."""
-        found = []
+        waiting = []
         for robot, since in list(self._idle_since.items()):
             if reports["status"][robot] != Status.IDLE:
                 self._idle_since[robot] = None
                 if reports["state"][robot] == State.WAITING:
-                    found.append(robot)
+                    waiting.append(robot)
             elif since is None:
                 self._idle_since[robot] = time
             elif time - since > IN_TRANSIT:
                 del self._idle_since[robot]
-        return found
+        return waiting

@@ -16,12 +16,13 @@ import numpy as np
 from warehouse_fleet import Execution
 from warehouse_fleet.planners.plan_loop import PlanLoop
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_fleet.robots.message_enums import Mode, Status
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan, is_taken
+from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import Status
 
 MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
@@ -87,10 +88,9 @@ class Traffic:
             attempts=attempts,
             threads=threads,
         )
-        self.watchdog = Watchdog(self)
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
-        self.lane = np.asarray(plan.lane, bool).ravel()  # by cell
+        self.watchdog = Watchdog(self.robots, np.asarray(plan.lane, bool).ravel(), self.all_ahead)
         self._after = np.full(plan.passable.size, NOWHERE, np.int32)  # next cell of a lane, by cell
         for station in plan.stations:
             self._after[station.cells[:-1]] = station.cells[1:]
@@ -140,7 +140,7 @@ class Traffic:
         robots.lost &= ~robots.gone
         robots.mode[robots.lost] = OUT_OF_SERVICE
         self._find_foreign(reports, foreign)
-        self.watchdog.update()
+        self.watchdog.update(time)
 
     def inherited(self, reports: Reports) -> np.ndarray:
         """Returns (n,) bool: robots that have been on paths since before this began."""
@@ -184,6 +184,10 @@ class Traffic:
         robots = self.robots
         there = robots.stands & ~robots.busy & (robots.cell == robots.goal)
         return (there & among).nonzero()[0]
+
+    def shortest(self, begin: int, end: int, loaded: bool = False) -> int:
+        """Returns the cells of the shortest path from `begin` to `end`."""
+        return self.floor.shortest(begin, end, loaded=loaded)
 
     def on_refused(self, model: str) -> None:
         """Notes that a robot, by its model's name, has refused its path."""

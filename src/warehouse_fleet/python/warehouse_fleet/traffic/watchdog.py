@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Watches for robots that make no progress."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
-from warehouse_fleet.robots.robot_table import NOWHERE
-
-if TYPE_CHECKING:
-    from warehouse_fleet.traffic.traffic import Traffic
+from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 
 NO_PROGRESS = 30.0  # after which a robot is counted [s]
 LOOKS_AHEAD = 5.0  # without progress, after which the cause of waiting is looked up [s]
@@ -16,13 +13,17 @@ MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be s
 
 
 class Watchdog:
-    """Counts robots of a Traffic that make no progress. A robot that waits for one that is served
-    at a station, broken or commanded by a person is excused."""
+    """Counts robots that make no progress. A robot that waits for one that is served at a station,
+    broken or commanded by a person is excused. `lane`, (cells,) bool: those in lanes of stations.
+    `all_ahead` returns the robot for which each robot waits, (n,)."""
 
-    def __init__(self, traffic: "Traffic") -> None:
+    def __init__(
+        self, robots: RobotTable, lane: np.ndarray, all_ahead: Callable[[], np.ndarray]
+    ) -> None:
         self.count = 0  # how often a robot made no progress for NO_PROGRESS
-        self._traffic, self._robots = traffic, traffic.robots
-        count = len(traffic.robots)
+        self._robots, self._lane, self._all_ahead = robots, lane, all_ahead
+        self._time = 0.0  # of the last update [s]
+        count = len(robots)
         self._excused = np.full(count, -np.inf)  # when each was last seen to be excused [s]
         self._counted = np.zeros(count, bool)
 
@@ -30,11 +31,11 @@ class Watchdog:
     def stuck_for(self) -> np.ndarray:
         """(n,) [s]: how long each robot has made no progress without an excuse; excuses are looked
         up after LOOKS_AHEAD."""
-        return self._traffic.time - np.maximum(self._robots.still_since, self._excused)
+        return self._time - np.maximum(self._robots.still_since, self._excused)
 
-    def update(self) -> None:
-        """Looks up excuses and counts the robots without one."""
-        robots, time = self._robots, self._traffic.time
+    def update(self, time: float) -> None:
+        """Looks up excuses at a time [s], and counts the robots without one."""
+        robots, self._time = self._robots, time
         self._excused[robots.broken | robots.slowed_for_people] = time
         waiting = self.stuck_for > LOOKS_AHEAD
         if waiting.any():
@@ -45,19 +46,19 @@ class Watchdog:
 
     def _wait_excused(self) -> np.ndarray:
         """Returns (n,) bool: robots that wait, directly or behind others, for one that excuses."""
-        robots, traffic = self._robots, self._traffic
+        robots = self._robots
         # A robot that has just moved in a lane, which all pass in their order.
-        in_lane = traffic.lane[robots.cell] & (robots.cell != NOWHERE)
-        excuses = in_lane & (traffic.time - robots.still_since < MOVES_UP)
+        in_lane = self._lane[robots.cell] & (robots.cell != NOWHERE)
+        excuses = in_lane & (self._time - robots.still_since < MOVES_UP)
         excuses |= robots.busy | ~robots.automatic | robots.broken | robots.slowed_for_people
-        ahead = traffic.all_ahead()
+        ahead = self._all_ahead()
         ahead[ahead == NOWHERE] = len(robots)  # the end of each chain, which excuses none
-        ahead, found = np.append(ahead, len(robots)), np.append(excuses, False)
-        found = found[ahead]
+        ahead, excused = np.append(ahead, len(robots)), np.append(excuses, False)
+        excused = excused[ahead]
         # As many links again each time: a chain is at most as long as there are robots.
         for _ in range(len(robots).bit_length()):
-            further = found | found[ahead]
-            if np.array_equal(further, found):
+            further = excused | excused[ahead]
+            if np.array_equal(further, excused):
                 break
-            found, ahead = further, ahead[ahead]
-        return found[:-1]
+            excused, ahead = further, ahead[ahead]
+        return excused[:-1]

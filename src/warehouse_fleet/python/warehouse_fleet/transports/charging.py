@@ -2,17 +2,15 @@
 """Decides which robots charge, where and when. A policy decides when: one of NAMES, or a class with
 the same methods."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from warehouse_fleet.traffic.traffic import Traffic
-    from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_fleet.robots.robot_table import RobotTable
+from warehouse_fleet.transports.contracts import Clock, Roads
+from warehouse_fleet.transports.distances import Distances
 
 FULL = 0.98  # state of charge from which on charging gains nothing
 
@@ -91,7 +89,7 @@ NAMES: dict[str, type[Threshold]] = {"opportunity": Opportunity, "threshold": Th
 
 
 class Charging:
-    """Assigns charging places to robots. Does nothing where batteries are not simulated.
+    """Assigns charging places, `cells`, to robots. Does nothing where batteries are not simulated.
 
     Attributes: `policy` (decides when robots charge), `cell_of` (the charging place of each robot
     that has one, by robot index), `robot_s` (robot seconds spent at charging places so far).
@@ -99,12 +97,14 @@ class Charging:
 
     def __init__(
         self,
-        plan: FloorPlan,
-        traffic: Traffic,
-        far: Callable[[int, np.ndarray], np.ndarray],
+        cells: Sequence[int] | np.ndarray,
+        distances: Distances,
+        robots: RobotTable,
+        roads: Roads,
+        clock: Clock,
     ) -> None:
-        """far(cell, cells) returns the distance from a cell to each of `cells`, (n,) [cells]."""
-        self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
+        self._cells, self._distances = np.asarray(cells, int), distances
+        self._robots, self._roads, self._clock = robots, roads, clock
         self.policy: Policy = Opportunity()
         self.cell_of: dict[int, int] = {}
         self.robot_s = 0.0
@@ -113,12 +113,12 @@ class Charging:
     @property
     def is_simulated(self) -> bool:
         """Whether robots have batteries, and places where they are charged."""
-        return len(self._cells) > 0 and bool((self._traffic.robots.charge < 1).any())
+        return len(self._cells) > 0 and bool((self._robots.charge < 1).any())
 
     def kept(self) -> NDArray[np.bool_]:
         """Returns which robots get no work, (n,): those that charge, or must before anything
         else, be it elsewhere."""
-        charge = self._traffic.robots.charge
+        charge = self._robots.charge
         kept = np.zeros(len(charge), bool)
         charging = list(self.cell_of)
         kept[charging] = ~self.policy.frees(charge[charging])
@@ -129,42 +129,42 @@ class Charging:
         transports wait for robots."""
         if not self.is_simulated:
             return
-        traffic = self._traffic
+        robots = self._robots
         self._count()
-        for robot in [r for r in self.cell_of if not idle[r] or traffic.robots.charge[r] >= FULL]:
+        for robot in [r for r in self.cell_of if not idle[r] or robots.charge[r] >= FULL]:
             del self.cell_of[robot]
-        wants = idle & ~traffic.robots.broken & self.policy.sends(traffic.robots.charge, is_wanted)
+        wants = idle & ~robots.broken & self.policy.sends(robots.charge, is_wanted)
         wants[list(self.cell_of)] = False
-        for robot in sorted(np.flatnonzero(wants), key=lambda r: float(traffic.robots.charge[r])):
+        for robot in sorted(np.flatnonzero(wants), key=lambda r: float(robots.charge[r])):
             if not self._place(int(robot)):
                 break
         # Also sends back robots that others pushed out of their places.
         for robot, cell in self.cell_of.items():
-            if traffic.robots.goal[robot] != cell:
-                traffic.robots.send(robot, cell)
+            if robots.goal[robot] != cell:
+                robots.send(robot, cell)
 
     def _place(self, robot: int) -> bool:
         """Assigns a charging place to the robot: a free one, or that of a robot which needs it
         less. Returns whether there was one."""
-        traffic = self._traffic
-        cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *traffic.closed.tolist()])
+        robots = self._robots
+        cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *self._roads.closed.tolist()])
         if not len(cells):
             others = np.array(list(self.cell_of), int)
-            done = others[self.policy.frees(traffic.robots.charge[others])]
-            if not len(done) or traffic.robots.charge[robot] >= self.policy.low:
+            done = others[self.policy.frees(robots.charge[others])]
+            if not len(done) or robots.charge[robot] >= self.policy.low:
                 return False
-            fullest = int(done[traffic.robots.charge[done].argmax()])
+            fullest = int(done[robots.charge[done].argmax()])
             cells = np.array([self.cell_of.pop(fullest)])
         # A place counts as farther while another robot stands in it: that robot must leave first.
-        own, taken = int(traffic.robots.cell[robot]), traffic.robots.cell
-        far = self._far(own, cells) + 10 * np.isin(cells, taken)
+        own, taken = int(robots.cell[robot]), robots.cell
+        far = self._distances(own, cells) + 10 * np.isin(cells, taken)
         far[cells == own] = 0
         self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
     def _count(self) -> None:
         """Adds the time since the last call to `robot_s`, for each robot in its charging place."""
-        traffic = self._traffic
-        elapsed = 0.0 if self._time is None else traffic.time - self._time
-        self._time = traffic.time
-        self.robot_s += elapsed * sum(traffic.robots.cell[r] == c for r, c in self.cell_of.items())
+        time = self._clock.time
+        elapsed = 0.0 if self._time is None else time - self._time
+        self._time = time
+        self.robot_s += elapsed * sum(self._robots.cell[r] == c for r, c in self.cell_of.items())

@@ -3,15 +3,16 @@
 
 import bisect
 import collections
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Then, TransportEventKind
 from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_fleet.transports.contracts import Clock
+from warehouse_layout.message_enums import Then, TransportEventKind
 
 STORE, STAY = Then.STORE, Then.STAY  # what becomes of the unit afterwards
 Kind = TransportEventKind
@@ -32,7 +33,7 @@ class TransportEvent(NamedTuple):
     text: str
 
 
-class Answer(NamedTuple):
+class TransportAnswer(NamedTuple):
     """The answer to a request; `transport_id` is 0 if it was refused."""
 
     transport_id: int
@@ -51,6 +52,14 @@ class Step(IntEnum):
     WAITING = 5  # at its destination, until it is released
     STORING = 6  # on the way to a storage place
     DROPPING = 7
+
+
+class Leave(IntEnum):
+    """Whether a unit may leave its destination, or need not go there."""
+
+    NO = 0
+    RELEASED = 1
+    CANCELLED = 2
 
 
 # A member of an enumeration is found by a slow search; these are looked at for each robot.
@@ -82,8 +91,7 @@ class Transport:
     priority: int = 0
     step: Step = OPEN
     robot: int = NOWHERE  # an index
-    let_go: bool = False  # it leaves its destination, or does not go there
-    cancelled: bool = False  # after its unit was lifted
+    leave: Leave = Leave.NO
     since: float = 0.0  # the step began
     attempts: int = 0  # at lifting
     place: int = NOWHERE  # the storage cell that is kept for it while it is under way
@@ -113,8 +121,8 @@ def _urgency(transport: Transport) -> tuple[int, int]:
 
 
 class TransportBook:
-    """All transports that are not over, by number, robot and unit; `robots`: how many there are.
-    Numbers begin after `last`.
+    """All transports that are not over, by number, robot and unit. `kiva_ids`: of the robots, by
+    index. Numbers begin after `last`.
 
     Arrays by robot, (n,): `step_of` (the Step of its transport; NOWHERE: it has none), `place_of`
     (the storage cell that is kept for its unit), `station_of` (an index into `stations`).
@@ -124,11 +132,18 @@ class TransportBook:
     beneath, `inbound` those that are lifted, until they leave it; go_on() counts.
     """
 
-    def __init__(self, robots: int, last: int = 0, stations: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        kiva_ids: Sequence[int] | np.ndarray,
+        clock: Clock,
+        last: int = 0,
+        stations: Iterable[str] = (),
+    ) -> None:
+        self._kiva_ids, self._clock = kiva_ids, clock
         self.totals = Totals()
-        self.step_of = np.full(robots, NOWHERE, np.int8)
-        self.place_of = np.full(robots, NOWHERE, np.int32)
-        self.station_of = np.full(robots, NOWHERE, np.int32)
+        self.step_of = np.full(len(kiva_ids), NOWHERE, np.int8)
+        self.place_of = np.full(len(kiva_ids), NOWHERE, np.int32)
+        self.station_of = np.full(len(kiva_ids), NOWHERE, np.int32)
         self._station = {name: i for i, name in enumerate(stations)}
         self._turns = 0
         self.open: list[Transport] = []
@@ -146,6 +161,11 @@ class TransportBook:
 
     def __contains__(self, number: object) -> bool:
         return number in self._by_number
+
+    @property
+    def time(self) -> float:
+        """The simulated time [s]."""
+        return self._clock.time
 
     def get(self, number: int) -> Transport | None:
         """Returns the transport of that number; None if it is over, or never was."""
@@ -177,11 +197,11 @@ class TransportBook:
         """Sorts the transports without a robot by priority, then by number."""
         self.open.sort(key=_urgency)
 
-    def assign(self, transport: Transport, robot: int, time: float) -> None:
+    def assign(self, transport: Transport, robot: int) -> None:
         """Gives an open transport to a robot, which fetches the unit."""
         self._dequeue(transport)
         self.hand_over(transport, robot)
-        self.go_on(transport, FETCHING, time)
+        self.go_on(transport, FETCHING)
 
     def hand_over(self, transport: Transport, robot: int) -> None:
         """Notes that a robot does a transport."""
@@ -191,14 +211,14 @@ class TransportBook:
         self.step_of[robot] = transport.step
         self.station_of[robot] = self._station.get(transport.station, NOWHERE)
 
-    def go_on(self, transport: Transport, step: Step, time: float) -> None:
-        """Brings a transport that a robot does to a step, at `time` [s]. Raises ValueError where
-        that step does not follow."""
+    def go_on(self, transport: Transport, step: Step) -> None:
+        """Brings a transport that a robot does to a step. Raises ValueError where that step does
+        not follow."""
         if step not in FOLLOWS[transport.step]:
             text = f"{step.name} can't follow {transport.step.name}"
             raise ValueError(f"transport {transport.number}: {text}")
         self._count(transport, -1)
-        transport.step, transport.since = step, time
+        transport.step, transport.since = step, self.time
         self.step_of[transport.robot] = step
         self._count(transport, 1)
         if step == READY:
@@ -222,7 +242,7 @@ class TransportBook:
 
     def unassign(self, transport: Transport) -> None:
         """Takes a transport from its robot before the unit is lifted: another one fetches it."""
-        self.go_on(transport, OPEN, transport.since)
+        self.go_on(transport, OPEN)
         self._leave_robot(transport)
         transport.robot = NOWHERE
         self.enqueue(transport)
@@ -257,12 +277,12 @@ class TransportBook:
         """Returns the storage cells that are kept for units under way."""
         return self.place_of[self.place_of != NOWHERE]
 
-    def publish_event(
-        self, time: float, transport: Transport, kind: Kind, kiva_id: int, text: str = ""
-    ) -> None:
-        """Adds an event of that time [s] for take_events()."""
+    def publish_event(self, transport: Transport, kind: Kind, text: str = "") -> None:
+        """Adds an event of a transport for take_events()."""
+        robot = transport.robot
+        kiva_id = int(self._kiva_ids[robot]) if robot != NOWHERE else 0
         number, shelf, station = transport.number, transport.shelf, transport.station
-        self._events.append(TransportEvent(time, number, kind, kiva_id, shelf, station, text))
+        self._events.append(TransportEvent(self.time, number, kind, kiva_id, shelf, station, text))
 
     @property
     def has_events(self) -> bool:

@@ -14,9 +14,10 @@ from warehouse_fleet.transports.transport_book import (
     STAY,
     STORE,
     WAITING,
-    Answer,
     Kind,
+    Leave,
     Transport,
+    TransportAnswer,
     TransportBook,
     TransportEvent,
 )
@@ -37,17 +38,8 @@ class TransportRequests(ABC):
 
     @property
     @abstractmethod
-    def time(self) -> float:
-        """The simulated time [s]."""
-
-    @property
-    @abstractmethod
     def cell_of_unit(self) -> Mapping[int, int]:
         """The cell of each unit; NOWHERE: it is carried, or stands across cells."""
-
-    @abstractmethod
-    def kiva_id(self, robot: int) -> int:
-        """Returns the id of a robot, given its index."""
 
     @abstractmethod
     def check_reach(self, shelf_id: int, cell: int) -> None:
@@ -79,18 +71,18 @@ class TransportRequests(ABC):
         y: float | None = None,
         then: int = STORE,
         priority: int = 0,
-    ) -> Answer:
+    ) -> TransportAnswer:
         """Asks for a unit to be brought to a station, or to the cell at (x, y) [m]."""
         try:
             self._check(shelf_id, then)
             cell = self._destination(shelf_id, station, x, y)
             self.check_reach(shelf_id, cell)
         except ValueError as error:
-            return Answer(0, False, str(error))
+            return TransportAnswer(0, False, str(error))
         transport = self.book.add(shelf_id, station, cell, then, priority)
         self.book.enqueue(transport)
-        self.publish_event(transport, Kind.RECEIVED)
-        return Answer(transport.number, True, "")
+        self.book.publish_event(transport, Kind.RECEIVED)
+        return TransportAnswer(transport.number, True, "")
 
     def _check(self, shelf_id: int, then: int) -> None:
         if shelf_id in self.book.of_unit:
@@ -126,13 +118,13 @@ class TransportRequests(ABC):
         transport = self.book.get(transport_id)
         if transport is None:
             return False, f"there is no transport {transport_id} under way"
-        if transport.cancelled:
+        if transport.leave == Leave.CANCELLED:
             return False, f"transport {transport_id} was cancelled"
-        if transport.let_go or transport.step > WAITING:
+        if transport.leave or transport.step > WAITING:
             return False, f"transport {transport_id} has been released already"
         if transport.step < WAITING:
             return False, f"transport {transport_id} has not arrived yet"
-        self._let_go(transport)
+        self._let_go(transport, Leave.RELEASED)
         return True, ""
 
     def cancel(self, transport_id: int) -> tuple[bool, str]:
@@ -142,23 +134,23 @@ class TransportRequests(ABC):
         transport = self.book.get(transport_id)
         if transport is None:
             return False, f"there is no transport {transport_id} under way"
-        if transport.cancelled:
+        if transport.leave == Leave.CANCELLED:
             return True, ""
         if transport.step <= READY:
-            self.publish_event(transport, Kind.CANCELLED)
+            self.book.publish_event(transport, Kind.CANCELLED)
             self.end(transport)
             return True, ""
-        if transport.let_go or transport.step > WAITING:
+        if transport.leave or transport.step > WAITING:
             return True, ""
-        self.publish_event(transport, Kind.CANCELLED)
-        transport.cancelled, transport.then = True, STORE
-        self._let_go(transport)
+        self.book.publish_event(transport, Kind.CANCELLED)
+        transport.then = STORE
+        self._let_go(transport, Leave.CANCELLED)
         if transport.step == BRINGING:
             self.turn_back(transport)
         return True, ""
 
-    def _let_go(self, transport: Transport) -> None:
-        transport.let_go = True
+    def _let_go(self, transport: Transport, leave: Leave) -> None:
+        transport.leave = leave
         if transport.step == WAITING:
             self.leave(transport)
 
@@ -177,17 +169,11 @@ class TransportRequests(ABC):
     def arrive(self, transport: Transport) -> None:
         """Notes that a unit has come to its destination, where it waits to be released. In a cell
         where it is to stay it is put down at once."""
-        self.book.go_on(transport, WAITING, self.time)
+        self.book.go_on(transport, WAITING)
         self.book.totals.delivered += 1
-        self.publish_event(transport, Kind.ARRIVED)
+        self.book.publish_event(transport, Kind.ARRIVED)
         if not transport.station and transport.then == STAY:
-            self._let_go(transport)
-
-    def publish_event(self, transport: Transport, kind: Kind, text: str = "") -> None:
-        """Adds an event of a transport."""
-        robot = transport.robot
-        kiva_id = self.kiva_id(robot) if robot != NOWHERE else 0
-        self.book.publish_event(self.time, transport, kind, kiva_id, text)
+            self._let_go(transport, Leave.RELEASED)
 
     def take_events(self) -> list[TransportEvent]:
         """Returns all events since the last call, in order."""

@@ -2,8 +2,7 @@
 """Transports: a storage unit is fetched, brought to a station or a cell, waits there until it is
 released, and is stored again. Neither ROS nor physics: Traffic drives, the host sends the lifts."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -11,16 +10,30 @@ from warehouse_fleet.robots.robot_table import NOWHERE, Reports
 from warehouse_fleet.traffic.station_ways import StationWays
 from warehouse_fleet.traffic.traffic import STAYS, Traffic
 from warehouse_fleet.transports.charging import Charging
-from warehouse_fleet.transports.dispatch import admit, assign, carry, park, recover
+from warehouse_fleet.transports.completion import Completion
+from warehouse_fleet.transports.dispatch.admit import Admission
+from warehouse_fleet.transports.dispatch.arrive import Arrival
+from warehouse_fleet.transports.dispatch.assign import Assignment, Matching, nearest_robots
+from warehouse_fleet.transports.dispatch.clear import Clearing
+from warehouse_fleet.transports.dispatch.depart import Departure
+from warehouse_fleet.transports.dispatch.idle import idle_robots
+from warehouse_fleet.transports.dispatch.lift import LiftWatch
+from warehouse_fleet.transports.dispatch.park import CellChoice, Parking
+from warehouse_fleet.transports.dispatch.recover import Recovery
+from warehouse_fleet.transports.distances import Distances
+from warehouse_fleet.transports.journeys import Journeys
+from warehouse_fleet.transports.lifts import LiftOrder, Lifts
+from warehouse_fleet.transports.storing import PlaceChoice, Storing
+from warehouse_fleet.transports.streets import Streets
 from warehouse_fleet.transports.transport_book import (
     ENDS,
     STAY,
     STORE,
-    Answer,
     Kind,
     Step,
     Totals,
     Transport,
+    TransportAnswer,
     TransportBook,
     TransportEvent,
 )
@@ -33,7 +46,7 @@ __all__ = [
     "NOWHERE",
     "STAY",
     "STORE",
-    "Answer",
+    "TransportAnswer",
     "Kind",
     "LiftOrder",
     "Step",
@@ -43,14 +56,6 @@ __all__ = [
 ]
 
 LIFTED = 6  # units under way to a station at the most: more only crowd the streets before it
-
-
-class LiftOrder(NamedTuple):
-    """A robot is to lift (up) or drop a unit, where it stands."""
-
-    kiva_id: int
-    shelf_id: int
-    up: bool
 
 
 class Transports(TransportRequests):
@@ -64,50 +69,74 @@ class Transports(TransportRequests):
     """
 
     def __init__(self, plan: FloorPlan, traffic: Traffic, last: int = 0) -> None:
+        robots = traffic.robots
         names = [station.name for station in plan.stations]
-        super().__init__(plan, TransportBook(len(traffic.robots), last, names))
-        self.traffic, self.robots = traffic, traffic.robots
+        super().__init__(plan, TransportBook(robots.kiva_ids, traffic, last, names))
+        self._traffic, self.robots = traffic, robots
         self.units = UnitMap(plan)
-        self.match_robots: Callable[
-            [list[Transport], np.ndarray], Iterable[tuple[Transport, int]]
-        ] = lambda asked, free: assign.nearest_robots(self, asked, free)
-        self.choose_place: Callable[[int, int, np.ndarray], int] = lambda _shelf_id, cell, free: (
-            self.nearest(cell, free)
-        )
-        self.park: Callable[[int], int | None] = lambda _robot: None
-        # How many units of a station may be lifted at a time: its lane has room for them.
-        self.capacity = {one.name: min(LIFTED, one.service + 1) for one in plan.stations}
-        self._queue_of = np.full(
-            plan.passable.size, NOWHERE, np.int32
-        )  # a station's index, by cell
-        for i, one in enumerate(plan.stations):
-            self._queue_of[one.queue] = i
-        self._ways = StationWays(plan)
-        self.charging = Charging(plan, traffic, self.distance)
-        self.places = np.flatnonzero(plan.storage)  # cells
+        self.distances = Distances(plan.width)
         self.aside = (plan.storage | plan.parking).ravel()  # cells where no robot passes
-        # What the phases keep from tick to tick.
-        self.abandoned_units: set[int] = set()  # to be stored, wherever they are
-        self.released: list[Transport] = []  # that wait at their destination, and may leave
-        self.freed: list[int] = []  # robots that have ended a transport since park ran
-        self.shortest: dict[int, int] = {}  # cells of the journey that a robot is on
-        self._lifts: list[LiftOrder] = []
+        self.match_robots: Matching = lambda asked, free: nearest_robots(
+            self.distances, self.units.cell_of, robots.cell, asked, free
+        )
+        self.choose_place: PlaceChoice = lambda _shelf_id, cell, free: self.distances.nearest(
+            cell, free
+        )
+        self.park: CellChoice = lambda _robot: None
+        self._queue_of = np.full(plan.passable.size, NOWHERE, np.int32)  # a station's, by cell
+        for i, station in enumerate(plan.stations):
+            self._queue_of[station.queue] = i
+        self.charging = Charging(plan.charging, self.distances, robots, traffic, traffic)
+        self._build_phases()
+
+    def _build_phases(self) -> None:
+        plan, traffic, book = self.plan, self._traffic, self.book
+        robots, units, charging = self.robots, self.units, self.charging
+        lifts = self._lifts = Lifts(book, robots)
+        streets = self._streets = Streets(units, traffic, StationWays(plan))
+        completion = self._completion = Completion(book, robots)
+        journeys = Journeys(robots, traffic, book.totals)
+        storage = plan.storage.ravel()
+        storing = self._storing = Storing(
+            storage, book, robots, units, traffic, journeys, self._choose_place
+        )
+        self._recovery = Recovery(book, robots, units, traffic, storing, completion)
+        self._lift_watch = LiftWatch(book, robots, lifts, streets, journeys, storing, completion)
+        self._arrival = Arrival(book, robots, journeys, lifts, self.arrive)
+        self._departure = Departure(book, robots, lifts, storing)
+        # The lane of a station has room for its queue and the unit that is served.
+        capacity = {s.name: min(LIFTED, s.service + 1) for s in plan.stations}
+        self._admission = Admission(book, robots, lifts, streets, capacity)
+        self._assignment = Assignment(
+            book, robots, units, journeys, charging.kept, self._match_robots
+        )
+        self._parking = Parking(self.aside, book, robots, completion, charging.cell_of, self._park)
+        self._clearing = Clearing(self.aside, self.distances, book, robots, units, charging.cell_of)
+
+    # The decisions of others, who may be replaced at any time.
+
+    def _match_robots(
+        self, asked: list[Transport], free: np.ndarray
+    ) -> Iterable[tuple[Transport, int]]:
+        return self.match_robots(asked, free)
+
+    def _choose_place(self, shelf_id: int, cell: int, free: np.ndarray) -> int:
+        return self.choose_place(shelf_id, cell, free)
+
+    def _park(self, robot: int) -> int | None:
+        return self.park(robot)
 
     # --- the fleet of TransportRequests
 
     @property
     def time(self) -> float:
         """The simulated time of the last reports [s]."""
-        return self.traffic.time
+        return self._traffic.time
 
     @property
     def cell_of_unit(self) -> dict[int, int]:
         """The cell of each unit; NOWHERE: it is carried, or stands across cells."""
         return self.units.cell_of
-
-    def kiva_id(self, robot: int) -> int:
-        """Returns the id of a robot, given its index."""
-        return int(self.robots.kiva_ids[robot])
 
     def check_reach(self, shelf_id: int, cell: int) -> None:
         """Raises ValueError if no robot can come to a unit; `cell` is on the fleet's floor."""
@@ -116,31 +145,19 @@ class Transports(TransportRequests):
 
     def taken(self) -> np.ndarray:
         """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
-        taken = self.units.stands.copy()
-        taken[self.book.kept_places()] = True
-        taken[self.book.destinations()] = True
-        return taken
+        return self._storing.taken()
 
     def end(self, transport: Transport) -> None:
         """Removes a transport that is over; its robot is free."""
-        self.book.remove(transport)
-        if transport.robot != NOWHERE:
-            self.freed.append(transport.robot)
-            self.robots.send(transport.robot, NOWHERE)
+        self._completion.end(transport)
 
     def turn_back(self, transport: Transport) -> None:
         """Has a unit that is being brought stored instead."""
-        carry.store(self, transport)
+        self._storing.store(transport)
 
     def leave(self, transport: Transport) -> None:
         """Has a unit leave its destination at the next tick."""
-        self.released.append(transport)
-
-    def fail(self, transport: Transport, text: str) -> None:
-        """Ends a transport that can't be done, for the reason `text`."""
-        self.book.totals.failed += 1
-        self.publish_event(transport, Kind.FAILED, text)
-        self.end(transport)
+        self._departure.add(transport)
 
     # --- state
 
@@ -161,8 +178,7 @@ class Transports(TransportRequests):
 
     def take_lifts(self) -> list[LiftOrder]:
         """Returns the lifts that are to be sent since the last call."""
-        lifts, self._lifts = self._lifts, []
-        return lifts
+        return self._lifts.take()
 
     def open_for(self, station: str) -> int:
         """Returns how many transports to a station have no robot yet."""
@@ -178,7 +194,7 @@ class Transports(TransportRequests):
         across cells are not fetched, and close the cells around them."""
         cells, obstructed = self.units.locate(poses)
         for cell in obstructed:
-            self.traffic.shut(cell, poses.stamp + STAYS)
+            self._traffic.shut(cell, poses.stamp + STAYS)
         self.update_cells(cells, poses.stamp)
 
     def update_cells(self, cells: dict[int, int], stamp: float) -> None:
@@ -187,55 +203,26 @@ class Transports(TransportRequests):
         self.units.update(cells, stamp, lifted)
         for transport in self:
             if transport.shelf not in self.units.cell_of:
-                self.fail(transport, f"storage unit {transport.shelf} was removed from the world")
-        recover.store_abandoned(self)
-        self.close_streets()
+                text = f"storage unit {transport.shelf} was removed from the world"
+                self._completion.fail(transport, text)
+        self._recovery.store_abandoned()
+        self._streets.update()
 
     # --- the dispatcher
 
     def advance(self, reports: Reports) -> None:
         """Runs all phases once, by what robots report: aligned reports (n,) of REPORT."""
-        recover.run(self, reports)
-        carry.run(self, reports)
-        admit.run(self)
+        self._recovery.run(reports)
+        self._lift_watch.run(reports)
+        self._arrival.run()
+        self._departure.run()
+        self._admission.run()
         self._charge(is_wanted=True)
-        assign.run(self)
+        self._assignment.run()
         self._charge(is_wanted=bool(self.book.open))
-        park.run(self)
+        self._parking.run()
+        self._clearing.run()
 
     def _charge(self, is_wanted: bool) -> None:
         if self.charging.is_simulated:
-            self.charging.advance(self.without_work(), is_wanted)
-
-    def without_work(self) -> np.ndarray:
-        """Returns (n,) bool: robots that could be given work."""
-        robots = self.robots
-        idle = robots.automatic & ~robots.busy & ~robots.loaded & (robots.cell != NOWHERE)
-        return idle & (self.book.step_of == NOWHERE)
-
-    def is_cut_off(self, transport: Transport) -> bool:
-        """Returns whether no robot can come to the station of a transport, or leave it, with its
-        unit now."""
-        barred = {*self.traffic.closed.tolist(), *self.units.in_streets()}
-        barred.discard(self.cell_of_unit[transport.shelf])
-        return self._ways.are_barred(transport.station, barred)
-
-    def close_streets(self) -> None:
-        """Closes the cells in which units stand off the storage places for loaded robots."""
-        self.traffic.set_units(self.units.in_streets())
-
-    def order_lift(self, transport: Transport, up: bool) -> None:
-        """Adds the order that a transport's robot lifts or drops its unit."""
-        kiva_id = int(self.robots.kiva_ids[transport.robot])
-        self._lifts.append(LiftOrder(kiva_id, transport.shelf, up))
-
-    def nearest(self, cell: int, cells: Sequence[int]) -> int:
-        """Returns the nearest of some cells; NOWHERE if there are none."""
-        if not len(cells):
-            return NOWHERE
-        return int(cells[self.distance(cell, np.asarray(cells)).argmin()])
-
-    def distance(self, cell: int, cells: np.ndarray) -> np.ndarray:
-        """Returns how far some cells are, along the axes [cells]."""
-        (y, x), (ys, xs) = divmod(cell, self.plan.width), np.divmod(cells, self.plan.width)
-        return np.abs(xs - x) + np.abs(ys - y)
+            self.charging.advance(idle_robots(self.robots, self.book), is_wanted)

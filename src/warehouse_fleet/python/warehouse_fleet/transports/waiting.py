@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robots.message_enums import Mode
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.transports.transport_book import Step, Transport
+from warehouse_layout.message_enums import RobotMode as Mode
 
 if TYPE_CHECKING:
     from warehouse_fleet.traffic.traffic import Traffic
@@ -62,13 +62,13 @@ class Waiting:
             & ~self._robots.busy
             & ~self._robots.gone
         )
-        found = []
+        waiting = []
         for robot in np.flatnonzero(still).tolist():
             last = self._last_ahead(robot)
             station = self._served_at(last)
             if station not in self._by_hand:
-                found.append((robot, self._reason(robot, last, station)))
-        return found
+                waiting.append((robot, self._reason(robot, last, station)))
+        return waiting
 
     def for_people(self) -> list[str]:
         """Returns a sentence for each station that waits for a person to confirm, and how long."""
@@ -87,9 +87,9 @@ class Waiting:
 
     def _last_ahead(self, robot: int) -> int:
         """Returns the robot at the head of the queue in which a robot is; itself at its head."""
-        seen = {robot}
-        while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in seen:
-            seen.add(ahead)
+        passed = {robot}
+        while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in passed:
+            passed.add(ahead)
             robot = ahead
         return robot
 

@@ -52,7 +52,7 @@ def _check(args: argparse.Namespace) -> int:
         print(f"{args.file}: {fault.text}")
     if not faults:
         print(f"{args.file}: a fleet can work on it: {_summary(file)}")
-        if all(one.kind == "replenish" for one in file.stations):
+        if all(station.kind == "replenish" for station in file.stations):
             print(f"{args.file}: no order can be picked: there is no picking station")
     return BAD_FILE if faults else 0
 
@@ -78,10 +78,10 @@ def _convert(args: argparse.Namespace) -> int:
 
     angle = None if args.angle is None else math.radians(args.angle)
     source, target = Path(args.source), Path(args.target)
-    told = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
-    for sentence in told:
+    notes = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
+    for sentence in notes:
         print(sentence)
-    lost = [sentence for sentence in told if not isinstance(sentence, formats.Note)]
+    lost = [sentence for sentence in notes if not isinstance(sentence, formats.Note)]
     return BAD_FILE if lost and not args.lenient else 0
 
 
@@ -312,7 +312,7 @@ of OUT tells which to write.
 in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf .xml .csv .xlsx
 out  .layout.yaml .sdf .map .lif.json .svg .png
 
-What can't be carried over is told, a line each; then the exit code is 1, unless --lenient."""
+What can't be carried over is listed, a line each; then the exit code is 1, unless --lenient."""
 
 NEW = """Make a layout file: a preset, or by counts. Any of the last four options makes a compact
 floor: blocks of storage between streets, stations on as many sides as asked.

@@ -3,8 +3,8 @@
 
 Where the content is ambiguous, the suffix decides; what is written goes by the name.
 
-    told = formats.convert(Path("hall.dxf"), Path("hall.layout.yaml"))
-    for sentence in told:                          # what could not be carried over
+    notes = formats.convert(Path("hall.dxf"), Path("hall.layout.yaml"))
+    for sentence in notes:                         # what could not be carried over
         print(sentence)
 
 In: .layout.yaml, .sdf, .world, .xinst, .xlayo, .map, map.yaml, .lif.json, .dxf, .xml (openTCS),
@@ -69,8 +69,8 @@ def convert(
     for a file that can't be read.
     """
     _module(target, WRITERS, "written")
-    file, told = read(source, layers, spacing, angle)
-    return [*told, *write(file, target)]
+    file, notes = read(source, layers, spacing, angle)
+    return [*notes, *write(file, target)]
 
 
 def read(
@@ -93,11 +93,11 @@ def read(
         options["angle"] = angle
     if kind == "drawing":
         options["layers"] = layers
-    file, told = _checked(path, lambda: _with_told(module.read(path, **options)))
+    file, notes = _checked(path, lambda: _with_notes(module.read(path, **options)))
     if module is lf:
-        return file, told
+        return file, notes
     file = replace(file, name=file.name or path.name.split(".")[0])
-    return within_limits(file, told)
+    return within_limits(file, notes)
 
 
 def write(file: LayoutFile, path: Path) -> list[str]:
@@ -108,7 +108,7 @@ def write(file: LayoutFile, path: Path) -> list[str]:
     return _checked(path, lambda: list(writer(file, path) or []))
 
 
-def _with_told(answer: Any) -> tuple[LayoutFile, list[str]]:
+def _with_notes(answer: Any) -> tuple[LayoutFile, list[str]]:
     return (answer, []) if isinstance(answer, LayoutFile) else answer
 
 

@@ -90,9 +90,9 @@ def plural(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def within_limits(file: LayoutFile, told: list[str]) -> tuple[LayoutFile, list[str]]:
+def within_limits(file: LayoutFile, notes: list[str]) -> tuple[LayoutFile, list[str]]:
     """Returns the file with no more in it than a layout file may have, and what was left out."""
-    told = list(told)
+    notes = list(notes)
     counts: dict[str, Any] = {}
     for name, most in (
         ("robots", LIMITS["robots"]),
@@ -102,10 +102,10 @@ def within_limits(file: LayoutFile, told: list[str]) -> tuple[LayoutFile, list[s
         value = getattr(file, name)
         count = len(value) if isinstance(value, tuple) else value
         if count > most:
-            told.append(f"{count} {name.replace('_', ' ')}; a layout has {most} at most")
+            notes.append(f"{count} {name.replace('_', ' ')}; a layout has {most} at most")
             counts[name] = value[:most] if isinstance(value, tuple) else most
     name = " ".join("".join(c if c.isprintable() else " " for c in file.name).split())[:60]
-    return replace(file, name=name, **counts), told
+    return replace(file, name=name, **counts), notes
 
 
 def trimmed(file: LayoutFile) -> LayoutFile:

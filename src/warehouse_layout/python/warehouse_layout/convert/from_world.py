@@ -103,7 +103,7 @@ def _reached(
 class _Drawing:
     def __init__(self, world: SdfWorld, path: str) -> None:
         self._world, self._path = world, path
-        self._told = [f"{name}: its model was not found" for name in world.unknown]
+        self._notes = [f"{name}: its model was not found" for name in world.unknown]
         self._kinds: dict[str | None, list[Model]] = {}
         for model in world.models:
             self._kinds.setdefault(kind_and_number(model.name)[0], []).append(model)
@@ -131,14 +131,14 @@ class _Drawing:
         )
         centred = np.allclose(placement.origin(file), plan.origin)
         file = file if centred else replace(file, at=plan.origin)
-        self._told += [f"belt {text}" for text in plan.without_lane]
+        self._notes += [f"belt {text}" for text in plan.without_lane]
         if self._hint and _same(self._hint, file, plan):
             file = replace(file, floor=self._hint.floor, stations=self._hint.stations)
         else:
             drawn, unsaid = arrows.draw(plan, floor)
-            self._told += unsaid
+            self._notes += unsaid
             file = with_letters(replace(file, floor=drawn))
-        return (self._as_told(file, self._hint) if self._hint else file), self._told
+        return (self._as_hinted(file, self._hint) if self._hint else file), self._notes
 
     def _find_raster(self) -> _Raster:
         if self._hint:
@@ -175,8 +175,8 @@ class _Drawing:
     ) -> np.ndarray:
         """Returns the cells that solids, or those of models, cover, (h, w) bool; see cover()."""
         out = np.zeros(self._raster.shape, bool)
-        for one in solids:
-            for solid in one.solids if isinstance(one, Model) else [one]:
+        for body in solids:
+            for solid in body.solids if isinstance(body, Model) else [body]:
                 self._raster.cover(out, solid, turning, half_cell)
         return out
 
@@ -192,7 +192,7 @@ class _Drawing:
                 if high > STEP and low < HIGH:
                     yield solid
             if model.has_meshes:
-                self._told.append(f"{model.name}: its mesh is not drawn")
+                self._notes.append(f"{model.name}: its mesh is not drawn")
 
     def _plan(self, belts: np.ndarray, taken: np.ndarray) -> FloorPlan:
         raster = self._raster
@@ -217,14 +217,14 @@ class _Drawing:
         out: dict[Cell, None] = {}
         for model, (column, row), is_inside in zip(models, cells.tolist(), inside):
             if not is_inside or not allowed[row, column]:
-                self._told.append(f"{model.name} stands on no {where}")
+                self._notes.append(f"{model.name} stands on no {where}")
             elif (column, row) in out:
-                self._told.append(f"{model.name} stands in one cell with another {kind}")
+                self._notes.append(f"{model.name} stands in one cell with another {kind}")
             else:
                 out[column, row] = None
         return tuple(out)
 
-    def _as_told(self, file: LayoutFile, hint: LayoutFile) -> LayoutFile:
+    def _as_hinted(self, file: LayoutFile, hint: LayoutFile) -> LayoutFile:
         """Returns the file with what the hint knows and a world doesn't tell."""
         settings = {s.name: s.settings for s in hint.stations}
         stations = tuple(replace(s, settings=settings.get(s.name, {})) for s in file.stations)
@@ -262,12 +262,12 @@ def _same(hint: LayoutFile, file: LayoutFile, plan: FloorPlan) -> bool:
     stations, faults = station_lanes.of_file(hint, drawn)
     if faults or hint.shape != plan.shape:
         return False
-    wanted = placement.plan_of(hint, drawn, stations)
+    hinted = placement.plan_of(hint, drawn, stations)
     arrays = ("passable", "storage", "parking", "exits")
-    same = all((getattr(wanted, a) == getattr(plan, a)).all() for a in arrays)
+    same = all((getattr(hinted, a) == getattr(plan, a)).all() for a in arrays)
     same &= bool((drawn.walls == now.walls).all() and (drawn.belts == now.belts).all())
-    same &= np.array_equal(wanted.charging, plan.charging)
-    return same and list(map(_key, wanted.stations)) == list(map(_key, plan.stations))
+    same &= np.array_equal(hinted.charging, plan.charging)
+    return same and list(map(_key, hinted.stations)) == list(map(_key, plan.stations))
 
 
 def _key(station: Station) -> tuple[object, ...]:

@@ -52,8 +52,8 @@ def boxes(mask: np.ndarray, inset: float = 0.0) -> np.ndarray:
     """
     if inset:
         return placed(SQUARE, np.argwhere(mask)[:, ::-1], 0.5 - inset)
-    found = np.reshape(rectangles(mask), (-1, 4)) + np.array([-0.5, -0.5, 0.5, 0.5])
-    return found[:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
+    corners = np.reshape(rectangles(mask), (-1, 4)) + np.array([-0.5, -0.5, 0.5, 0.5])
+    return corners[:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
 
 
 def stripes(mask: np.ndarray) -> np.ndarray:

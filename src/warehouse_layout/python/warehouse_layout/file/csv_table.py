@@ -90,15 +90,15 @@ class CsvTable:
         def known(separator: str) -> list[str]:
             return [c for c in self._known if c in _names(first.split(separator))]
 
-        return max(SEPARATORS, key=lambda one: (len(known(one)), first.count(one)))
+        return max(SEPARATORS, key=lambda mark: (len(known(mark)), first.count(mark)))
 
     def _check_columns(self, names: Sequence[str], needed: Sequence[str]) -> None:
         lacking = [name for name in needed if name not in names]
         if lacking:
-            found = shown(", ".join(filter(None, names))) or "none"
+            listed = shown(", ".join(filter(None, names))) or "none"
             raise self._error(
                 f"{self._path}:1: there is no column {', '.join(lacking)}; the first line has to "
-                f"name the columns, those in it are: {found}"
+                f"name the columns, those in it are: {listed}"
             )
         twice = [name for name in self._known if names.count(name) > 1]
         if twice:

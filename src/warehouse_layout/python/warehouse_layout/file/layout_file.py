@@ -38,6 +38,7 @@ from warehouse_layout.file.layout_data import (
     rows_of,
 )
 from warehouse_layout.file.layout_reader import VERSION, LayoutReader
+from warehouse_layout.file.station_settings import PACE
 
 __all__ = [
     "ALONG_X",
@@ -96,7 +97,7 @@ def write(file: LayoutFile, path: str | Path) -> None:
 def text_of(file: LayoutFile) -> str:
     """Returns the text of a layout file, which parse() reads as the same."""
     lines = lines_of(file.floor)
-    # YAML takes the first line's leading spaces for indentation, unless it is told how much.
+    # YAML takes the first line's leading spaces for indentation, unless a digit says how much.
     begin = "floor: |2" if lines[:1] and lines[0].startswith(" ") else "floor: |"
     out = [f"layout: {VERSION}"]
     out += [f"name: {_flow(file.name)}"] if file.name else []
@@ -123,8 +124,15 @@ def _entry(station: StationEntry, floor: np.ndarray) -> dict[str, Any]:
         **({} if drawn else {"service": list(station.service)}),
         **({"queue": _places(station.queue)} if station.queue else {}),
         **({"exit": _places(station.exit)} if station.exit else {}),
-        **{name: _places(value) for name, value in station.settings.items()},
+        **{name: _setting(name, value) for name, value in station.settings.items()},
     }
+
+
+def _setting(name: str, value: Any) -> Any:
+    """Returns a setting of a station as the file has it."""
+    if name == PACE and isinstance(value, tuple):
+        return dict(zip(("mean", "sd"), value))
+    return list(value) if name == "roster" else _places(value)
 
 
 def _places(value: Any) -> Any:

@@ -200,8 +200,8 @@ class LayoutReader:
         if "layout" not in top:
             self._fail(None, f"'layout: {VERSION}' is missing: the version of the format")
         if self._value(top["layout"]) != VERSION:
-            told = self._value(top["layout"])
-            self._fail(top["layout"], f"layout is {told!r}; this reads version {VERSION}")
+            version = self._value(top["layout"])
+            self._fail(top["layout"], f"layout is {version!r}; this reads version {VERSION}")
 
     def _spacing(self, node: Node | None) -> float:
         return (
@@ -242,14 +242,14 @@ class LayoutReader:
         return self._count(node, "items", LIMITS["items"])
 
     def _stock(self, top: dict[str, Node]) -> str:
-        node, told = top.get("items"), top.get("stock")
+        node, stock = top.get("items"), top.get("stock")
         if isinstance(node, yaml.MappingNode):
-            if told is not None:
-                self._fail(told, "stock is told within items already")
-            told = self._mapping(node, ("stock",), "items").get("stock")
-        elif node is not None and told is not None:
-            self._fail(told, "items are counted already: either a count or a stock file")
-        return self._text_of(told, "stock", "")
+            if stock is not None:
+                self._fail(stock, "stock stands within items already")
+            stock = self._mapping(node, ("stock",), "items").get("stock")
+        elif node is not None and stock is not None:
+            self._fail(stock, "items are counted already: either a count or a stock file")
+        return self._text_of(stock, "stock", "")
 
     def _policies(self, node: Node | None) -> dict[str, Any]:
         value = {} if node is None else self._value(node)
@@ -293,23 +293,23 @@ class LayoutReader:
 
     def _station(self, key: Node, node: Node, drawn: Cell | None) -> StationEntry:
         label = f"station '{key.value}'"
-        told = self._mapping(node, _STATION_KEYS, "a station")
-        service = self._cell(told["service"], f"{label}: service") if "service" in told else drawn
+        entry = self._mapping(node, _STATION_KEYS, "a station")
+        service = self._cell(entry["service"], f"{label}: service") if "service" in entry else drawn
         if service is None:
             self._fail(key, f"{label} is not drawn; draw its letter or give service: [column, row]")
         if drawn and service != drawn:
-            self._fail(told["service"], f"{label} is drawn at [{drawn[0]}, {drawn[1]}]")
-        kind = self._text_of(told.get("kind"), f"{label}: kind", "pick")
+            self._fail(entry["service"], f"{label} is drawn at [{drawn[0]}, {drawn[1]}]")
+        kind = self._text_of(entry.get("kind"), f"{label}: kind", "pick")
         if kind not in lf.KINDS:
-            self._fail(told["kind"], f"{label}: kind is '{kind}'; known: {', '.join(lf.KINDS)}")
+            self._fail(entry["kind"], f"{label}: kind is '{kind}'; known: {', '.join(lf.KINDS)}")
         return StationEntry(
             key=str(key.value),
             service=service,
-            name=self._station_name(told.get("name"), str(key.value)),
+            name=self._station_name(entry.get("name"), str(key.value)),
             kind=kind,
-            queue=self._lane(told, label, "queue"),
-            exit=self._lane(told, label, "exit"),
-            settings=self._settings(told, label),
+            queue=self._lane(entry, label, "queue"),
+            exit=self._lane(entry, label, "exit"),
+            settings=self._settings(entry, label),
         )
 
     def _station_name(self, node: Node | None, key: str) -> str:
@@ -318,18 +318,18 @@ class LayoutReader:
             self._fail(node, f"station name {name!r}: up to 60 characters without '/' expected")
         return name
 
-    def _lane(self, told: dict[str, Node], label: str, part: str) -> tuple[Cell, ...]:
-        return self._cells(told[part], f"{label}: {part}", 1000) if part in told else ()
+    def _lane(self, entry: dict[str, Node], label: str, part: str) -> tuple[Cell, ...]:
+        return self._cells(entry[part], f"{label}: {part}", 1000) if part in entry else ()
 
-    def _settings(self, told: dict[str, Node], label: str) -> dict[str, Any]:
+    def _settings(self, entry: dict[str, Node], label: str) -> dict[str, Any]:
         out = {}
         for name in SETTINGS:
-            if name not in told:
+            if name not in entry:
                 continue
             try:
-                out[name] = check_setting(name, self._value(told[name]))
+                out[name] = check_setting(name, self._value(entry[name]))
             except StationSettingError as error:
-                self._fail(told[name], f"{label}: {error}")
+                self._fail(entry[name], f"{label}: {error}")
         return out
 
     # --- errors

@@ -82,7 +82,7 @@ def resolve(name: str, robots: int = 0, items: int = 0, shelves: int = 0) -> Req
 
 
 def items_for(units: int) -> int:
-    """Returns how many items lie on so many storage units, unless they are told."""
+    """Returns the default count of items on a number of storage units."""
     return min(ITEMS_A_UNIT * units, LIMITS["items"])
 
 

@@ -44,18 +44,18 @@ def of_file(file: LayoutFile, drawn: DrawnFloor) -> tuple[list[Station], list[La
     Drawn lanes come first, so that lanes which are looked for keep out of them; the stations are in
     the order of the file.
     """
-    found: dict[str, Station] = {}
+    by_name: dict[str, Station] = {}
     faults: list[LaneFault] = []
     search = _LaneSearch(file, drawn)
     for entry in sorted(file.stations, key=lambda e: not (e.queue and e.exit)):
         try:
-            cells, service = search.lane(entry, list(found.values()))
+            cells, service = search.lane(entry, list(by_name.values()))
             check_lane(f"station {entry.name}", cells, drawn.passable)
-            _check_apart(entry, cells, drawn, found.values())
-            found[entry.key] = Station(entry.name, KINDS[entry.kind], cells, service)
+            _check_apart(entry, cells, drawn, by_name.values())
+            by_name[entry.key] = Station(entry.name, KINDS[entry.kind], cells, service)
         except FloorError as error:
             faults.append(LaneFault(entry.name, str(error), _cells_of(entry)))
-    return [found[e.key] for e in file.stations if e.key in found], faults
+    return [by_name[e.key] for e in file.stations if e.key in by_name], faults
 
 
 def _cells_of(entry: StationEntry) -> tuple[Cell, ...]:

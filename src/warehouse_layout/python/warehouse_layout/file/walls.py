@@ -18,8 +18,8 @@ def boxes(walls: np.ndarray, spacing: float) -> np.ndarray:
     """
     whole = rectangles(walls)
     joints = [*_runs(walls), *(_turned(run) for run in _runs(walls.T)), *_blocks(walls)]
-    found = {*whole, *_across(joints, whole, walls.shape)}
-    low, high = np.reshape(sorted(found), (-1, 2, 2)).astype(float).transpose(1, 0, 2)
+    parts = {*whole, *_across(joints, whole, walls.shape)}
+    low, high = np.reshape(sorted(parts), (-1, 2, 2)).astype(float).transpose(1, 0, 2)
     size = (high - low + 1) * spacing - 2 * max(TURNING - spacing / 2, 0.0)
     return np.column_stack([(low + high) / 2 * spacing, size])
 

@@ -20,17 +20,17 @@ def without_dead_ends(streets: np.ndarray) -> np.ndarray:
     parent, order = _depth_first(cells)
     rank = {cell: i for i, cell in enumerate(order)}
     joined: dict[Cell, list[Cell]] = {cell: [] for cell in order}
-    seen: set[Cell] = set()
+    passed: set[Cell] = set()
     for cell in order:
         for near in _beside(cell, cells):
             if rank[near] <= rank[cell] or parent[near] == cell:
                 continue  # each edge that is not in the tree once, from its upper end
             joined[cell].append(near)
             joined[near].append(cell)
-            seen.add(cell)
+            passed.add(cell)
             end = near
-            while end not in seen:
-                seen.add(end)
+            while end not in passed:
+                passed.add(end)
                 before = parent[end]
                 assert before is not None, "only the root has none, and the chain began there"
                 joined[end].append(before)

@@ -18,8 +18,8 @@ from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.file.request import Request, RequestError, check_stations
 from warehouse_layout.floor.stations import STEPS
-from warehouse_layout.place.blocks import FETCH, QUEUE, WAIT, places_for
-from warehouse_layout.place.layout import CHARGED
+from warehouse_layout.generate.blocks import FETCH, QUEUE, WAIT, places_for
+from warehouse_layout.generate.generator import CHARGED
 
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes
@@ -69,6 +69,25 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
         robots=request.robots,
         items=request.items,
     )
+
+
+def fitting(
+    request: Request, replenish: int, style: Style, width: int, height: int, most: int = 3
+) -> Iterator[LayoutFile]:
+    """Yields the files of compact warehouses that fit into so many cells, the smallest first, up to
+    `most` of them. Raises RequestError as of_request() does."""
+    style.check()
+    check_stations(request.belts, replenish)
+    plans = [plan for plan in _plans(request, replenish, style) if plan.fits(width, height)]
+    for plan in sorted(plans, key=_Plan.cost)[:most]:
+        floor, stations = plan.drawn()
+        yield LayoutFile(
+            floor=floor,
+            stations=stations,
+            storage_units=request.shelves,
+            robots=request.robots,
+            items=request.items,
+        )
 
 
 @dataclass(frozen=True)
@@ -167,6 +186,11 @@ class _Plan:
     def _margin(self, side: int) -> int:
         kinds = [station.kind for station in self.kinds.get(side, ())]
         return (self.queue if kinds else 0) + (BELT_CELLS if "pick" in kinds else 0)
+
+    def fits(self, width: int, height: int) -> bool:
+        """Returns whether it has room in so many cells."""
+        rows, columns = self.shape
+        return rows <= height and columns <= width
 
     def cost(self) -> float:
         """Returns the area in cells, times the square root of length over width."""

@@ -22,19 +22,21 @@ from warehouse_layout.floor.floor_plan import ALL_EXITS, FloorError, FloorPlan
 from warehouse_layout.floor.masks import shifted
 from warehouse_layout.floor.stations import PICK, REPLENISH, STEPS, Station, lane_mask
 from warehouse_layout.generate import hall, rooms, sites
+from warehouse_layout.generate.blocks import places_for
 from warehouse_layout.generate.cells import Cells
 from warehouse_layout.generate.sites import Ground, Site
-from warehouse_layout.place.blocks import places_for
-from warehouse_layout.place.layout import BELT, DROP, SEED, Layout, chance
+from warehouse_layout.place.layout import SEED, Layout, chance
 
 WIDE = 3000  # free cells, on which a few shifts of the pattern are as good as all
+# From a drop point to the centre of a belt of 1.8 m that begins 0.1 m beyond its cell [m].
+TO_BELT = 1.5
 ENOUGH = 0.5  # share of the storage units that would fit without lanes: enough with lanes
 
 Finder = Callable[[Ground, int], Iterator[Site]]
 
 
 def fit(request: Request, cells: Cells, seed: int = SEED, at: rooms.Point | None = None) -> Layout:
-    """Returns the Layout of a resolved Request on free Cells, as layout.plan() does.
+    """Returns the Layout of a resolved Request on free Cells, as generated.plan() does.
 
     The warehouse goes into the largest room, or to the point `at`, (x, y) in `world` [m]. Where
     there is no room even for bays, the belts are at the ends of streets, and the Layout has no
@@ -68,26 +70,26 @@ def fit_largest(
     where no warehouse fits. `at` is as for fit().
     """
     ground = Ground(cells, rooms.choose(cells, at))
-    found = _largest(ground, seed)
-    if not found:
+    largest = _largest(ground, seed)
+    if not largest:
         raise RequestError(f"no warehouse fits {ground.region.name}")
-    return found
+    return largest
 
 
 def _largest(ground: Ground, seed: int) -> tuple[Request, Layout] | None:
-    found: tuple[Request, Layout] | None = None
+    largest: tuple[Request, Layout] | None = None
     if ground.free.sum() > WIDE:
         ground.shifts = sites.SHIFTS[::5]
     picks = proportioned(int(ground.free.sum()) // 2).belts
     finders: Sequence[Finder] = (sites.with_picking_alone, sites.with_bays, sites.with_lanes)
     for find in finders:
-        least = found[0].shelves * ENOUGH if found else 0
+        least = largest[0].shelves * ENOUGH if largest else 0
         for count in sorted({picks, -(-picks // 2), -(-picks // 4), 1}, reverse=True):
             best = _best(find(ground, count), ground, seed, least)
             if best:
-                found = best
+                largest = best
                 break
-    return found
+    return largest
 
 
 def _best(
@@ -98,7 +100,7 @@ def _best(
         (proportioned(len(s.places), int(s.streets.sum()) // hall.STREETS_A_ROBOT, len(s.drops)), s)
         for s in candidates
     ]
-    for request, site in sorted(asked, key=lambda one: -one[0].shelves):
+    for request, site in sorted(asked, key=lambda candidate: -candidate[0].shelves):
         if request.shelves < max(least, 1):
             return None
         layout = _laid_out(ground, site, request, seed)
@@ -112,10 +114,10 @@ def _refusal(request: Request, ground: Ground, most: int) -> str:
         f"{request} don't fit: of {ground.free.sum()} free cells, {most} are left for robots and"
         f" storage units beside streets and stations, {ground.region.name}"
     )
-    found = _largest(ground, SEED)
-    if not found:
+    largest = _largest(ground, SEED)
+    if not largest:
         return f"{text}; nothing else fits there"
-    less = found[0]
+    less = largest[0]
     return (
         f"{text}; {less.robots} robots, {less.shelves} storage units fit: size:=fit takes that,"
         " at:=x,y another place"
@@ -149,7 +151,7 @@ def _laid_out(ground: Ground, site: Site, request: Request, seed: int) -> Layout
         places=ground.world(places),
         item_unit=item_unit,
         item_place=item_place,
-        belts=np.column_stack([before + (BELT - DROP) * towards, yaws]),
+        belts=np.column_stack([before + TO_BELT * towards, yaws]),
         drops=before,
         plan=plan,
         has_own_floor=False,
@@ -197,8 +199,8 @@ def _ends(ground: Ground, site: Site, count: int, used: int) -> np.ndarray | Non
     taken = site.places[:used]
     room = ground.free & ~site.streets
     room[tuple(taken.T)] = False
-    found = site.streets & shifted(room, (-1, 0)) & shifted(room, (-2, 0))
-    drops = np.argwhere(found)
+    ends = site.streets & shifted(room, (-1, 0)) & shifted(room, (-2, 0))
+    drops = np.argwhere(ends)
     middle = taken.mean(0) if len(taken) else (0, 0)
     drops = drops[np.argsort(((drops - middle) ** 2).sum(1), kind="stable")][:count]
     return drops if len(drops) == count else None

@@ -1,5 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Generates layout files of regular warehouses: the presets, and others by their counts."""
+"""Generates layout files of regular warehouses: the presets, and others by their counts.
+
+Seen from above, x to the right:
+
+         x s q                      q  queue of a station, entered from the street beside it
+         x   q                      s  its service cell, passed without turning
+         x   q                      x  and the way back from there to the street
+    ←─────────────────────────────
+    ──────────────────────────────→ two streets or more along the stations, neighbours opposed
+    │ pp │ uuuu │ uuuu │ uuuu │ │ x x x x
+    │ pp │ uuuu │ uuuu │ uuuu │ │       s ==  PICK station before a conveyor belt
+    ──────────────────────────────→ q q q q
+    │ pp │ uuuu │ uuuu │ uuuu │ │
+    │ pp │ uuuu │ uuuu │ uuuu │ │   pp  parked robots, each facing its street
+    ──────────────────────────────  uu  blocks of storage places, two deep: each has a street
+
+REPLENISH stations lie along y's upper edge. All but the belts' centres lies on whole metres.
+Streets are one cell wide and one-way, neighbours opposed, and the outermost go round. A loaded
+robot leaves any place's cell by the street before it; one without a load may pass beneath the
+units as well, and cross streets.
+"""
+
+import math
 
 import numpy as np
 
@@ -7,9 +29,8 @@ from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.file.request import Request
 from warehouse_layout.floor.stations import PICK, Station
-from warehouse_layout.place import layout as regular
-from warehouse_layout.place import one_way
-from warehouse_layout.place.blocks import (
+from warehouse_layout.generate import one_way
+from warehouse_layout.generate.blocks import (
     Shape,
     mask_of,
     parking_cells,
@@ -18,19 +39,25 @@ from warehouse_layout.place.blocks import (
     storage_cells,
 )
 
+CHARGED = 0.2  # places to charge at a robot
 
-def of_request(request: Request, name: str = "") -> LayoutFile:
-    """Returns the file of the warehouse that layout.plan() lays out for a Request."""
+
+def of_request(
+    request: Request, name: str = "", rng: np.random.Generator | None = None
+) -> LayoutFile:
+    """Returns the file of a regular warehouse; `rng` chooses where its robots park.
+
+    Without `rng` the places nearest to the storage fill up first.
+    """
     shape = min(shapes(request), key=Shape.cost)
     stations = one_way.stations(shape)
-    robots, _ = regular.parked(request.robots, shape)
     return LayoutFile(
         floor=_drawing(request, shape, stations),
         name=name,
         stations=tuple(_entry(station, shape.cells[0]) for station in stations),
         storage_units=request.shelves,
         # Storage blocks have spare places, where robots may park later but do not begin.
-        robots=tuple((int(x), int(y)) for x, y in robots),
+        robots=tuple((int(x), int(y)) for x, y in _parked(request.robots, shape, rng)),
         items=request.items,
     )
 
@@ -40,11 +67,11 @@ def _drawing(request: Request, shape: Shape, stations: list[Station]) -> np.ndar
     floor = np.full((height, width), lf.NO_FLOOR, "<U1")
     right, top = int(shape.street_x[-1]), int(shape.street_y[-1])
     _draw_streets(floor, shape)
-    places = regular.some(storage_cells(shape), places_for(request.shelves))
+    places = _last(storage_cells(shape), places_for(request.shelves))
     floor[mask_of(parking_cells(shape), shape)] = lf.PARKING
     floor[mask_of(storage_cells(shape), shape)] = lf.PARKING
     floor[mask_of(places, shape)] = lf.STORAGE
-    floor[mask_of(regular.charging(request.robots, shape), shape)] = lf.CHARGING
+    floor[mask_of(_charging(request.robots, shape), shape)] = lf.CHARGING
     for station in stations:
         floor.flat[station.cells] = lf.FLOOR
         _open_exit(floor, station, right, top)
@@ -91,3 +118,22 @@ def _entry(station: Station, width: int) -> StationEntry:
         queue=tuple(cells[: station.service]),
         exit=tuple(cells[station.service + 1 :]),
     )
+
+
+def _parked(count: int, shape: Shape, rng: np.random.Generator | None) -> np.ndarray:
+    """Returns the cells of parked robots, (count, 2) x y."""
+    cells = parking_cells(shape)
+    return _last(cells, count) if rng is None else rng.permutation(cells)[:count]
+
+
+def _last(cells: np.ndarray, count: int) -> np.ndarray:
+    """Returns the last `count` of the cells, row by row."""
+    cells = cells[::-1][:count]
+    return cells[np.lexsort((cells[:, 0], cells[:, 1]))]
+
+
+def _charging(robots: int, shape: Shape) -> np.ndarray:
+    """Returns the cells of parking where robots are charged, evenly spread, (n, 2)."""
+    cells = parking_cells(shape)
+    count = min(math.ceil(CHARGED * robots - 1e-9), len(cells))
+    return cells[np.arange(count) * len(cells) // max(count, 1)]

@@ -79,7 +79,7 @@ def regular(
     streets = without_dead_ends(pattern & free)
     room = free & ~pattern
     beside = room & beside_of(streets)
-    found = Hall(streets, np.zeros_like(free))
+    hall = Hall(streets, np.zeros_like(free))
     cells = np.argwhere(beside)
     cells = cells[np.argsort(((cells - middle) ** 2).sum(1), kind="stable")].tolist()
     for kind in (True,) * picks + (False,) * replenishments:
@@ -88,12 +88,12 @@ def regular(
             bay = next((b for b in bays if all(_holds(room, c) for c in cells_of(*b))), None)
             if bay:
                 room[tuple(np.transpose(cells_of(*bay)))] = False
-                found.bays.append(bay)
+                hall.bays.append(bay)
                 break
         else:
             return None
-    found.places = room & beside
-    return found
+    hall.places = room & beside
+    return hall
 
 
 def _headings(has_belt: bool) -> Sequence[int | None]:
@@ -114,17 +114,17 @@ def _add_bay(hall: Hall, free: np.ndarray, has_belt: bool) -> bool:
                 open_sides = sum(_holds(free, n) for c in cells for n in _around(c))
                 candidates.append((open_sides, cells, heading))
     best = -1
-    found: tuple[np.ndarray, list[Bay]] | None = None
-    for _, cells, heading in sorted(candidates, key=lambda one: one[0])[:TRIED]:
+    chosen: tuple[np.ndarray, list[Bay]] | None = None
+    for _, cells, heading in sorted(candidates, key=lambda candidate: candidate[0])[:TRIED]:
         taken = hall.streets.copy()
         taken[tuple(np.transpose(cells))] = False
         streets = without_dead_ends(taken)
         bays = [*hall.bays, (cells[0], heading)]
         if streets.sum() > best and Hall(streets, hall.places, bays).serves(streets):
-            best, found = int(streets.sum()), (streets, bays)
-    if found:
-        hall.streets, hall.bays = found
-    return found is not None
+            best, chosen = int(streets.sum()), (streets, bays)
+    if chosen:
+        hall.streets, hall.bays = chosen
+    return chosen is not None
 
 
 def cells_of(cell: Cell, heading: int | None) -> list[Cell]:

@@ -59,14 +59,14 @@ def check_room(
     check_grid(file, spacing)
     if laid.plan is None or laid.has_own_floor:
         return
-    wanted = np.argwhere(laid.plan.passable | _belts(file))
+    needed = np.argwhere(laid.plan.passable | _belts(file))
     low = np.round(np.subtract(laid.plan.origin, (x, y)) / spacing).astype(int)
     free = ~is_taken(occupancy)
-    row, column = (wanted + low[::-1]).T
+    row, column = (needed + low[::-1]).T
     inside = (row >= 0) & (row < free.shape[0]) & (column >= 0) & (column < free.shape[1])
     inside[inside] = free[row[inside], column[inside]]
     if not inside.all():
-        raise LayoutFileError(_in_the_way(file, [(int(c), int(r)) for r, c in wanted[~inside]]))
+        raise LayoutFileError(_in_the_way(file, [(int(c), int(r)) for r, c in needed[~inside]]))
 
 
 def _belts(file: LayoutFile) -> np.ndarray:

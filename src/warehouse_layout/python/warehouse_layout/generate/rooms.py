@@ -57,14 +57,14 @@ def choose(cells: Cells, at: Point | None = None) -> Region:
 
 def find(free: np.ndarray) -> list[np.ndarray]:
     """Returns the rooms of a floor as masks (nx, ny), the largest first; no two share a cell."""
-    found: list[np.ndarray] = []
+    candidates: list[np.ndarray] = []
     for gap in range(1, DOORS + 1):
         inside = _inside(free, gap)
-        found += [part for part in masks.parts(inside) if _is_room(part, free, inside)]
-    found.sort(key=lambda room: -int(room.sum()))
+        candidates += [part for part in masks.parts(inside) if _is_room(part, free, inside)]
+    candidates.sort(key=lambda room: -int(room.sum()))
     rooms: list[np.ndarray] = []
     used = np.zeros_like(free)
-    for room in found:
+    for room in candidates:
         if not used[room].any():
             rooms.append(room)
             used |= room

@@ -15,10 +15,10 @@ import numpy as np
 from warehouse_layout.floor.masks import beside_of, largest_part
 from warehouse_layout.floor.street_graph import without_dead_ends
 from warehouse_layout.generate import hall
+from warehouse_layout.generate.blocks import BLOCK_DEPTH, BLOCK_LENGTH, QUEUE
 from warehouse_layout.generate.cells import Cells
+from warehouse_layout.generate.one_way import PICKS_TO_REPLENISH
 from warehouse_layout.generate.rooms import Region
-from warehouse_layout.place.blocks import BLOCK_DEPTH, BLOCK_LENGTH, QUEUE
-from warehouse_layout.place.one_way import PICKS_TO_REPLENISH
 
 ROW, COLUMN = BLOCK_DEPTH + 1, BLOCK_LENGTH + 1  # from street to street
 SHIFTS = tuple(np.ndindex(COLUMN, ROW))
@@ -79,12 +79,12 @@ def _stations_for(picks: int) -> int:
 
 def with_lanes(ground: Ground, picks: int) -> Iterator[Site]:
     """Yields sites whose stations have lanes with queues."""
-    wanted = picks + _stations_for(picks)
+    stations = picks + _stations_for(picks)
     for shift in ground.shifts if picks else ():
         is_street = _streets_of(ground, shift)
         lanes = _Lanes(is_street & ground.free, ground, shift)
-        lanes.place(wanted)
-        if len(lanes.corners) < wanted:
+        lanes.place(stations)
+        if len(lanes.corners) < stations:
             continue
         room = ~is_street & ground.free & ~lanes.used
         drops = [(i + QUEUE, j + 1) for i, j in lanes.corners[:picks]]
@@ -123,14 +123,14 @@ def _sites_with_bays(ground: Ground, picks: int, replenishments: int) -> Iterato
         halls = hall.carve(free, *counts, patterns)
     else:
         halls = (hall.regular(free, *counts, p, ground.middle) for p in patterns)
-    for one in filter(None, halls):
-        belts = [(cell, heading) for cell, heading in one.bays if heading is not None]
+    for candidate in filter(None, halls):
+        belts = [(cell, heading) for cell, heading in candidate.bays if heading is not None]
         yield Site(
-            one.streets,
-            ground.nearest(np.argwhere(one.places)),
+            candidate.streets,
+            ground.nearest(np.argwhere(candidate.places)),
             [cell for cell, _ in belts],
             [heading for _, heading in belts],
-            [[cell] for cell, _ in one.bays],
+            [[cell] for cell, _ in candidate.bays],
         )
 
 

@@ -3,7 +3,7 @@
 
 import os
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -82,37 +82,50 @@ def name_of(element: ElementTree.Element) -> str:
     return element.get("name", "")
 
 
-def read(path: str | Path) -> SdfWorld:
-    """Reads a world file. Raises WorldError."""
+def read(path: str | Path, points: Collection[str] = POINTS) -> SdfWorld:
+    """Reads a world file; of models of the kinds `points` the pose alone. Raises WorldError."""
     try:
         root = user_file.read_xml(path)
     except OSError as error:
         raise WorldError(f"{path}: {error.strerror}") from error
     except (ElementTree.ParseError, ValueError, RecursionError) as error:
         raise WorldError(f"{path}: is not XML: {error}") from error
+    return _world_of(root, Path(path), points)
+
+
+def parse(xml: str, path: str | Path, points: Collection[str] = POINTS) -> SdfWorld:
+    """Returns what an SDF text says, whose relative files lie beside `path`. Raises WorldError."""
+    try:
+        root = ElementTree.fromstring(xml)
+    except (ElementTree.ParseError, ValueError, RecursionError) as error:
+        raise WorldError(f"{path}: is not XML: {error}") from error
+    return _world_of(root, Path(path), points)
+
+
+def _world_of(root: ElementTree.Element, path: Path, points: Collection[str]) -> SdfWorld:
     world = root.find("world") if root.tag == "sdf" else None
     if world is None:
         raise WorldError(f"{path}: an <sdf> with a <world> was expected")
-    return _Reader(Path(path)).world(root, world)
+    return _Reader(path, points).world(root, world)
 
 
 class _Reader:
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, points: Collection[str]) -> None:
+        self._path, self._points = path, points
         self._unknown: list[str] = []
         self._files: dict[Path, ElementTree.Element | None] = {}
 
     def world(self, root: ElementTree.Element, world: ElementTree.Element) -> SdfWorld:
-        found = [self._model(e) for e in world if e.tag in ("model", "include")]
+        models = [self._model(e) for e in world if e.tag in ("model", "include")]
         text = world.findtext("plugin[@name='grid']/spacing", "1")
         spacing = self._numbers(text, 1, "the spacing of the grid")[0]
         if not 0.01 <= spacing <= 1000:
             raise WorldError(f"{self._path}: the spacing of the grid is {spacing:g} m")
-        return SdfWorld(world.get("name", ""), float(spacing), found, root, self._unknown)
+        return SdfWorld(world.get("name", ""), float(spacing), models, root, self._unknown)
 
     def _model(self, element: ElementTree.Element) -> Model:
         out = Model(name_of(element), self._pose(element))
-        if kind_and_number(out.name)[0] in POINTS:
+        if kind_and_number(out.name)[0] in self._points:
             return out
         self._collect(element, self._path.parent, out, _identity(), DEPTH)
         for solid in out.solids:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """World files, read in order to add their models to a running world."""
 
+import math
 import os
 import re
 import xml.etree.ElementTree as ElementTree
@@ -45,9 +46,15 @@ class Insertion:
     left_out: list[str]
 
 
-def insertable(path: str | Path, standing: Collection[str]) -> Insertion:
+def insertable(
+    path: str | Path,
+    standing: Collection[str],
+    at: tuple[float, float] = (0.0, 0.0),
+    yaw: float = 0.0,
+) -> Insertion:
     """Returns the Insertion of a world file into a world that holds the models `standing`.
 
+    The file's models are turned by `yaw` [rad] about the origin and then moved by `at` (x, y) [m].
     Raises WorldFileError if the file can't be read, or has other models whose names are taken.
     """
     root, world = _parse(path)
@@ -62,6 +69,7 @@ def insertable(path: str | Path, standing: Collection[str]) -> Insertion:
     renamed = _free_names([_name(e) for e in elements], standing)
     for element in elements:
         _rename(element, renamed)
+        _move(path, element, at, yaw)
     for element in world.iter():
         frame = element.get("relative_to")
         if frame in renamed:
@@ -110,6 +118,28 @@ def _free_names(names: Collection[str], standing: Collection[str]) -> dict[str, 
         used.add(free)
         out[name] = free
     return out
+
+
+def _move(
+    path: str | Path, element: ElementTree.Element, at: tuple[float, float], yaw: float
+) -> None:
+    """Moves a model or an include, unless its pose is relative to another one."""
+    pose = element.find("pose")
+    if not (any(at) or yaw) or (pose is not None and pose.get("relative_to", "world") != "world"):
+        return
+    if pose is None:
+        pose = ElementTree.SubElement(element, "pose")
+    try:
+        x, y, z, roll, pitch, own_yaw = map(float, (pose.text or "0 0 0 0 0 0").split())
+    except ValueError:
+        raise WorldFileError(
+            f"{path}: the pose of {_name(element)} is '{pose.text}'; 6 numbers were expected"
+        ) from None
+    x, y = (
+        at[0] + x * math.cos(yaw) - y * math.sin(yaw),
+        at[1] + x * math.sin(yaw) + y * math.cos(yaw),
+    )
+    pose.text = f"{x!r} {y!r} {z!r} {roll!r} {pitch!r} {own_yaw + yaw!r}"
 
 
 def _name(element: ElementTree.Element) -> str:

@@ -24,7 +24,17 @@ def place(file: LayoutFile, seed: int = SEED, robots: int | None = None) -> Layo
     """Returns the Layout of a file; `robots` replaces its number of robots.
 
     The seed decides which robot parks where, on which place each unit stands and which items it
-    holds, where the file gives counts. Raises LayoutFileError for a station without a lane, and
+    holds, where the file gives counts. Raises what place_by_chance() raises.
+    """
+    return place_by_chance(file, chance(seed), robots)
+
+
+def place_by_chance(
+    file: LayoutFile, rng: np.random.Generator | None, robots: int | None = None
+) -> Layout:
+    """Returns the Layout of a file, as place() does; `rng` None: the regular one.
+
+    Raises LayoutFileError for a station without a lane, and
     where more is asked than there is room for. Whether a fleet can work there is not checked.
     """
     drawn = drawn_floor.areas(file.floor)
@@ -32,7 +42,7 @@ def place(file: LayoutFile, seed: int = SEED, robots: int | None = None) -> Layo
     stations, faults = station_lanes.of_file(file, drawn)
     if faults:
         raise LayoutFileError(f"{file.path or file.title}: {faults[0].text}")
-    return _Placement(file, drawn, seed).layout(stations, file.robots if robots is None else robots)
+    return _Placement(file, drawn, rng).layout(stations, file.robots if robots is None else robots)
 
 
 def plan_of(file: LayoutFile, drawn: DrawnFloor, stations: Sequence[Station]) -> FloorPlan:
@@ -76,8 +86,10 @@ def _check_at(file: LayoutFile) -> None:
 
 
 class _Placement:
-    def __init__(self, file: LayoutFile, drawn: DrawnFloor, seed: int) -> None:
-        self._file, self._drawn, self._rng = file, drawn, chance(seed)
+    def __init__(
+        self, file: LayoutFile, drawn: DrawnFloor, rng: np.random.Generator | None
+    ) -> None:
+        self._file, self._drawn, self._rng = file, drawn, rng
 
     def layout(self, stations: Sequence[Station], robots: int | tuple[Cell, ...]) -> Layout:
         file, drawn = self._file, self._drawn
@@ -129,13 +141,11 @@ class _Placement:
 
     def _units(self, places: np.ndarray) -> np.ndarray:
         """Returns cells (n, 2) for units: those named, or places evenly spread, or by chance."""
-        wanted = self._file.storage_units
-        if isinstance(wanted, tuple):
+        asked = self._file.storage_units
+        if isinstance(asked, tuple):
             storage = self._drawn.storage
-            return self._named(
-                wanted, storage, "a storage unit", "which is not a storage place 's'"
-            )
-        count = round(wanted * len(places)) if isinstance(wanted, float) else wanted
+            return self._named(asked, storage, "a storage unit", "which is not a storage place 's'")
+        count = round(asked * len(places)) if isinstance(asked, float) else asked
         if count > len(places):
             raise self._fail(
                 f"{count} storage units, but {len(places)} storage places 's' are drawn"
@@ -207,8 +217,8 @@ class _Placement:
 
     def _walls(self) -> np.ndarray:
         """Returns x y size_x size_y [m] of the boxes of walls, (n, 4)."""
-        found = walls.boxes(self._drawn.walls, self._file.spacing)
-        return found + np.pad(origin(self._file), (0, 2))
+        shapes = walls.boxes(self._drawn.walls, self._file.spacing)
+        return shapes + np.pad(origin(self._file), (0, 2))
 
 
 def _with_belts(

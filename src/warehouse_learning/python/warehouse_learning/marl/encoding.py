@@ -8,7 +8,7 @@ KEPT = 2  # where a vector's part begins that is taken as it is: before it are c
 
 
 class Encoder:
-    """Of a floor of `width` x `height` cells and `agents` robots."""
+    """The encoder for a floor of `width` x `height` cells and `agents` robots."""
 
     def __init__(self, width: int, height: int, agents: int, vector_size: int) -> None:
         self.width, self.height, self.agents = width, height, agents

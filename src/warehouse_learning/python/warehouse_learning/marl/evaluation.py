@@ -31,12 +31,12 @@ def episodes(
         observations, rewards, ends, _, infos = envs.step(act(observations))
         returns += rewards.sum(1) * ~over
         over |= ends
-    told = {"returns": returns}
+    results = {"returns": returns}
     if "time" in infos:
-        told["seconds"] = infos["time"]
+        results["seconds"] = infos["time"]
     if "collisions" in infos:
-        told["collisions"] = infos["collisions"].sum(1)
-    return told
+        results["collisions"] = infos["collisions"].sum(1)
+    return results
 
 
 def by_policy(policy: GridPolicy, seed: int = 0) -> Callable[[RwareVectorEnv], Act]:
@@ -48,7 +48,7 @@ def by_policy(policy: GridPolicy, seed: int = 0) -> Callable[[RwareVectorEnv], A
 def by_planner(envs: RwareVectorEnv) -> Act:
     """Chooses actions as the fleet's planner does, in each warehouse."""
     planned = [Planned(envs.task, envs.warehouses, i) for i in range(envs.num_envs)]
-    return lambda _observations: np.stack([one.act() for one in planned])
+    return lambda _observations: np.stack([planner.act() for planner in planned])
 
 
 def by_chance(envs: RwareVectorEnv) -> Act:

@@ -25,7 +25,7 @@ NONE = -1
 
 
 class Planned:
-    """Of one warehouse, number `i` of an environment's, in an episode that begins now."""
+    """Plans for one warehouse, number `i` of an environment's, in an episode that begins now."""
 
     def __init__(self, task: Task, warehouses: Any, i: int, seed: int = 1) -> None:
         self._warehouses, self._i, self._task = warehouses, i, task

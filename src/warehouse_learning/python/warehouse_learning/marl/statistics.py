@@ -33,11 +33,11 @@ def interval(
     drawn as a whole curve.
     """
     random = np.random.default_rng(seed)
-    found = []
+    statistics = []
     for _ in range(draws):
         drawn = [s[..., random.integers(s.shape[-1], size=s.shape[-1])] for s in strata]
-        found.append(statistic(np.concatenate(drawn, axis=-1)))
-    low, high = np.quantile(found, [(1 - level) / 2, (1 + level) / 2], axis=0)
+        statistics.append(statistic(np.concatenate(drawn, axis=-1)))
+    low, high = np.quantile(statistics, [(1 - level) / 2, (1 + level) / 2], axis=0)
     return statistic(np.concatenate(list(strata), axis=-1)), low, high
 
 

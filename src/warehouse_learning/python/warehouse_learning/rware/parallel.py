@@ -35,14 +35,14 @@ class RwareParallelEnv(ParallelEnv):
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode; see Warehouse.reset."""
-        observations, told = self._env.reset(seed=seed, options=options)
+        observations, infos = self._env.reset(seed=seed, options=options)
         self.agents = list(self.possible_agents)
-        return self._each(observations), self._by_agent(told)
+        return self._each(observations), self._by_agent(infos)
 
     def step(self, actions: Mapping[str, Any]) -> tuple[dict[str, Any], ...]:
         """Takes {agent: action}; returns observations, rewards, ends, truncations and infos."""
         chosen = [actions[agent] for agent in self.possible_agents]
-        observations, rewards, ends, _, told = self._env.step(chosen)
+        observations, rewards, ends, _, infos = self._env.step(chosen)
         agents = self.agents
         if ends:
             self.agents = []
@@ -51,7 +51,7 @@ class RwareParallelEnv(ParallelEnv):
             self._each(map(float, rewards)),
             dict.fromkeys(agents, ends),
             dict.fromkeys(agents, False),
-            self._by_agent(told),
+            self._by_agent(infos),
         )
 
     def render(self) -> np.ndarray | None:
@@ -61,11 +61,11 @@ class RwareParallelEnv(ParallelEnv):
     def close(self) -> None:
         """Does nothing: there is no window."""
 
-    def _by_agent(self, told):
+    def _by_agent(self, values):
         """Infos of all as those of each: what is told of each robot is its own."""
         return {
             agent: {
-                name: value[i].item() if np.ndim(value) else value for name, value in told.items()
+                name: value[i].item() if np.ndim(value) else value for name, value in values.items()
             }
             for i, agent in enumerate(self.possible_agents)
         }

@@ -109,11 +109,6 @@ class Task:
             self.floor = of_parameters(self.shelf_columns, self.shelf_rows, self.column_height)
 
     @property
-    def sees_images(self) -> bool:
-        """Whether agents see layers of a picture."""
-        return self.observation_type in (ObservationType.IMAGE, ObservationType.IMAGE_DICT)
-
-    @property
     def vector_size(self) -> int:
         """Numbers that an agent's vector has."""
         return 8 + self.sensor_cells * (7 + self.msg_bits)
@@ -154,9 +149,9 @@ class Task:
         )
 
 
-def _member(kind, given):
+def _member(kind, value):
     """The member of `kind` that has the value of `given`, which may be another's member."""
-    return kind(getattr(given, "value", given))
+    return kind(getattr(value, "value", value))
 
 
 def seed_of(number: int | None) -> tuple[Any, ...]:

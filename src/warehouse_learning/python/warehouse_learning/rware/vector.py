@@ -132,11 +132,11 @@ class RwareVectorEnv(VectorEnv):
         return self.motion.infos() if self.motion else {}
 
     def _chosen(self, actions):
-        given = np.asarray(actions)
-        if self.task.msg_bits and given.ndim == 3:
-            self._messages[:] = given[:, :, 1:]
-            given = given[:, :, 0]
-        return np.ascontiguousarray(given, np.int8)
+        values = np.asarray(actions)
+        if self.task.msg_bits and values.ndim == 3:
+            self._messages[:] = values[:, :, 1:]
+            values = values[:, :, 0]
+        return np.ascontiguousarray(values, np.int8)
 
 
 def _observation_space(task):

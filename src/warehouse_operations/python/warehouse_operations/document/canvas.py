@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What charts are drawn on: matplotlib in the pages' type and colours, axes from zero."""
+"""A canvas for charts: matplotlib in the pages' type and colours, axes from zero."""
 
 import io
 import re
@@ -80,25 +80,29 @@ _STEPS = [1, 2, 2.5, 5, 10]
 _SAID: dict[str, Any] = {"xytext": (0, 0), "textcoords": "offset points", "annotation_clip": False}
 
 
-def drawing(draw: Callable[[Canvas], None], height: float, margins: Margins, told: str) -> str:
+def drawing(
+    draw: Callable[[Canvas], None], height: float, margins: Margins, description: str
+) -> str:
     """Returns what `draw` draws as SVG, twice: wide, and narrow for phones.
 
-    told: what it shows, for those who don't see it.
+    description: what it shows, for those who don't see it.
     """
     svgs = []
     for name, width in (("wide", WIDE), ("narrow", NARROW)):
-        svgs.append(f'<div class="{name}">{single(draw, width, height, margins, told)}</div>')
+        svgs.append(
+            f'<div class="{name}">{single(draw, width, height, margins, description)}</div>'
+        )
     return "".join(svgs)
 
 
 def single(
-    draw: Callable[[Canvas], None], width: float, height: float, margins: Margins, told: str
+    draw: Callable[[Canvas], None], width: float, height: float, margins: Margins, description: str
 ) -> str:
     """Returns what `draw` draws as an SVG of that size [px]."""
     with mpl.rc_context(_look()):
         canvas = on(Figure(figsize=(width / 72, height / 72)), (0, 0, width, height), margins)
         draw(canvas)
-        return _as_svg(canvas, told)
+        return _as_svg(canvas, description)
 
 
 def on(figure: Figure, place: Margins, margins: Margins) -> Canvas:
@@ -123,18 +127,18 @@ def write_png(path: Any, draw: Callable[[Figure], None], width: float, height: f
         figure.savefig(path)
 
 
-def spread(wanted: Sequence[float], least: float) -> list[float]:
-    """Returns values near those wanted that are `least` apart, in their order."""
-    order = np.argsort(wanted, kind="stable")
-    values = np.asarray(wanted, float)[order]
+def spread(targets: Sequence[float], least: float) -> list[float]:
+    """Returns values near the targets that are `least` apart, in their order."""
+    order = np.argsort(targets, kind="stable")
+    values = np.asarray(targets, float)[order]
     # Neighbours that are too near become one group around their mean.
-    groups: list[list[float]] = []  # [sum of the wanted, number]
+    groups: list[list[float]] = []  # [sum of the targets, number]
     for value in values:
         groups.append([value, 1])
         while len(groups) > 1 and _top(groups[-2], least) + least > _low(groups[-1], least):
             total, number = groups.pop()
             groups[-1] = [groups[-1][0] + total, groups[-1][1] + number]
-    placed = [_low(one, least) + i * least for one in groups for i in range(int(one[1]))]
+    placed = [_low(group, least) + i * least for group in groups for i in range(int(group[1]))]
     out = np.empty(len(placed))
     out[order] = placed
     return out.tolist()
@@ -157,7 +161,7 @@ def _look() -> dict[str, Any]:
     return _LOOK | {"font.family": ["Inter", "DejaVu Sans"][not has_inter :]}
 
 
-def _as_svg(canvas: Canvas, told: str) -> str:
+def _as_svg(canvas: Canvas, description: str) -> str:
     file = io.StringIO()
     metadata = {"Date": None, "Creator": None, "Format": None, "Type": None}
     canvas.figure.savefig(file, format="svg", metadata=metadata, transparent=True)
@@ -167,13 +171,13 @@ def _as_svg(canvas: Canvas, told: str) -> str:
     prefix = f"p{next(_ids)}-"
     text = re.sub(r'\bid="', f'id="{prefix}', text[text.index("<svg") :])
     text = re.sub(r'(url\(#|href="#)', rf"\g<1>{prefix}", text)
-    return tokens.themed(_head(canvas, told) + text[text.index(">") + 1 :])
+    return tokens.themed(_head(canvas, description) + text[text.index(">") + 1 :])
 
 
-def _head(canvas: Canvas, told: str) -> str:
+def _head(canvas: Canvas, description: str) -> str:
     width, height = canvas.figure.get_size_inches() * 72
     return (
-        f'<svg role="img" aria-label="{escape(told)}" viewBox="0 0 {width:g} {height:g}"'
+        f'<svg role="img" aria-label="{escape(description)}" viewBox="0 0 {width:g} {height:g}"'
         f' width="{width:g}" height="{height:g}" xmlns="http://www.w3.org/2000/svg"'
         ' xmlns:xlink="http://www.w3.org/1999/xlink">'
     )

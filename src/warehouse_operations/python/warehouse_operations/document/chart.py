@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A chart in a report: what it found, the drawing, and the figures behind it as a table."""
+"""A chart in a report: its finding, the drawing, and the figures behind it as a table."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,8 +11,9 @@ from warehouse_operations.document.canvas import Canvas, Margins
 
 @dataclass(frozen=True)
 class Chart:
-    """What is shown. title: what it found, or what it is; quantity: what is drawn, with its unit.
+    """A chart and its words.
 
+    title: its finding, or what it is. quantity: what is drawn, with its unit.
     head and rows: the table behind it. note: how to read it. key: HTML between title and drawing.
     """
 
@@ -28,8 +29,8 @@ class Chart:
 
     def html(self, width: float = 0) -> str:
         """Returns the chart for a page; of that width alone [px], or of both that pages have."""
-        told = f"{self.title}. {self.quantity}."
-        parts = self.draw, self.height, self.margins, told
+        description = f"{self.title}. {self.quantity}."
+        parts = self.draw, self.height, self.margins, description
         drawn = canvas.single(parts[0], width, *parts[1:]) if width else canvas.drawing(*parts)
         note = f'<p class="note">{escape(self.note)}</p>' if self.note else ""
         table = page.behind(self.head, self.rows, self.title) if self.rows else ""

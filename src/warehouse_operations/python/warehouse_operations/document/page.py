@@ -71,8 +71,8 @@ def sentences(texts: Iterable[str]) -> str:
 
 
 def table(head: Cells, rows: Iterable[Cells], label: str) -> str:
-    """Returns a table, the first cell of each row its name; label: what it tells, for those who
-    don't see it."""
+    """Returns a table, the first cell of each row its name; label: its accessible
+    name."""
     heads = "".join(
         f'<th scope="col">{escape(cell)}</th>' if cell else "<td></td>" for cell in head
     )

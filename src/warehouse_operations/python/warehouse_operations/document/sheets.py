@@ -60,7 +60,7 @@ def _fill(sheet: Any, rows: Rows, head: Any) -> None:
     for number, row in enumerate(rows):
         sheet.write_row(number, 0, row, head if not number else None)
     for column, cells in enumerate(zip(*rows)):
-        sheet.set_column(column, column, min(max(len(str(one)) for one in cells) + 2, WIDEST))
+        sheet.set_column(column, column, min(max(len(str(cell)) for cell in cells) + 2, WIDEST))
     sheet.freeze_panes(1, 0)
     if rows:
         sheet.autofilter(0, 0, len(rows) - 1, len(rows[0]) - 1)

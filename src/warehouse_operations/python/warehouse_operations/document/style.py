@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a report looks: on a screen of any width, dark and light, and on A4."""
+"""The style of a report: on a screen of any width, dark and light, and on A4."""
 
 from warehouse_layout.drawing import page_font
 from warehouse_operations.document import tokens

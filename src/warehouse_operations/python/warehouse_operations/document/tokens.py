@@ -70,7 +70,7 @@ def themed(drawing: str) -> str:
     names = {colour: name for name, colour in _drawn().items()}
     return re.sub(
         r"#[0-9a-f]{6}\b",
-        lambda found: f"var(--{names[found[0]]})" if found[0] in names else found[0],
+        lambda match: f"var(--{names[match[0]]})" if match[0] in names else match[0],
         drawing,
     )
 
@@ -91,7 +91,7 @@ def names_of_series(count: int) -> list[str]:
 
 
 def _series(colours: tuple[str, ...]) -> Mapping[str, str]:
-    return {f"series-{number}": one for number, one in enumerate(colours, start=1)}
+    return {f"series-{number}": colour for number, colour in enumerate(colours, start=1)}
 
 
 def _drawn() -> dict[str, str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What robots spend their time on, counted alike for simulated and for ideal robots.
+"""Robots' time by activity, counted alike for simulated and for ideal robots.
 
 "queue" is the wait for a station: standing in its lane, or beneath the unit until the lane has
 room. Standing in a street for others is part of the drive: that is what traffic costs.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where on the floor robots drive and where they wait, over the last hour."""
+"""Maps of where on the floor robots drive and wait, over the last hour."""
 
 import zlib
 from collections.abc import Iterable, Iterator
@@ -10,7 +10,7 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 
 WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
 TRAFFIC, WAITING = range(2)
-GAP = 1.0  # reports further apart tell no more of the time between than that [s]
+GAP = 1.0  # longest time between two reports that counts for the place of the first [s]
 
 
 class FloorHeat:

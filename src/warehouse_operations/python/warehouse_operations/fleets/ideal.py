@@ -12,6 +12,7 @@ physics, and the difference between the two is what traffic costs.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.transports.transport_book import Transport
 from warehouse_fleet.transports.transport_requests import TransportRequests
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_operations.fleets.availability import Availability, Upkeep
 from warehouse_operations.fleets.ideal_floor import IdealFloor
 from warehouse_operations.fleets.ideal_trips import Trips
 from warehouse_operations.stock.protocols import Hooks, Task
@@ -82,7 +84,7 @@ class IdealFleet(TransportRequests):
 
     @property
     def robot_count(self) -> int:
-        """How many robots there are."""
+        """The number of robots."""
         return len(self._trips.robots)
 
     @property
@@ -101,10 +103,6 @@ class IdealFleet(TransportRequests):
     def cell_of_unit(self) -> Mapping[int, int]:
         """The cell of each unit that is not carried."""
         return self._floor.units
-
-    def kiva_id(self, robot: int) -> int:
-        """Returns the id of a robot, given its index."""
-        return self._trips.robots[robot].kiva_id
 
     def check_reach(self, shelf_id: int, cell: int) -> None:
         """Raises ValueError if no way leads from a unit to a cell."""
@@ -143,6 +141,50 @@ class IdealFleet(TransportRequests):
 
     def close(self) -> None:
         """Does nothing; a fleet under physics has threads to end."""
+
+    # Events of a scenario.
+
+    def set_in_service(self, kiva_id: int, in_service: bool) -> None:
+        """Takes a robot out of service, once its transport is over, or back."""
+        self._trips.set_in_service(self._index(kiva_id), in_service)
+
+    def fail(self, kiva_id: int, duration: float) -> None:
+        """Has a robot stand for a while [s]."""
+        self._trips.fail(self._index(kiva_id), duration)
+
+    def set_speed(self, share: float) -> None:
+        """Sets the robots' top speed, over that at first."""
+        speed = share * self.kinematics.speed
+        self._trips.set_kinematics(replace(self.kinematics, speed=speed))
+        self.travel = self._trips.travel
+
+    def _index(self, kiva_id: int) -> int:
+        return next(i for i, robot in enumerate(self._trips.robots) if robot.kiva_id == kiva_id)
+
+    # Availability.
+
+    def keep_up(self, availability: Availability, rng: np.random.Generator) -> None:
+        """Has robots charge, fail and be repaired from now on."""
+        count, cells = len(self._trips.robots), np.asarray(self.plan.charging, int)
+        policy = self._trips.hooks.charging
+        self._trips.keep_up(Upkeep(availability, count, cells, rng, policy))
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """The state of batteries, and which parts of their time robots charged and could work;
+        empty where nothing keeps them from work."""
+        upkeep = self._trips.upkeep
+        if not upkeep:
+            return {}
+        time = max(self.time * self.robot_count, 1e-9)
+        out = {"availability": 1 - upkeep.down_s / time} if upkeep.failures else {}
+        if upkeep.energy:
+            out |= {
+                "charge_mean": float(upkeep.charge.mean()),
+                "charge_least": float(upkeep.charge.min()),
+                "charging_fraction": upkeep.charging_s / time,
+            }
+        return out
 
     # Figures.
 

@@ -34,7 +34,7 @@ class IdealFloor:
     def __init__(self, plan: FloorPlan, units: Mapping[int, int], travel: Travel) -> None:
         self.plan, self.travel = plan, travel
         self.units = {number: int(cell) for number, cell in sorted(units.items())}
-        self.lanes = {one.name: Lane(one) for one in plan.stations}
+        self.lanes = {station.name: Lane(station) for station in plan.stations}
         self.free = np.asarray(plan.storage, bool).ravel().copy()
         for shelf_id, cell in self.units.items():
             if not self.free[cell]:

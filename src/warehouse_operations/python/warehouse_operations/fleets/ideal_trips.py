@@ -18,16 +18,19 @@ from warehouse_fleet.transports.transport_book import (
     STAY,
     STORING,
     Kind,
-    Step,
     Transport,
     TransportBook,
 )
 from warehouse_operations.fleets.activities import ACTIVITIES
+from warehouse_operations.fleets.availability import Upkeep
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
+from warehouse_operations.stock.travel import Travel
 
-RETRY = 1.0  # after which a robot that found no free storage place looks for one again [s]
+UNDER_WAY = ("to unit", "lift", "to station", "back")
+OUT = "out of service"  # beside the ACTIVITIES
+RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
 
 
 @dataclass(eq=False)
@@ -36,9 +39,13 @@ class Robot:
 
     kiva_id: int
     cell: int
+    index: int = 0
     activity: str = "idle"  # one of ACTIVITIES
     since: float = 0.0  # when the activity began [s]
     there: float = 0.0  # when it reaches its cell, if it drives there [s]
+    in_service: bool = True
+    halt: float = 0.0  # for how long it has to stand amid its way [s]
+    able: float = 0.0  # when it can drive again, if it failed while it waited [s]
 
 
 class Trips:
@@ -55,12 +62,59 @@ class Trips:
         self.floor, self.kinematics, self.hooks = floor, kinematics, hooks
         self.travel, self.queue = floor.travel, EventQueue()
         self.time = self.distance_m = 0.0
-        self.robots = [Robot(i, int(cell)) for i, cell in sorted(robots.items())]
-        self.book = TransportBook(len(self.robots), stations=floor.lanes)
+        self.robots = [
+            Robot(kiva_id, int(cell), index)
+            for index, (kiva_id, cell) in enumerate(sorted(robots.items()))
+        ]
+        kiva_ids = [robot.kiva_id for robot in self.robots]
+        self.book = TransportBook(kiva_ids, self, stations=floor.lanes)
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
         self.arrive: Callable[[Transport], None] = lambda _transport: None
         self.ways: Counter[tuple[int, int, bool]] = Counter()
         self._idle = dict(enumerate(self.robots))  # by index
+        self.upkeep: Upkeep | None = None
+
+    def keep_up(self, upkeep: Upkeep) -> None:
+        """Has robots charge, fail and be repaired from now on."""
+        self.upkeep = upkeep
+        self._schedule_failure(upkeep)
+
+    def _schedule_failure(self, upkeep: Upkeep) -> None:
+        wait = upkeep.next_failure(len(self.robots))
+        if wait < np.inf:
+            self.queue.schedule(self.time + wait, self._fail_by_chance, upkeep)
+
+    def _fail_by_chance(self, upkeep: Upkeep) -> None:
+        index, duration = upkeep.draw_failure(len(self.robots))
+        if duration:
+            self.fail(index, duration)
+            upkeep.down_s += duration
+        self._schedule_failure(upkeep)
+
+    def _charge(self, upkeep: Upkeep) -> dict[int, Robot]:
+        """Sends robots without work to charging places; returns those that may be given work."""
+        is_wanted = bool(self.book.open)
+        for index, robot in self._idle.items():
+            upkeep.note(index, self.time, robot.there > self.time)
+            if upkeep.is_full(index):
+                upkeep.leave(index)
+        wants = [index for index in self._idle if upkeep.wants(index, is_wanted)]
+        for index in sorted(wants, key=lambda index: float(upkeep.charge[index])):
+            cells = upkeep.free_cells(index)
+            if not cells:
+                break
+            self._drive_to_charger(upkeep, index, cells)
+        return {index: robot for index, robot in self._idle.items() if upkeep.may_work(index)}
+
+    def _drive_to_charger(self, upkeep: Upkeep, index: int, cells: list[int]) -> None:
+        robot = self._idle[index]
+        seconds, metres = self.travel.unloaded([robot.cell], cells)
+        at = int(seconds[0].argmin())
+        self.distance_m += float(metres[0, at])
+        robot.there = max(self.time, robot.there) + float(seconds[0, at])
+        robot.cell = cells[at]
+        able = upkeep.begin(index, robot.cell, robot.there)
+        self.queue.schedule(max(able, self.time), _wake, None)
 
     def step_until(self, time: float) -> None:
         """Goes on to a time [s], or to the first event before it."""
@@ -76,33 +130,77 @@ class Trips:
         """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
         total = dict(self.seconds)
         for robot in self.robots:
-            total[robot.activity] += self.time - robot.since
+            if robot.activity != OUT:
+                total[robot.activity] += self.time - robot.since
         return total
 
-    def _schedule(self, delay: float, act: Callable[[Any], object], argument: Any) -> None:
-        self.queue.schedule(self.time + delay, act, argument)
+    def set_in_service(self, index: int, in_service: bool) -> None:
+        """Takes a robot out of service, once its transport is over, or back."""
+        robot = self.robots[index]
+        robot.in_service = in_service
+        if not in_service and index in self._idle:
+            del self._idle[index]
+            self._begin(robot, OUT)
+        elif in_service and robot.activity == OUT:
+            self._begin(robot, "idle")
+            self._idle[index] = robot
 
-    def _add_event(self, kind: Kind, transport: Transport) -> None:
-        self.book.publish_event(self.time, transport, kind, self._driver(transport).kiva_id)
+    def fail(self, index: int, duration: float) -> None:
+        """Has a robot stand for a while [s], with its load if it has one."""
+        robot = self.robots[index]
+        if robot.activity in ("idle", OUT):
+            robot.there = max(robot.there, self.time) + duration
+        elif robot.activity in ("queue", "service"):
+            robot.able = max(robot.able, self.time) + duration
+        else:
+            robot.halt += duration
+
+    def set_kinematics(self, kinematics: Kinematics) -> None:
+        """Has robots drive otherwise from their next way on."""
+        self.kinematics = kinematics
+        self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
+
+    def _schedule(
+        self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
+    ) -> None:
+        """Has a robot act after a delay [s], and as much later as it had to stand meanwhile."""
+        delay += max(robot.able - self.time, 0.0)
+        self.queue.schedule(self.time + delay, self._act, (act, argument, robot))
+
+    def _act(self, planned: tuple[Callable[[Any], object], Any, Robot]) -> None:
+        act, argument, robot = planned
+        if robot.halt:
+            halt, robot.halt = robot.halt, 0.0
+            self.queue.schedule(self.time + halt, self._act, planned)
+        else:
+            act(argument)
 
     def _driver(self, transport: Transport) -> Robot:
         return self.robots[transport.robot]
 
-    def _go_on(self, transport: Transport, step: Step) -> None:
-        self.book.go_on(transport, step, self.time)
-
     def _begin(self, robot: Robot, activity: str) -> None:
-        self.seconds[robot.activity] += self.time - robot.since
+        if self.upkeep:
+            self.upkeep.note(robot.index, self.time, robot.activity in UNDER_WAY)
+        if robot.activity != OUT:
+            self.seconds[robot.activity] += self.time - robot.since
         robot.activity, robot.since = activity, self.time
 
     def _match(self) -> None:
         """Gives robots without work the transports that wait."""
-        if not self.book.open or not self._idle:
+        if not self._idle:
             return
-        waiting, robots = list(self.book.open), list(self._idle.values())
-        indices = list(self._idle)
+        if not self.book.open:
+            if self.upkeep:
+                self._charge(self.upkeep)
+            return
+        idle = self._charge(self.upkeep) if self.upkeep else self._idle
+        if not idle:
+            return
+        waiting, robots = list(self.book.open), list(idle.values())
+        indices = list(idle)
         seconds, metres = self.travel.unloaded(
-            [self.floor.units[one.shelf] for one in waiting], [robot.cell for robot in robots]
+            [self.floor.units[transport.shelf] for transport in waiting],
+            [robot.cell for robot in robots],
         )
         # One that drives somewhere must come there first.
         seconds += np.array([max(robot.there - self.time, 0.0) for robot in robots])
@@ -112,47 +210,56 @@ class Trips:
             self._assign(waiting[task], indices[robot], seconds[task, robot])
 
     def _tasks(self, waiting: list[Transport]) -> list[Task]:
-        asked = Counter(one.station for one in waiting)
+        asked = Counter(transport.station for transport in waiting)
         coming = {name: self.book.waiting(name) + count for name, count in asked.items() if name}
         return [
-            Task(one.number, one.shelf, one.station, one.priority, coming.get(one.station, 0))
-            for one in waiting
+            Task(
+                transport.number,
+                transport.shelf,
+                transport.station,
+                transport.priority,
+                coming.get(transport.station, 0),
+            )
+            for transport in waiting
         ]
 
     def _assign(self, transport: Transport, index: int, seconds: float) -> None:
         robot = self._idle.pop(index)
+        if self.upkeep:
+            self.upkeep.leave(index)
         robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
-        self.book.assign(transport, index, self.time)
-        self._add_event(Kind.ASSIGNED, transport)
+        self.book.assign(transport, index)
+        self.book.publish_event(transport, Kind.ASSIGNED)
         self._begin(robot, "to unit")
-        self._schedule(seconds, self._reach_unit, transport)
+        self._schedule(seconds, self._reach_unit, transport, robot)
 
     def _reach_unit(self, transport: Transport) -> None:
         if transport.number not in self.book:
             return
         for step in (READY, LIFTING):
-            self._go_on(transport, step)
-        self._begin(self._driver(transport), "lift")
-        self._schedule(self.kinematics.lift, self._lift, transport)
+            self.book.go_on(transport, step)
+        robot = self._driver(transport)
+        self._begin(robot, "lift")
+        self._schedule(self.kinematics.lift, self._lift, transport, robot)
 
     def _lift(self, transport: Transport) -> None:
         home = self.floor.units.pop(transport.shelf)
         self.floor.clear(home)
-        self._add_event(Kind.LIFTED, transport)
-        if transport.let_go:  # was cancelled meanwhile
-            self._go_on(transport, STORING)
+        self.book.publish_event(transport, Kind.LIFTED)
+        if transport.leave:  # was cancelled meanwhile
+            self.book.go_on(transport, STORING)
             self._store(transport)
             return
-        self._go_on(transport, BRINGING)
+        self.book.go_on(transport, BRINGING)
         self._begin(self._driver(transport), "to station")
         table = self.travel.loaded_to(transport.cell)
         self.distance_m += table.metres[home]
         self.ways[transport.cell, home, False] += 1
-        self._schedule(table.seconds[home], self._reach_end, transport)
+        self._schedule(table.seconds[home], self._reach_end, transport, self._driver(transport))
 
     def _reach_end(self, transport: Transport) -> None:
         self._driver(transport).cell = transport.cell
-        if transport.cancelled:
+        if transport.step == STORING:  # was turned back
             self._store(transport)
         elif lane := self._lane(transport):
             self._begin(self._driver(transport), "queue")
@@ -170,10 +277,10 @@ class Trips:
             return
         lane.serving = lane.queue.popleft()
         delay = max(lane.free_from - self.time, 0.0) + moving_up
-        self._schedule(delay, self._arrive, lane.serving)
+        self._schedule(delay, self._arrive, lane.serving, self._driver(lane.serving))
 
     def _arrive(self, transport: Transport) -> None:
-        if transport.cancelled:
+        if transport.step == STORING:  # was turned back
             self._clear_lane(transport)
             self._store(transport)
             return
@@ -184,17 +291,17 @@ class Trips:
 
     def turn_back(self, transport: Transport) -> None:
         """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
-        self._go_on(transport, STORING)
+        self.book.go_on(transport, STORING)
 
     def leave(self, transport: Transport) -> None:
         """Has a unit leave its station, or be lowered where it is."""
-        self._add_event(Kind.RELEASED, transport)
+        self.book.publish_event(transport, Kind.RELEASED)
         self._clear_lane(transport)
         if transport.then == STAY:
             self.floor.free[transport.cell] = False
             self._lower((transport, transport.cell))
         else:
-            self._go_on(transport, STORING)
+            self.book.go_on(transport, STORING)
             self._store(transport)
 
     def _clear_lane(self, transport: Transport) -> None:
@@ -214,14 +321,14 @@ class Trips:
         cells = np.flatnonzero(free & np.isfinite(table.seconds))
         if not len(cells):
             self._begin(robot, "idle")
-            self._schedule(RETRY, self._store, transport)
+            self._schedule(RETRY, self._store, transport, robot)
             return
         place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
         self.floor.free[place] = False
         self._begin(robot, "back")
         self.distance_m += table.metres[place]
         self.ways[robot.cell, place, True] += 1
-        self._schedule(table.seconds[place], self._lower, (transport, place))
+        self._schedule(table.seconds[place], self._lower, (transport, place), robot)
 
     def free(self) -> np.ndarray:
         """Returns (cells,) bool: storage places where no unit stands or is to be brought."""
@@ -235,14 +342,14 @@ class Trips:
         transport, place = argument
         robot = self._driver(transport)
         robot.cell = place
-        self._go_on(transport, DROPPING)
+        self.book.go_on(transport, DROPPING)
         self._begin(robot, "lift")
-        self._schedule(self.kinematics.lift, self._drop, argument)
+        self._schedule(self.kinematics.lift, self._drop, argument, robot)
 
     def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
         self.floor.units[transport.shelf] = place
-        self._add_event(Kind.STORED, transport)
+        self.book.publish_event(transport, Kind.STORED)
         self.end(transport)
 
     def end(self, transport: Transport) -> None:
@@ -251,6 +358,11 @@ class Trips:
         if transport.robot == NOWHERE:
             return
         robot = self._driver(transport)
+        if robot.halt:  # it failed just before
+            robot.there, robot.halt = max(robot.there, self.time) + robot.halt, 0.0
+        if not robot.in_service:
+            self._begin(robot, OUT)
+            return
         self._begin(robot, "idle")
         self._idle[transport.robot] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)
@@ -259,3 +371,7 @@ class Trips:
             self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)
             robot.cell, robot.there = int(to), begin + float(seconds[0, 0])
+
+
+def _wake(_: object) -> None:
+    """Does nothing: after it, robots that may work again are given work."""

@@ -9,12 +9,13 @@ import numpy as np
 
 from warehouse_fleet.hosts.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.transports.transport_book import Transport
+from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_operations.fleets.activities import ActivityLog
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
 
 TOW_AFTER = 60.0  # in which people come to a robot that is broken in others' way [s]
-DEADLOCKED = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
+DEADLOCKED = 60.0  # standstill after which a robot with a goal counts as stuck [s]
 
 
 class WorldFleet(FleetDriver):
@@ -50,18 +51,18 @@ class WorldFleet(FleetDriver):
         self, asked: list[Transport], free: np.ndarray
     ) -> Iterator[tuple[Transport, int]]:
         transports = self.transports
-        cells = [transports.cell_of_unit[one.shelf] for one in asked]
+        cells = [transports.cell_of_unit[transport.shelf] for transport in asked]
         seconds, _ = self.travel.unloaded(cells, self.robots.cell[free])
-        waiting = Counter(one.station for one in asked)
+        waiting = Counter(transport.station for transport in asked)
         tasks = [
             Task(
-                one.number,
-                one.shelf,
-                one.station,
-                one.priority,
-                transports.waiting(one.station) + waiting[one.station],
+                transport.number,
+                transport.shelf,
+                transport.station,
+                transport.priority,
+                transports.waiting(transport.station) + waiting[transport.station],
             )
-            for one in asked
+            for transport in asked
         ]
         robots = self.robots.kiva_ids[free].tolist()
         for task, robot in self._hooks.match_robots(tasks, robots, seconds):
@@ -86,6 +87,16 @@ class WorldFleet(FleetDriver):
         np.add.at(self._waiting, cells[standing], UPDATE)
         self._activities.observe(UPDATE, self.transports, standing)
         self._cells = cells
+
+    def set_in_service(self, kiva_id: int, in_service: bool) -> None:
+        """Takes a robot out of service where it is, or back."""
+        mode = RobotMode.AUTOMATIC if in_service else RobotMode.OUT_OF_SERVICE
+        if cancels := self.controller.set_mode(kiva_id, mode):
+            self.world.cancel(cancels)
+
+    def fail(self, kiva_id: int, duration: float) -> None:
+        """Has a robot's drive fail, until it is repaired [s]."""
+        self.world.fail(kiva_id, int(FailureKind.MOTOR), duration)
 
     def passages(self) -> np.ndarray:
         """Returns how often a loaded robot came through each cell, (h, w)."""
@@ -120,7 +131,7 @@ class WorldFleet(FleetDriver):
 
     @property
     def stuck(self) -> int:
-        """How many robots stand still for DEADLOCKED although they have somewhere to go."""
+        """The number of robots that have a goal and stand still for DEADLOCKED."""
         robots = self.robots
         going = (robots.goal >= 0) & (robots.goal != robots.cell) & ~robots.busy
         return int(np.count_nonzero(going & (self.traffic.watchdog.stuck_for > DEADLOCKED)))

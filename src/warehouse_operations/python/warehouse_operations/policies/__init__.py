@@ -6,8 +6,8 @@
     storage: {name: my_module:ByWeight, heavy: 40}    # a class of your own with options
 
 Roles that are left out have the policies of DEFAULTS. A class of your own has the methods of the
-protocol of its role; its constructor takes the options. In Python an object with those methods will
-do as well. `view` is a view.View of the shift.
+protocol of its role; its constructor takes the options. In Python an object with those methods is
+accepted, too. `view` is a view.View of the shift.
 """
 
 import importlib
@@ -118,7 +118,7 @@ class ChargingPolicy(Protocol):
         """
 
     def frees(self, charge: np.ndarray) -> np.ndarray:
-        """Returns which charging robots may be given work."""
+        """Returns which charging robots may get work."""
 
     def spares(self, charge: np.ndarray) -> np.ndarray:
         """Returns which robots get no work even if no charging place is free."""
@@ -183,7 +183,7 @@ class Policies:
         for role in chosen:
             if role not in ROLES:
                 raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
-        self.given = chosen
+        self.choices = chosen
         self.chosen: dict[str, Any] = {}  # as a file has them
         for role in ROLES:
             what = chosen.get(role, DEFAULTS[role])

@@ -24,7 +24,7 @@ class Emptiest:
 
     def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
         """Returns the bin, one of candidates, that a bundle goes to."""
-        return max(candidates, key=lambda one: (view.room(one.unit), one.room, -one.bin_id))
+        return max(candidates, key=lambda bin_: (view.room(bin_.unit), bin_.room, -bin_.bin_id))
 
 
 class SameSku:
@@ -34,7 +34,7 @@ class SameSku:
         """Returns the bin, one of candidates, that a bundle goes to."""
         return max(
             candidates,
-            key=lambda one: (one.sku == bundle.sku and not one.empty, -one.room, -one.bin_id),
+            key=lambda bin_: (bin_.sku == bundle.sku and not bin_.empty, -bin_.room, -bin_.bin_id),
         )
 
 
@@ -43,13 +43,13 @@ class Turnover:
 
     def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
         """Returns the bin, one of candidates, that a bundle goes to."""
-        wanted = view.popularity_rank(bundle.sku)
+        rank = view.popularity_rank(bundle.sku)
 
-        def distance(one: Bin) -> float:
-            cell = view.cell(one.unit)
-            return abs(float(view.place_rank([cell])[0]) - wanted) if cell is not None else 1.0
+        def distance(bin_: Bin) -> float:
+            cell = view.cell(bin_.unit)
+            return abs(float(view.place_rank([cell])[0]) - rank) if cell is not None else 1.0
 
-        return min(candidates, key=lambda one: (distance(one), one.bin_id))
+        return min(candidates, key=lambda bin_: (distance(bin_), bin_.bin_id))
 
 
 NAMES: dict[str, type] = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a learned policy decides upon: a shortlist of candidates, and numbers of each.
+"""The input of a learned policy: a shortlist of candidates, and numbers of each.
 
 See doc/how-to/learning.md for what the numbers mean.
 """
@@ -26,7 +26,7 @@ LATE = 1800.0  # until an order is due, or since it came, that counts as 1 [s]
 
 
 class Decision(NamedTuple):
-    """What is to be decided: `role`, and of what may be chosen, `keys`, `rows` (n, FEATURES).
+    """A choice of a role: `keys` are the candidates, `rows` (n, FEATURES) their numbers.
 
     usual: the index that the default policy of the role would take.
     """
@@ -76,17 +76,17 @@ def decision_on_order(station: WorkStation, view: "View") -> Decision:
 
 
 def _orders_near(station: WorkStation, view: "View", usual: Order | None) -> list[Order]:
-    """Up to SHORTLIST - 1 orders in stock, the default's first, then those of inbound SKUs."""
-    found: dict[int, Order] = {} if usual is None else {usual.order_id: usual}
+    """Returns SHORTLIST - 1 orders in stock or fewer: the default's, then those of inbound SKUs."""
+    nearest: dict[int, Order] = {} if usual is None else {usual.order_id: usual}
     lines = (line for sku in station.inbound_stock() for line in view.backlog.lines_of(sku))
     served = (line.order for line in lines)
     for source, most in ((served, SHORTLIST // 2), (view.backlog.by_urgency(), SHORTLIST - 1)):
         for order in source:
-            if len(found) >= most:
+            if len(nearest) >= most:
                 break
-            if order.order_id not in found and view.in_stock(order):
-                found[order.order_id] = order
-    return list(found.values())
+            if order.order_id not in nearest and view.in_stock(order):
+                nearest[order.order_id] = order
+    return list(nearest.values())
 
 
 def _order_row(
@@ -132,7 +132,7 @@ def decision_on_robot(task: Task, seconds: np.ndarray, free: np.ndarray) -> Deci
 
 
 def _shortlist(usual: int, *ranks: np.ndarray) -> np.ndarray:
-    """Returns indices, ascending: `usual`, and of the least by each of the ranks as many as fit."""
+    """Returns ascending indices: `usual`, and an equal number of the lowest of each rank."""
     if len(ranks[0]) <= SHORTLIST:
         return np.arange(len(ranks[0]))
     most = (SHORTLIST - 1) // len(ranks)

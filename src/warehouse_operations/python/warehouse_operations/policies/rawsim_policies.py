@@ -10,7 +10,7 @@ from warehouse_layout.convert.rawsim.xml_fields import read_root
 
 SUFFIX = ".xconf"
 TYPE = "{http://www.w3.org/2001/XMLSchema-instance}type"
-# Of the elements that choose a method: our role, and our policies by theirs.
+# The elements that choose a method: our role, and our policies by theirs.
 CHOSEN: dict[str, tuple[str, dict[str, str]]] = {
     "TaskAllocationConfig": ("robots", {"Balanced": "balanced"}),
     "ItemStorageConfig": (
@@ -52,7 +52,7 @@ def read(path: PathName) -> tuple[dict[str, Any], list[str]]:
     Raises InstanceError.
     """
     root = read_root(path, "ControlConfiguration")
-    told: dict[str, Any] = {}
+    chosen: dict[str, Any] = {}
     for tag, (role, names) in CHOSEN.items():
         method, element = _method(root, tag)
         if tag == "OrderBatchingConfig" and method == "Default":
@@ -60,11 +60,11 @@ def read(path: PathName) -> tuple[dict[str, Any], list[str]]:
         else:
             policy = names.get(method)
         if policy:
-            told[role] = policy
+            chosen[role] = policy
     method, element = _method(root, "TaskAllocationConfig")
     if element is not None and (pods := PODS.get(element.findtext("OutputPodOrderType", ""))):
-        told["units"] = pods
-    return told, list(_not_followed(path, root, told))
+        chosen["units"] = pods
+    return chosen, list(_not_followed(path, root, chosen))
 
 
 def remarks(path: PathName) -> list[str]:
@@ -81,10 +81,10 @@ def _method(root: Element, tag: str) -> tuple[str, Element | None]:
     return kind.removesuffix(tag.removesuffix("Config")), element
 
 
-def _not_followed(path: PathName, root: Element, told: dict[str, Any]) -> Iterator[str]:
+def _not_followed(path: PathName, root: Element, chosen: dict[str, Any]) -> Iterator[str]:
     for tag in (*CHOSEN, *DONE, *OTHERS):
         method, element = _method(root, tag)
         role = CHOSEN[tag][0] if tag in CHOSEN else ""
-        if element is None or role in told or DONE.get(tag) == method:
+        if element is None or role in chosen or DONE.get(tag) == method:
             continue
         yield f"{path}: {tag} {method} is not followed"

@@ -47,9 +47,9 @@ class Threshold:
         for sku, lacking in sorted(view.shortages().items()):
             pieces = min(lacking, AHEAD - view.pieces_at_door(sku))
             whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
-            wanted = whole if view.inventory.roomy[sku] else pieces
-            for begun in range(0, wanted, BUNDLE_MOST):
-                yield sku, min(BUNDLE_MOST, wanted - begun)
+            total = whole if view.inventory.roomy[sku] else pieces
+            for begun in range(0, total, BUNDLE_MOST):
+                yield sku, min(BUNDLE_MOST, total - begun)
 
 
 class Never:

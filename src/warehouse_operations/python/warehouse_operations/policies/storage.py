@@ -68,9 +68,9 @@ class Cache:
 
     def choose(self, unit: int, cells: np.ndarray, distances: np.ndarray, view: "View") -> int:
         """Returns the cell, one of cells (n,), in which a unit is stored; distances [m], (n,)."""
-        wanted = view.work(unit) >= self.work
+        is_busy = view.work(unit) >= self.work
         cached = view.place_rank(cells) < self.share
-        return cells[np.lexsort((distances, cached != wanted))[0]]
+        return cells[np.lexsort((distances, cached != is_busy))[0]]
 
 
 NAMES: dict[str, type] = {

@@ -2,80 +2,77 @@
 """The state of a shift as its policies see it."""
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from warehouse_operations.stock.assortment import CAPACITY, Assortment
-from warehouse_operations.stock.orders import Bundle, Order
+from warehouse_operations.stock.event_queue import Clock
+from warehouse_operations.stock.goods_in import GoodsIn
+from warehouse_operations.stock.inventory import Inventory
+from warehouse_operations.stock.orders import Backlog, Bundle, Order
+from warehouse_operations.stock.settings import Settings
+from warehouse_operations.stock.stations import WorkStation
 from warehouse_operations.stock.units_by_id import UnitSet
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
-    from warehouse_operations.stock.stations import WorkStation
+from warehouse_operations.stock.whereabouts import Whereabouts
 
 RANKS_KEPT = 300.0  # the ranking of the units by turnover is used for this long [s]
 
 
+@dataclass(eq=False)
 class View:
-    """What a policy gets as `view`. Policies read it and change nothing.
+    """The `view` of a policy on its shift. Policies read it and change nothing.
 
-    now: simulated time [s]. rng: a numpy Generator. policies, settings: those of the shift.
-    inventory: its Inventory. backlog: its Backlog. assortment: its Assortment. floor: its
-    Whereabouts. free_units: the ids of units that stand in storage and may be asked for.
+    clock: simulated times [s]. backlog: the orders that no station has. orders: all that are not
+    over, by id. goods_in: the bundles that have no bin yet. free_units: the ids of units that stand
+    in storage and may be asked for. settings: those of the shift. rng: for policies that draw lots.
     """
 
-    def __init__(self, shift: "Shift") -> None:
-        self._shift = shift
-        self.rng, self.policies, self.settings = shift.rng, shift.policies, shift.settings
-        self.inventory, self.backlog, self.floor = shift.inventory, shift.backlog, shift.floor
-        self.assortment: Assortment = shift.assortment
+    clock: Clock
+    inventory: Inventory
+    backlog: Backlog
+    floor: Whereabouts
+    stations: Collection[WorkStation]
+    orders: Mapping[int, Order]
+    goods_in: GoodsIn
+    free_units: UnitSet
+    assortment: Assortment
+    settings: Settings
+    rng: np.random.Generator
+
+    def __post_init__(self) -> None:
+        self._stations = {station.name: station for station in self.stations}
         self._turnover_rank: dict[int, float] = {}
         self._ranked_at = -np.inf
-        self._popularity_rank = _ranks_of(shift.assortment)
-        self._sku_index = {sku: i for i, sku in enumerate(shift.assortment.skus)}
+        self._popularity_rank = _ranks_of(self.assortment)
+        self._sku_index = {sku: i for i, sku in enumerate(self.assortment.skus)}
         self._refill_weights = np.zeros(len(self._sku_index))
 
     @property
     def now(self) -> float:
         """The simulated time [s]."""
-        return self._shift.now
+        return self.clock.now
 
-    @property
-    def free_units(self) -> UnitSet:
-        """The ids of units that stand in storage and may be asked for."""
-        return self._shift.free_units
-
-    @property
-    def orders(self) -> Mapping[int, Order]:
-        """All orders that are not over, by id."""
-        return self._shift.orders
-
-    @property
-    def stations(self) -> Collection["WorkStation"]:
-        """All WorkStations."""
-        return self._shift.stations
-
-    def station(self, name: str) -> "WorkStation":
+    def station(self, name: str) -> WorkStation:
         """Returns the WorkStation of that name. Raises KeyError."""
-        return self._shift.station(name)
+        return self._stations[name]
 
     # Stock.
 
     @property
     def bundles(self) -> Mapping[int, Bundle]:
         """The Bundles that wait for a place, by id."""
-        return self._shift.replenishing.bundles
+        return self.goods_in.bundles
 
     @property
     def pieces_ordered(self) -> int:
         """Pieces that were ordered and are not in a bin yet."""
-        return self._shift.replenishing.ordered + self.inventory.expected
+        return self.goods_in.pieces + self.inventory.expected
 
     def pieces_at_door(self, sku: str) -> int:
         """Returns how many pieces of a SKU were ordered and have no bin yet."""
-        return self._shift.replenishing.ordered_of.get(sku, 0)
+        return self.goods_in.pieces_of.get(sku, 0)
 
     def in_stock(self, order: Order) -> bool:
         """Returns whether every piece that an order lacks lies in a bin, promised to no order.
@@ -92,21 +89,21 @@ class View:
     def work(self, unit: int) -> int:
         """Returns how many free pieces on a unit the orders of the backlog ask for."""
         demand, pieces = self.backlog.demand, 0
-        for one in self.inventory.of_unit[unit]:
-            wanted = demand.get(one.sku)
-            if wanted:
-                pieces += min(one.quantity - one.reserved, wanted)
+        for bin_ in self.inventory.of_unit[unit]:
+            asked = demand.get(bin_.sku)
+            if asked:
+                pieces += min(bin_.quantity - bin_.reserved, asked)
         return pieces
 
     def room(self, unit: int) -> int:
         """Returns how many pieces can be put into a unit's bins."""
-        return sum(one.room for one in self.inventory.of_unit[unit])
+        return sum(bin_.room for bin_ in self.inventory.of_unit[unit])
 
     def sku_to_refill(self) -> str | None:
         """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""
-        changed = self.inventory.room_changed | self._shift.replenishing.changed
+        changed = self.inventory.room_changed | self.goods_in.changed
         self.inventory.room_changed.clear()
-        self._shift.replenishing.changed.clear()
+        self.goods_in.changed.clear()
         for sku in changed & self._sku_index.keys():
             room = self.inventory.roomy[sku] - self.pieces_at_door(sku) / 8
             self._refill_weights[self._sku_index[sku]] = max(room, 0)
@@ -118,10 +115,11 @@ class View:
 
     def shortages(self) -> dict[str, int]:
         """Returns the pieces that orders want beyond what is in stock or ordered, by SKU."""
-        wanted: dict[str, int] = defaultdict(int, self._shift.picking.missing())
-        for sku, pieces in self.backlog.demand.items():
-            wanted[sku] += pieces
-        lacking = {s: n - self.stock_of(s) - self.pieces_at_door(s) for s, n in wanted.items()}
+        demand: dict[str, int] = defaultdict(int, self.backlog.demand)
+        for station in self.stations:
+            for line in station.missing.values():
+                demand[line.sku] += line.missing
+        lacking = {s: n - self.stock_of(s) - self.pieces_at_door(s) for s, n in demand.items()}
         return {sku: pieces for sku, pieces in lacking.items() if pieces > 0}
 
     # Places.
@@ -131,7 +129,7 @@ class View:
         return self.floor.seconds_to(station, unit)
 
     def seconds_to_all(self, station: str, units: np.ndarray) -> np.ndarray:
-        """Returns the same of units, (n,) [s]."""
+        """Returns seconds_to() of units, (n,) [s]."""
         return self.floor.seconds_to_all(station, units)
 
     def cell(self, unit: int) -> int | None:
@@ -179,35 +177,6 @@ class View:
         turnover = {u: sum(share.get(b.sku, 0) for b in units[u] if b.quantity) for u in units}
         order = sorted(turnover, key=lambda unit: (-turnover[unit], unit))
         return {unit: i / len(order) for i, unit in enumerate(order)}
-
-
-class PolicyHooks:
-    """Answers what the fleet asks by the policies of a shift; see protocols.Hooks."""
-
-    def __init__(self, shift: "Shift") -> None:
-        self._shift = shift
-
-    def choose_place(self, shelf_id: int, cells: np.ndarray, distances: np.ndarray) -> int:
-        """Returns the cell in which a unit is stored, and notes it as the unit's place."""
-        shift = self._shift
-        cell = int(shift.policies.storage.choose(shelf_id, cells, distances, shift.view))
-        shift.floor.cells[shelf_id] = cell
-        return cell
-
-    def match_robots(
-        self, tasks: Sequence[Any], robots: Sequence[int], seconds: np.ndarray
-    ) -> Iterable[tuple[int, int]]:
-        """Returns pairs (index of the task, index of the robot)."""
-        return self._shift.policies.robots.match(tasks, robots, seconds, self._shift.view)
-
-    def park(self, kiva_id: int, cell: int) -> int | None:
-        """Returns the cell to which a robot without work goes; None if it waits where it is."""
-        return self._shift.policies.idle.park(kiva_id, cell, self._shift.view)
-
-    @property
-    def charging(self) -> Any:
-        """The charging policy."""
-        return self._shift.policies.charging
 
 
 def _ranks_of(assortment: Assortment) -> dict[str, float]:

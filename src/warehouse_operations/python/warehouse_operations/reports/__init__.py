@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What shifts came to, for a person: figures, comparisons, charts, pages and tables."""
+"""Reports on shifts for people: figures, comparisons, charts, pages and tables."""

@@ -39,7 +39,10 @@ def robots(groups: Sequence[Group]) -> Chart:
         _draw_bars(canvas, shares, rows_of > 1)
 
     head = ["Activity", *headings(groups, "Share of time [%]")]
-    rows = [[words, *(_percent(one[name]) for one in shares)] for name, words in WORDS.items()]
+    rows = [
+        [words, *(_percent(shares_of_group[name]) for shares_of_group in shares)]
+        for name, words in WORDS.items()
+    ]
     height = len(WORDS) * (bar * rows_of + 9) + 44
     return Chart(
         title,
@@ -64,7 +67,7 @@ def _draw_bars(canvas: Canvas, shares: Sequence[dict[str, Estimate]], lettered: 
     """Draws a bar for each activity and configuration, its share beside it."""
     axes, rows = canvas.axes, len(shares)
     step = 0.8 / rows
-    top = max((100 * one.mean for each in shares for one in each.values()), default=1.0)
+    top = max((100 * share.mean for each in shares for share in each.values()), default=1.0)
     for at, activity in enumerate(WORDS):
         token = tokens.ACTIVITIES[activity]
         for i, each in enumerate(shares):
@@ -92,7 +95,7 @@ def _shares(group: Group) -> dict[str, Estimate]:
     for run in group.runs:
         whole = sum(run.data["robots"].values()) or 1.0
         each.append({name: run.data["robots"].get(name, 0.0) / whole for name in WORDS})
-    return {name: Estimate.of([one[name] for one in each]) for name in WORDS}
+    return {name: Estimate.of([shares[name] for shares in each]) for name in WORDS}
 
 
 def _robots_words(shares: Mapping[str, Estimate]) -> str:
@@ -109,40 +112,48 @@ def _percent(share: Estimate) -> str:
 
 def stations(group: Group) -> Chart:
     """Returns how busy each station is, over the runs of a group."""
-    found = _busy(group)
-    title = _stations_words(found)
+    busy_stations = _busy(group)
+    title = _stations_words(busy_stations)
     several = ", with 95 % confidence intervals" if len(group.runs) > 1 else ""
     head = ["Station", "Kind", "Busy [%]", "Pieces", "Visits"]
-    rows = [[name, kind.lower(), _percent(busy), *more] for name, kind, busy, *more in found]
-    if len(found) > NAMED:
+    rows = [
+        [name, kind.lower(), _percent(busy), *more] for name, kind, busy, *more in busy_stations
+    ]
+    if len(busy_stations) > NAMED:
         quantity = f"Time at work [%], a bar for each station, busiest first{several}"
-        return Chart(title, quantity, _many(found), 190, (48, 12, 30, 40), head, rows)
+        return Chart(title, quantity, _many(busy_stations), 190, (48, 12, 30, 40), head, rows)
     quantity = f"Time at work [%] of each station{several}"
-    height = 24 * len(found) + 44
-    return Chart(title, quantity, _few(found), height, (118, 52, 6, 40), head, rows)
+    height = 24 * len(busy_stations) + 44
+    return Chart(title, quantity, _few(busy_stations), height, (118, 52, 6, 40), head, rows)
 
 
-def _few(found: Sequence[Any]) -> Any:
+def _few(busy_stations: Sequence[Any]) -> Any:
     def draw(canvas: Canvas) -> None:
         axes = canvas.axes
-        for y, (_, _, busy, *_) in enumerate(found):
+        for y, (_, _, busy, *_) in enumerate(busy_stations):
             share, half = 100 * busy.mean, 100 * np.nan_to_num(busy.half)
             axes.barh(y, share, height=0.68, color=tokens.colour("working"))
             if half:
                 _whisker(axes, share, y, half)
             canvas.say(share + half, y, f"{share:.0f} %", "text", xytext=(5, -4))
         canvas.scale(("% of the time at work", 100), ("", 1), upright=False, across=True)
-        axes.set(ylim=(len(found) - 0.5, -0.5))
-        axes.set_yticks(range(len(found)), [one[0] for one in found], color=tokens.colour("text"))
+        axes.set(ylim=(len(busy_stations) - 0.5, -0.5))
+        axes.set_yticks(
+            range(len(busy_stations)),
+            [row[0] for row in busy_stations],
+            color=tokens.colour("text"),
+        )
 
     return draw
 
 
-def _many(found: Sequence[Any]) -> Any:
+def _many(busy_stations: Sequence[Any]) -> Any:
     def draw(canvas: Canvas) -> None:
         begin, ticks = 0, []
-        for kind in dict.fromkeys(one[1] for one in found):
-            shares = sorted((100 * one[2].mean for one in found if one[1] == kind), reverse=True)
+        for kind in dict.fromkeys(row[1] for row in busy_stations):
+            shares = sorted(
+                (100 * row[2].mean for row in busy_stations if row[1] == kind), reverse=True
+            )
             at = np.arange(begin, begin + len(shares))
             canvas.axes.bar(at, shares, width=0.8, color=tokens.colour("working"))
             ticks.append((at.mean(), f"{len(shares)} for {KINDS.get(kind, kind.lower())}"))
@@ -170,8 +181,8 @@ def _busy(group: Group) -> list[Any]:
     ]
 
 
-def _stations_words(found: Sequence[Any]) -> str:
-    picking = [busy.mean for _, kind, busy, *_ in found if kind != "REPLENISH"]
+def _stations_words(busy_stations: Sequence[Any]) -> str:
+    picking = [busy.mean for _, kind, busy, *_ in busy_stations if kind != "REPLENISH"]
     if not picking:
         return "How busy stations are"
     least, most = (100 * bound for bound in (min(picking), max(picking)))
@@ -185,17 +196,19 @@ def comparison(groups: Sequence[Group], kpi: str, label: str) -> Chart:
 
     The axis begins at zero: a difference looks as large as it is.
     """
-    found = [group.estimate(kpi) for group in groups]
-    half = [float(np.nan_to_num(one.half)) for one in found]
-    top = max(one.mean + more for one, more in zip(found, half))
+    estimates = [group.estimate(kpi) for group in groups]
+    half = [float(np.nan_to_num(estimate.half)) for estimate in estimates]
+    top = max(estimate.mean + more for estimate, more in zip(estimates, half))
 
     def draw(canvas: Canvas) -> None:
         axes = canvas.axes
-        for y, (one, more) in enumerate(zip(found, half)):
+        for y, (estimate, more) in enumerate(zip(estimates, half)):
             colour = tokens.series(y)
-            axes.errorbar(one.mean, y, xerr=more or None, fmt="o", ms=7, color=colour, capsize=4)
-            text = f"{one.mean:,.{_digits(top)}f}"
-            canvas.say(one.mean + more, y, text, "text", xytext=(9, -4))
+            axes.errorbar(
+                estimate.mean, y, xerr=more or None, fmt="o", ms=7, color=colour, capsize=4
+            )
+            text = f"{estimate.mean:,.{_digits(top)}f}"
+            canvas.say(estimate.mean + more, y, text, "text", xytext=(9, -4))
         canvas.scale((label, 1.08 * top or 1), ("", 1), upright=False, across=True)
         axes.set(ylim=(len(groups) - 0.5, -0.5))
         letters = [letter(i) for i in range(len(groups))]

@@ -103,9 +103,9 @@ def turnover(groups: Sequence[Group]) -> Chart:
         np.sort(np.concatenate([run.data["turnover_s"] for run in group.runs])) / 60
         for group in groups
     ]
-    found = [one for one in minutes if len(one)]
-    most = max((np.percentile(one, TAIL) for one in found), default=1.0)
-    longest = max((one[-1] for one in found), default=1.0)
+    not_empty = [times for times in minutes if len(times)]
+    most = max((np.percentile(times, TAIL) for times in not_empty), default=1.0)
+    longest = max((times[-1] for times in not_empty), default=1.0)
 
     def draw(canvas: Canvas) -> None:
         canvas.scale(("minutes from arrival to completion", most), ("orders [%]", 104))
@@ -122,7 +122,7 @@ def turnover(groups: Sequence[Group]) -> Chart:
     alone = len(groups) == 1
     head = ["Done within", *headings(groups, "Minutes")]
     rows = [
-        [f"{level} % of the orders", *(_quantile(one, level) for one in minutes)]
+        [f"{level} % of the orders", *(_quantile(times, level) for times in minutes)]
         for level in (25, 50, 75, 90, 95, 99)
     ]
     words = _turnover_words(minutes[0]) if alone else "How long orders take"

@@ -17,7 +17,7 @@ LEAST = 3  # runs that an interval takes: of two, their deviation is next to unk
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean and half its confidence interval; nan where fewer than LEAST runs can't tell."""
+    """A mean and half its confidence interval; nan with fewer than LEAST runs."""
 
     mean: float
     half: float
@@ -36,7 +36,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Difference:
-    """How much the second of two configurations is above the first, and how likely by chance.
+    """The difference of the second of two configurations from the first, and its p-value.
 
     estimate: with its confidence interval. paired: seeds that both have are compared one by one.
     effect: over the standard deviation of the pairs' differences, else of the runs (Hedges' g);
@@ -100,10 +100,10 @@ def grouped(runs: Iterable[Run]) -> list[Group]:
     for run in runs:
         by_config.setdefault(json.dumps(run.config, sort_keys=True), []).append(run)
     flat = [_flat(members[0].config) for members in by_config.values()]
-    keys = [key for key in _all_keys(flat) if len({str(one.get(key)) for one in flat}) > 1]
+    keys = [key for key in _all_keys(flat) if len({str(config.get(key)) for config in flat}) > 1]
     result = []
-    for one, members in zip(flat, by_config.values()):
-        label = ", ".join(_word(key, one.get(key)) for key in keys)
+    for config, members in zip(flat, by_config.values()):
+        label = ", ".join(_word(key, config.get(key)) for key in keys)
         result.append(Group(label or members[0].folder.name, tuple(members)))
     return result
 
@@ -117,13 +117,13 @@ def difference_of(a: dict[int, float], b: dict[int, float]) -> Difference | None
     """Returns the Difference of figures by seed; None if there are too few."""
     common = sorted(a.keys() & b.keys())
     if len(common) >= LEAST:
-        found = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
+        result = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
     elif not common and min(len(a), len(b)) >= LEAST:
-        found = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
+        result = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
     else:
         return None
     base = float(np.mean(list(a.values())))
-    estimate, p_value, effect, freedom = found
+    estimate, p_value, effect, freedom = result
     relative = estimate.mean / base if base else float("nan")
     return Difference(estimate, relative, p_value, bool(common), effect, base, freedom)
 
@@ -160,7 +160,7 @@ def _of_pairs(deltas: np.ndarray) -> _Found:
 def _of_samples(a: np.ndarray, b: np.ndarray) -> _Found:
     """Returns the difference of two means by Welch's t, its p-value and effect."""
     mean = float(b.mean() - a.mean())
-    errors = np.array([one.var(ddof=1) / len(one) for one in (a, b)])
+    errors = np.array([sample.var(ddof=1) / len(sample) for sample in (a, b)])
     if not errors.any():
         nothing = Estimate(mean, float("nan"), len(b))
         return nothing, 1.0, float(np.copysign(np.inf, mean)) if mean else 0.0, len(a) + len(b) - 2
@@ -193,7 +193,7 @@ def _flat(config: dict[str, Any], before: str = "") -> dict[str, Any]:
 
 
 def _all_keys(flat: Iterable[dict[str, Any]]) -> list[str]:
-    return list(dict.fromkeys(key for one in flat for key in one))
+    return list(dict.fromkeys(key for config in flat for key in config))
 
 
 def _word(key: str, value: Any) -> str:

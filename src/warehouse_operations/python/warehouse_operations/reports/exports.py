@@ -60,12 +60,12 @@ def hours(group: Group) -> Iterator[Row]:
     """Yields HOURS, and a row an hour of the shift: means of the runs."""
     yield HOURS
     count = len(group.runs)
-    for one, limit in limits.hours(limits.windows(group.runs)):
-        hourly = limits.HOUR / max(one.end - one.begin, 1.0) / count
-        counts = (one.arrived, one.completed, one.late, one.pieces)
-        shares = (one.of_bound, one.at_work, one.queue, one.idle)
+    for hour, limit in limits.hours(limits.windows(group.runs)):
+        hourly = limits.HOUR / max(hour.end - hour.begin, 1.0) / count
+        counts = (hour.arrived, hour.completed, hour.late, hour.pieces)
+        shares = (hour.of_bound, hour.at_work, hour.queue, hour.idle)
         yield (
-            f"{limits.clock(one.begin)} to {limits.clock(one.end)}",
+            f"{limits.clock(hour.begin)} to {limits.clock(hour.end)}",
             *(round(hourly * value, 1) for value in counts),
             *(round(100 * value, 1) for value in shares),
             str(limit),

@@ -19,7 +19,7 @@ TALL = 420  # [px] at most
 NAMED = 24  # stations whose names have room
 NEAR = 6.0  # cells from a station
 MARGINS = (6, 6, 22, 46)  # the lowest part is the scale's
-# Of what: words, its token, how to tell the most.
+# Each map: words, its token, how to write the maximum.
 MAPS = {
     "traffic": ("Loaded robots through a cell", "moving", "The busiest cell has {} loaded robots"),
     "waiting": ("Time robots stood in a cell [s]", "waiting", "Robots stand up to {} s in a cell"),
@@ -36,16 +36,16 @@ def maps(group: Group) -> list[Chart]:
         (row["name"], row["kind"], *row["cell"]) for row in data[0]["stations"] if row.get("cell")
     ]
     return [
-        heat_map(np.mean([one[what] for one in data], axis=0), what, floor, stations)
+        heat_map(np.mean([maps[what] for maps in data], axis=0), what, floor, stations)
         for what in MAPS
-        if all(one.get(what) for one in data)
+        if all(maps.get(what) for maps in data)
     ]
 
 
 def heat_map(values: Any, what: str, floor: Sequence[str] = (), stations: Stations = ()) -> Chart:
     """Returns a chart of values over the floor, (h, w); what: one of MAPS.
 
-    floor: its rows as runs.floor_rows() tells them, the lowest first; they lie beneath the values.
+    floor: its rows as runs.floor_rows() writes them, the lowest first; they lie beneath the values.
     """
     values = np.asarray(values, float)
     quantity, token, most = MAPS[what]
@@ -71,7 +71,7 @@ def _paint(axes: Any, opaque: np.ndarray, token: str) -> None:
     light, dark = (mpl.colors.to_rgb(each[token]) for each in (tokens.LIGHT, tokens.DARK))
     shown = np.empty((*opaque.shape, 4))
     shown[..., :3] = (np.array(light) + np.array(dark)) / 2
-    # The least that is there can be told from nothing.
+    # The least value differs visibly from none.
     shown[..., 3] = np.where(opaque > 0, 0.1 + 0.9 * opaque, 0) if token != "edge" else opaque
     axes.imshow(shown, origin="lower", interpolation="nearest")
 

@@ -73,7 +73,7 @@ def reasons(group: Group) -> Iterator[str]:
     yield _reason(limits.limit(parts), limits.merged(chosen))
 
 
-def _reason(found: Limit, then: Window) -> str:
+def _reason(limit: Limit, then: Window) -> str:
     """Returns the figures from which a limit follows, of the time in which it holds."""
     waits, idle = f"{100 * then.queue:.0f} %", f"{100 * then.idle:.0f} %"
     of_bound = f"{100 * then.of_bound:.0f} % of what they can at most"
@@ -93,21 +93,21 @@ def _reason(found: Limit, then: Window) -> str:
         ),
         Limit.STREETS: (
             f"Stations pick {of_bound}, and robots take {late:.0f} % longer than their ways would"
-            " without others on them: wider aisles or fewer robots would tell."
+            " without others on them: wider aisles or fewer robots would help."
         ),
         Limit.ROBOTS: (
             f"Stations pick {of_bound} and wait for units meanwhile; robots are idle for {idle} and"
             f" wait for stations {waits} of their time: more robots would bring more."
         ),
-    }[found]
+    }[limit]
 
 
 def by_hour(group: Group, label: str) -> str:
     """Returns a table of the shift hour by hour: a mean of its runs. label: its accessible name."""
     head, *rows = report_exports.hours(group)
-    shown = [[str(name), *(_cell(one) for one in cells)] for name, *cells in rows]
+    shown = [[str(name), *(_cell(cell) for cell in cells)] for name, *cells in rows]
     write = page.table if len(shown) <= DAY else page.behind
-    return write([str(one) for one in head], shown, label)
+    return write([str(heading) for heading in head], shown, label)
 
 
 def _cell(value: Any) -> str:
@@ -119,9 +119,9 @@ def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, s
 
     warm_up: what of the beginning is left out, if anything is.
     """
-    told = [dict(_facts(run)) for run in runs]
-    for term, fact in told[0].items():
-        if all(one.get(term) == fact for one in told):
+    facts = [dict(_facts(run)) for run in runs]
+    for term, fact in facts[0].items():
+        if all(others.get(term) == fact for others in facts):
             yield term, fact
     seeds = sorted({run.seed for run in runs})
     yield "Seeds", f"{_listed(seeds)} ({len(runs)} {'shift' if len(runs) == 1 else 'shifts'})"
@@ -131,8 +131,8 @@ def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, s
 
 def common(runs: Sequence[Run]) -> Iterator[str]:
     """Yields words for the conditions that all runs share, for the top of the page."""
-    told = [list(_conditions(run)) for run in runs]
-    yield from (words for words in told[0] if all(words in one for one in told))
+    conditions = [list(_conditions(run)) for run in runs]
+    yield from (words for words in conditions[0] if all(words in others for others in conditions))
 
 
 def _conditions(run: Run) -> Iterator[str]:
@@ -162,7 +162,7 @@ def _origin(runs: Sequence[Run]) -> Iterator[tuple[str, str]]:
     """Yields when and by which version these runs were simulated; runs of before don't say it."""
     dates = sorted({run.data["date"][:10] for run in runs if "date" in run.data})
     if dates:
-        days = [date.fromisoformat(one).strftime("%-d %B %Y") for one in dates]
+        days = [date.fromisoformat(date_).strftime("%-d %B %Y") for date_ in dates]
         yield "Date", days[0] if len(days) == 1 else f"{days[0]} to {days[-1]}"
     versions = sorted({run.data["version"] for run in runs if run.data.get("version")})
     if versions:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What limits a warehouse, and when: the one place that reports, sweeps, sizings and what-if ask.
+"""The limits of a warehouse over the day; reports, sweeps, sizings and what-if ask here alone.
 
 A shift is looked at in windows of ten minutes. Each has a limit of its own, from how near stations
 and robots are to what they can; what limits the shift is what does where orders become late, else
@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 
 from warehouse_operations.runs.run_files import Run
-from warehouse_operations.shift.kpis import INTERVAL
+from warehouse_operations.shift.tally import INTERVAL
 
 WINDOW = 600.0  # [s]
 HOUR = 3600.0  # [s]
@@ -24,7 +24,7 @@ HELD_UP = 1.15  # driven over planned time: traffic holds robots up
 
 
 class Limit(StrEnum):
-    """What limits a warehouse."""
+    """The parts of a warehouse that can limit it."""
 
     STATIONS = "the picking stations"
     REPLENISHING = "the replenishing stations"
@@ -78,7 +78,7 @@ class Window:
 
     @property
     def limit(self) -> Limit:
-        """What limits the warehouse in this window."""
+        """The limit of the warehouse in this window."""
         if self.of_bound >= SATURATED:
             return Limit.STATIONS
         if self.idle > IDLE:
@@ -124,9 +124,10 @@ def windows(runs: Sequence[Run]) -> list[Window]:
     if any("minutes" not in run.data for run in runs):
         return [_whole(runs, delay)]
     each = [run.data["minutes"] for run in runs]
-    count = min(len(one["pieces"]) for one in each)
+    count = min(len(minutes["pieces"]) for minutes in each)
     series = {
-        name: np.sum([one[name][:count] for one in each], axis=0).tolist() for name in each[0]
+        name: np.sum([minutes[name][:count] for minutes in each], axis=0).tolist()
+        for name in each[0]
     }
     return windows_of(series, series["late"], delay) or [_whole(runs, delay)]
 
@@ -163,15 +164,15 @@ def _whole(runs: Sequence[Run], delay: float) -> Window:
 
 def merged(parts: Sequence[Window]) -> Window:
     """Returns Windows as one, from the begin of the first to the end of the last."""
-    seconds = np.array([one.end - one.begin for one in parts])
+    seconds = np.array([part.end - part.begin for part in parts])
     sums = {
-        name: sum(getattr(one, name) for one in parts)
+        name: sum(getattr(part, name) for part in parts)
         for name in (
             "arrived", "completed", "late", "pieces", "bound", "robots_s", "idle_s", "queue_s",
         )
     }  # fmt: skip
     means = {
-        name: float(np.average([getattr(one, name) for one in parts], weights=seconds))
+        name: float(np.average([getattr(part, name) for part in parts], weights=seconds))
         for name in ("replenishing", "delay")
     }
     return Window(parts[0].begin, parts[-1].end, **sums, **means)
@@ -181,22 +182,22 @@ def limit(parts: Sequence[Window]) -> Limit:
     """Returns what limits a shift: where orders become late, else for the longest time."""
     late: dict[Limit, float] = {}
     time: dict[Limit, float] = {}
-    for one in parts:
-        late[one.limit] = late.get(one.limit, 0.0) + one.late
-        time[one.limit] = time.get(one.limit, 0.0) + one.end - one.begin
+    for part in parts:
+        late[part.limit] = late.get(part.limit, 0.0) + part.late
+        time[part.limit] = time.get(part.limit, 0.0) + part.end - part.begin
     weights = late if any(late.values()) else time
     return max(weights, key=lambda it: (weights[it], time[it]))
 
 
 def limiting(parts: Sequence[Window]) -> list[Window]:
     """Returns the Windows in which what limits the shift does so."""
-    found = limit(parts)
-    return [one for one in parts if one.limit == found]
+    limit_of_all = limit(parts)
+    return [part for part in parts if part.limit == limit_of_all]
 
 
 def hours(parts: Sequence[Window]) -> list[tuple[Window, Limit]]:
     """Returns each hour of a shift, and what limits it."""
-    each = [list(of) for _, of in groupby(parts, key=lambda one: int(one.begin // HOUR))]
+    each = [list(of) for _, of in groupby(parts, key=lambda part: int(part.begin // HOUR))]
     return [(merged(of), limit(of)) for of in each]
 
 
@@ -207,11 +208,11 @@ def when(parts: Sequence[Window]) -> str:
     if len(chosen) == len(parts):
         return ""
     spans: list[list[float]] = []
-    for one in chosen:
-        if spans and spans[-1][1] == one.begin:
-            spans[-1][1] = one.end
+    for part in chosen:
+        if spans and spans[-1][1] == part.begin:
+            spans[-1][1] = part.end
         else:
-            spans.append([one.begin, one.end])
+            spans.append([part.begin, part.end])
     return ", ".join(f"{clock(begin)} to {clock(end)}" for begin, end in spans)
 
 
@@ -223,5 +224,5 @@ def clock(seconds: float) -> str:
 
 def share_of_late(parts: Iterable[Window], of: Iterable[Window]) -> float:
     """Returns the part of the late orders of Windows that became late in some of them."""
-    late = sum(one.late for one in parts)
-    return sum(one.late for one in of) / late if late else 0.0
+    late = sum(part.late for part in parts)
+    return sum(part.late for part in of) / late if late else 0.0

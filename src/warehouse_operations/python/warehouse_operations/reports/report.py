@@ -43,7 +43,7 @@ def page(runs: Sequence[Run]) -> str:
 
 
 def _of_group(place: int, group: Group, alone: bool) -> str:
-    """Returns what is told of each configuration by itself."""
+    """Returns the sections about one configuration."""
     name = "" if alone else f": {report_side.named(place, group)}"
     hours = document.section(
         f"Hour by hour{name}", report_front.by_hour(group, f"Hour by hour{name}")
@@ -54,7 +54,7 @@ def _of_group(place: int, group: Group, alone: bool) -> str:
         report_troubles.section(group, name),
     ]
     if maps := floor_charts.maps(group):
-        drawn = document.row(one.html(floor_charts.SIDE) for one in maps)
+        drawn = document.row(map_.html(floor_charts.SIDE) for map_ in maps)
         parts += [document.section(f"The floor{name}", drawn, floor_charts.NOTE, is_short=True)]
     return "\n".join(filter(None, parts))
 
@@ -89,8 +89,8 @@ def table(runs: Sequence[Run]) -> str:
 
 def verdicts(groups: Sequence[Group]) -> Iterator[str]:
     """Yields sentences about how much each configuration differs from the first."""
-    told = differences.verdicts(groups)
-    yield from map(str, told)
+    all_verdicts = differences.verdicts(groups)
+    yield from map(str, all_verdicts)
     for group in groups[1:]:
-        if all(one.group is not group for one in told):
+        if all(verdict.group is not group for verdict in all_verdicts):
             yield report_side.by_chance(groups[0], group)

@@ -45,18 +45,18 @@ def sheet(groups: Sequence[Group]) -> str:
     """Returns the HTML of the first sheet about several configurations."""
     runs = [run for group in groups for run in group.runs]
     warm_up = f"the first {_warm_up_min(groups):.0f} min are left out of differences (MSER-5)"
-    found = differences.verdicts(groups)
-    told = [one for one in found if one.figure == PIECES]
+    verdicts = differences.verdicts(groups)
+    of_pieces = [verdict for verdict in verdicts if verdict.figure == PIECES]
     labels = key([_with_limit(group) for group in groups])
     asked = f"Which of {len(groups)} configurations picks most?"
     return "\n".join(
         [
-            page.opening(asked, answer(groups, found)),
+            page.opening(asked, answer(groups, verdicts)),
             page.section("Side by side", labels + _chart(groups, KPI, "pieces an hour").html()),
             page.section(
                 "Is it chance?",
-                _differences(groups, told, "pieces an hour"),
-                METHOD if told else "",
+                _differences(groups, of_pieces, "pieces an hour"),
+                METHOD if of_pieces else "",
             ),
             page.section("Assumptions", page.facts(report_front.assumptions(runs, warm_up))),
         ]
@@ -65,14 +65,14 @@ def sheet(groups: Sequence[Group]) -> str:
 
 def more(groups: Sequence[Group]) -> str:
     """Returns the HTML of other figures side by side, and of how they differ."""
-    drawn = [_chart(groups, *one).html(SIDE) for one in COMPARED]
+    drawn = [_chart(groups, *figure).html(SIDE) for figure in COMPARED]
     shown = key_of(groups) + page.row(drawn)
     side = page.section("Other figures side by side", shown, NOTE, is_short=True)
-    found = differences.verdicts(groups)
-    if not found:
+    verdicts = differences.verdicts(groups)
+    if not verdicts:
         return side
     return side + page.section(
-        "All differences", _differences(groups, found, "all figures"), METHOD
+        "All differences", _differences(groups, verdicts, "all figures"), METHOD
     )
 
 
@@ -83,27 +83,29 @@ def _chart(groups: Sequence[Group], kpi: str, label: str) -> Chart:
     return replace(drawn, note=note if kpi == KPI else "")
 
 
-def answer(groups: Sequence[Group], found: Sequence[Verdict]) -> str:
+def answer(groups: Sequence[Group], verdicts: Sequence[Verdict]) -> str:
     """Returns which configuration picks most, and whether chance may explain it, as a sentence."""
     means = [group.estimate(KPI).mean for group in groups]
     best = means.index(max(means))
     pieces = number(groups[best].estimate(KPI), 1, 0)
     other = 0 if best else 1
     more = 100 * (means[best] / max(means[other], 1e-9) - 1)
-    sure = _sure(found, groups[best or 1])
+    sure = _sure(verdicts, groups[best or 1])
     return (
         f"{named(best, groups[best])} picks most: {pieces} pieces an hour, {more:.1f} % more than"
         f" {named(other, groups[other])}; {sure}."
     )
 
 
-def _sure(found: Sequence[Verdict], group: Group) -> str:
-    told = [one for one in found if one.group is group and one.figure == PIECES]
-    if not told:
+def _sure(verdicts: Sequence[Verdict], group: Group) -> str:
+    of_pieces = [
+        verdict for verdict in verdicts if verdict.group is group and verdict.figure == PIECES
+    ]
+    if not of_pieces:
         return too_few(group)
-    if told[0].difference.significant:
-        return f"chance hardly explains it ({p_text(told[0].p_value)})"
-    return f"chance may explain it ({p_text(told[0].p_value)})"
+    if of_pieces[0].difference.significant:
+        return f"chance hardly explains it ({p_text(of_pieces[0].p_value)})"
+    return f"chance may explain it ({p_text(of_pieces[0].p_value)})"
 
 
 def named(place: int, group: Group) -> str:
@@ -113,7 +115,7 @@ def named(place: int, group: Group) -> str:
 
 def by_chance(first: Group, group: Group) -> str:
     """Returns a sentence about a difference of too few runs."""
-    a, b = (one.estimate(KPI).mean for one in (first, group))
+    a, b = (group.estimate(KPI).mean for group in (first, group))
     return (
         f"{group.label}: {100 * (b / max(a, 1e-9) - 1):+.1f} % pieces an hour against"
         f" {first.label} ({too_few(group)})"
@@ -127,24 +129,24 @@ def too_few(group: Group) -> str:
     return f"{runs}: chance can't be told apart; {LEAST} seeds or more can"
 
 
-def _differences(groups: Sequence[Group], found: Sequence[Verdict], label: str) -> str:
+def _differences(groups: Sequence[Group], verdicts: Sequence[Verdict], label: str) -> str:
     """Returns how configurations differ from the first: a table, or sentences of too few runs."""
-    if not found:
+    if not verdicts:
         return page.sentences(by_chance(groups[0], group) for group in groups[1:])
     head = ("Against A", "difference", "95 %", "p", "effect")
-    return page.table(head, list(_rows(groups, found)), f"Differences against A: {label}")
+    return page.table(head, list(_rows(groups, verdicts)), f"Differences against A: {label}")
 
 
-def _rows(groups: Sequence[Group], found: Sequence[Verdict]) -> Iterator[list[str]]:
+def _rows(groups: Sequence[Group], verdicts: Sequence[Verdict]) -> Iterator[list[str]]:
     letters = {id(group): letter(i) for i, group in enumerate(groups)}
-    for one in found:
-        relative, (low, high) = 100 * one.difference.relative, one.bounds
+    for verdict in verdicts:
+        relative, (low, high) = 100 * verdict.difference.relative, verdict.bounds
         yield [
-            f"{letters[id(one.group)]}, {SHORT[one.figure]}",
+            f"{letters[id(verdict.group)]}, {SHORT[verdict.figure]}",
             f"{relative:+.1f} %",
             "all alike" if np.isnan(low) else f"{100 * low:+.1f} to {100 * high:+.1f} %",
-            p_text(one.p_value).removeprefix("p = ").removeprefix("p "),
-            f"{one.difference.effect:+.1f}",
+            p_text(verdict.p_value).removeprefix("p = ").removeprefix("p "),
+            f"{verdict.difference.effect:+.1f}",
         ]
 
 

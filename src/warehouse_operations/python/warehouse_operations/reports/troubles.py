@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What of a day went wrong in a report, and what each of it cost."""
+"""The troubles of a day in a report, and the cost of each."""
 
 from collections.abc import Iterator
 
@@ -42,7 +42,7 @@ def section(group: Group, name: str = "") -> str:
         for kpi, words, unit, factor, digits in TROUBLES
         if all(kpi in run.kpis for run in group.runs)
     ]
-    each = [[str(cell) for cell in one] for one in _each_trouble(group.runs[0])]
+    each = [[str(cell) for cell in row] for row in _each_trouble(group.runs[0])]
     if not costs and not each:
         return ""
     table = page.table(COLUMNS, each, f"Troubles{name}") if each else ""
@@ -55,12 +55,12 @@ def _each_trouble(run: Run) -> Iterator[tuple[str, ...]]:
     all_h = run.data.get("robot_h", 0.0)
     failures = run.data.get("failures") or []
     charging_h = run.kpis.get("charging_fraction", 0.0) * all_h
-    at_work_h = all_h - charging_h - sum(one["down_h"] for one in failures)
+    at_work_h = all_h - charging_h - sum(failure["down_h"] for failure in failures)
     an_hour = run.kpis["items_picked"] / at_work_h if at_work_h > 0 else 0.0
-    for one in failures:
-        repair = f"{one['mean_repair_s'] / 60:.1f} min" if one["repairs"] else ""
-        pieces = f"{one['down_h'] * an_hour:.0f}"
-        yield one["kind"], one["count"], repair, f"{one['robot_h']:.2f}", pieces
+    for failure in failures:
+        repair = f"{failure['mean_repair_s'] / 60:.1f} min" if failure["repairs"] else ""
+        pieces = f"{failure['down_h'] * an_hour:.0f}"
+        yield failure["kind"], failure["count"], repair, f"{failure['robot_h']:.2f}", pieces
     if charging_h:
         yield "charge", "", "", f"{charging_h:.2f}", f"{charging_h * an_hour:.0f}"
     for words, count in (run.data.get("mishaps") or {}).items():

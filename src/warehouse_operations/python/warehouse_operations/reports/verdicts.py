@@ -5,7 +5,7 @@ Intervals are widened as p-values are corrected, so that both say the same. Fewe
 comparison.LEAST runs say nothing.
 
 The warm-up is where MSER-5 cuts the pieces picked a minute; all configurations lose as much as the
-one that takes longest. All differences that are told together are corrected together.
+one that takes longest. All differences that are shown together are corrected together.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ TOLD: tuple[tuple[str, str, float, int], ...] = (
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a group differs from the first in a figure; p-value and interval: corrected."""
+    """The difference of a group from the first in a figure, with corrected p-value and interval."""
 
     group: Group
     first: Group
@@ -40,19 +40,19 @@ class Verdict:
     @property
     def bounds(self) -> tuple[float, float]:
         """The confidence interval of the difference, over the mean of the first."""
-        found = self.difference
-        return found.relative - _half(found), found.relative + _half(found)
+        difference = self.difference
+        return difference.relative - _half(difference), difference.relative + _half(difference)
 
     def __str__(self) -> str:
-        found, (low, high) = self.difference, self.bounds
+        difference, (low, high) = self.difference, self.bounds
         bounds = "all alike" if isnan(low) else f"95 %: {100 * low:+.1f} to {100 * high:+.1f} %"
-        sure = "significant" if found.significant else "not significant"
-        pairs = ", seed by seed" if found.paired else ""
+        sure = "significant" if difference.significant else "not significant"
+        pairs = ", seed by seed" if difference.paired else ""
         return (
-            f"{self.group.label}: {100 * found.relative:+.1f} % {self.words} against"
+            f"{self.group.label}: {100 * difference.relative:+.1f} % {self.words} against"
             f" {self.first.label} ({sure}, {p_text(self.p_value)}, {bounds},"
-            f" effect {found.effect:+.1f},"
-            f" {found.estimate.count} runs{pairs})"
+            f" effect {difference.effect:+.1f},"
+            f" {difference.estimate.count} runs{pairs})"
         )
 
 
@@ -63,13 +63,16 @@ def verdicts(groups: Sequence[Group]) -> list[Verdict]:
     out = []
     for group, its in zip(groups[1:], figures[1:]):
         for name, words, *_ in TOLD:
-            a, b = ({seed: one[name] for seed, one in all_.items()} for all_ in (figures[0], its))
-            if found := difference_of(a, b):
-                out.append(Verdict(group, groups[0], name, words, found, found.p_value))
-    corrected = holm([one.p_value for one in out])
+            a, b = (
+                {seed: figures_of_run[name] for seed, figures_of_run in all_.items()}
+                for all_ in (figures[0], its)
+            )
+            if difference := difference_of(a, b):
+                out.append(Verdict(group, groups[0], name, words, difference, difference.p_value))
+    corrected = holm([verdict.p_value for verdict in out])
     return [
-        replace(one, difference=one.difference.corrected(p), p_value=p)
-        for one, p in zip(out, corrected)
+        replace(verdict, difference=verdict.difference.corrected(p), p_value=p)
+        for verdict, p in zip(out, corrected)
     ]
 
 
@@ -112,5 +115,5 @@ def p_text(p_value: float) -> str:
     return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
 
 
-def _half(found: Difference) -> float:
-    return found.estimate.half / found.base if found.base else float("nan")
+def _half(difference: Difference) -> float:
+    return difference.estimate.half / difference.base if difference.base else float("nan")

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a shift's warm-up ends: the first minutes, in which an empty warehouse fills with work.
+"""The warm-up of a shift: the first minutes, in which an empty warehouse fills with work.
 
 MSER-5 (White, "An effective truncation heuristic for bias reduction in simulation output",
 Simulation 69, 1997; White, Cobb & Spratt, Proc. 2000 Winter Simulation Conference): means of five
 values each, of which those before the cut are dropped that makes the squared standard error of
-the mean of the rest least. Cuts beyond the first half are not looked at: so long a rest says too
+the mean of the rest least. Cuts beyond the first half are not considered: the rest then says too
 little.
 """
 

@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from warehouse_operations.policies import Policies
+from warehouse_operations.stock import orders_text
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.store import schema
 from warehouse_operations.store.engines import DatabaseError, lock, make_engine, path_of, prepare
 
 
 def orders(text: str, folder: Path) -> str:
-    """Checks orders; only the shift can tell whether the SKUs of a file are in stock."""
-    text = _whole_path(text, folder) if text.endswith(".csv") else text
+    """Checks orders; only the shift knows whether the SKUs of a file are in stock."""
+    text = orders_text.with_file(text, lambda file: _whole_path(file, folder))
     make_demand(text, None, (1, 1), np.random.default_rng(1))
     return text
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the robots of a running warehouse have done since a run began."""
+"""A log of the robots of a running warehouse since a run began."""
 
 import numpy as np
 

@@ -3,23 +3,21 @@
 
 from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import rospy
 from std_msgs.msg import Header
 
 from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.message_enums import OrderEventKind, StationMode
 from warehouse_msgs import msg
 from warehouse_operations.fleets.floor_heat import FloorHeat
-from warehouse_operations.shift import kpis
-from warehouse_operations.shift.kpis import Tally
+from warehouse_operations.ros.fleet_log import FleetLog
+from warehouse_operations.shift.order_book import OrderBook
+from warehouse_operations.shift.tally import INTERVAL, Tally
 from warehouse_operations.stock.inventory import Bin
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.stations import Visit, WorkStation
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
 
 SHOWN = 60  # intervals of the throughput: an hour
 
@@ -77,14 +75,16 @@ def _order_status(order: Any, order_id: int, lines: Sequence[Any]) -> msg.OrderS
     )
 
 
-def stock_place(one: Bin) -> msg.StockPlace:
+def stock_place(bin_: Bin) -> msg.StockPlace:
     """Returns the StockPlace of a Bin, or of its row in the database."""
-    return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+    return msg.StockPlace(
+        bin_.item, bin_.unit, bin_.sku, bin_.quantity, bin_.reserved, bin_.capacity
+    )
 
 
 def station_states(stations: Iterable[WorkStation], now: float) -> msg.StationStates:
     """Returns the StationStates at `now` [s]."""
-    states = [_station_state(one, now) for one in stations]
+    states = [_station_state(station, now) for station in stations]
     return msg.StationStates(header=header(now), stations=states)
 
 
@@ -103,8 +103,15 @@ def _station_state(station: WorkStation, now: float) -> msg.StationState:
         pieces=station.pieces,
         busy_fraction=station.busy_fraction(now),
         waiting=station.waiting(now),
-        totes=[_tote(order) for order in station.totes] if station.mode == Mode.MANUAL else [],
+        totes=_totes(station),
     )
+
+
+def _totes(station: WorkStation) -> list[msg.Tote]:
+    """Returns the totes that a person sees, none at a station that works by itself."""
+    if station.mode != StationMode.MANUAL:
+        return []
+    return [_tote(order) for order in station.totes]
 
 
 def _tote(order: Order) -> msg.Tote:
@@ -138,16 +145,16 @@ def _tasks(visit: Visit) -> list[msg.StationPick]:
 
 def throughput(tally: Tally, before: tuple[Any, ...], now: float) -> msg.Throughput:
     """Returns the Throughput up to `now` [s]; before: stored.throughput of the earlier runs."""
-    last = int(now // kpis.INTERVAL)
+    last = int(now // INTERVAL)
     began, *counts_before = before
-    first = max(int(began // kpis.INTERVAL), last + 1 - SHOWN)
+    first = max(int(began // INTERVAL), last + 1 - SHOWN)
     counts = zip(counts_before, (tally.picked_in, tally.stored_in, tally.completed_in))
     series = (
         [max(0, earlier.get(i, 0) + count.get(i, 0)) for i in range(first, last + 1)]
         for earlier, count in counts
     )
-    begin = max(first * kpis.INTERVAL, began)
-    return msg.Throughput(header(now), kpis.INTERVAL, begin, now, *series)
+    begin = max(first * INTERVAL, began)
+    return msg.Throughput(header(now), INTERVAL, begin, now, *series)
 
 
 def heat_map(heat: FloorHeat, plan: FloorPlan, now: float) -> msg.HeatMap:
@@ -157,12 +164,10 @@ def heat_map(heat: FloorHeat, plan: FloorPlan, now: float) -> msg.HeatMap:
     return msg.HeatMap(header(now), heat.seconds(now), x, y, *size, *heat.maps())
 
 
-def figures(
-    shift: "Shift", site: Any, state: msg.CoordinatorState, log: Any, wall_s: float
-) -> dict[str, Any]:
-    """Returns the figures of kpis.json; state: the coordinator's, log: a FleetLog."""
-    fleet = SimpleNamespace(
-        robot_count=len(site.robots),
+def fleet_figures(robot_count: int, state: msg.CoordinatorState, log: FleetLog) -> Any:
+    """Returns what kpis.of_shift asks of a fleet; state: the coordinator's."""
+    return SimpleNamespace(
+        robot_count=robot_count,
         distance_m=log.distance_m,
         collisions=state.collisions,
         blocked=state.blocked,
@@ -172,23 +177,27 @@ def figures(
         failures=log.failures,
         people=log.people,
     )
-    planning = {"p50": state.plan_p50, "p99": state.plan_p99, "max": state.plan_p99}
-    return kpis.of_shift(shift, fleet, site.kinematics, wall_s) | {"plan_ms": planning}
 
 
-def kpis_message(shift: "Shift", values: dict[str, Any], now: float) -> msg.Kpis:
-    """Returns the Kpis of a shift and its figures() at `now` [s]."""
+def planning(state: msg.CoordinatorState) -> dict[str, float]:
+    """Returns the plan_ms of kpis.json; state: the coordinator's."""
+    return {"p50": state.plan_p50, "p99": state.plan_p99, "max": state.plan_p99}
+
+
+def kpis_message(
+    values: dict[str, Any], book: OrderBook, stock_level: float, now: float
+) -> msg.Kpis:
+    """Returns the Kpis at `now` [s]; values: the content of kpis.json."""
     values = dict(values)
-    planning = values.pop("plan_ms")
-    orders = shift.orders.values()
+    plan_ms = values.pop("plan_ms")
     for name in ("order_turnover_s", "order_throughput_s"):
         values[name] = msg.Quantiles(**values[name])
     return msg.Kpis(
         header=header(now),
         **{"availability": 1.0} | values,
-        **{f"plan_{name}": value for name, value in planning.items()},
-        orders_waiting=len(shift.backlog),
-        orders_at_stations=len(shift.orders) - len(shift.backlog),
-        orders_late=sum(0 < order.due < shift.now for order in orders),
-        stock_level=shift.inventory.level,
+        **{f"plan_{name}": value for name, value in plan_ms.items()},
+        orders_waiting=len(book.backlog),
+        orders_at_stations=len(book.orders) - len(book.backlog),
+        orders_late=sum(0 < order.due < now for order in book.orders.values()),
+        stock_level=stock_level,
     )

@@ -13,9 +13,9 @@ from sqlalchemy.engine import Engine
 
 from warehouse_client import identity
 from warehouse_client.build_transaction import is_building
-from warehouse_client.coordinator import Coordinator
+from warehouse_client.coordinator import CoordinatorClient
 from warehouse_client.unit_messages import unit_ids
-from warehouse_client.warehouse import Warehouse
+from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.floor.served_part import served_part
@@ -29,9 +29,9 @@ from warehouse_operations.ros.remote_transports import RemoteTransports
 from warehouse_operations.ros.shift_services import ShiftServices
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.opening import open_shift
-from warehouse_operations.shift import kpis
 from warehouse_operations.shift.changes import ChangeJournal
 from warehouse_operations.shift.shift import Shift
+from warehouse_operations.shift.tally import INTERVAL
 from warehouse_operations.shift.tasks import KEPT
 from warehouse_operations.stock.demand import DemandError
 from warehouse_operations.stock.site import Site
@@ -57,8 +57,8 @@ class OperationsNode:
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._log = FleetLog()
         self._warned: set[str] = set()
-        self._warehouse = Warehouse(rospy, self._on_fleet)
-        self._coordinator = Coordinator(rospy)
+        self._warehouse = WarehouseClient(rospy, self._on_fleet)
+        self._coordinator = CoordinatorClient(rospy)
         self._notices = _publisher("notices", msg.Notices)
         self._kpis = _publisher("kpis", msg.Kpis)
         self._throughput = _publisher("throughput", msg.Throughput)
@@ -67,7 +67,7 @@ class OperationsNode:
         self._stock = _queued("stock_changes", msg.StockPlaces)
         self._events = _queued("order_events", msg.OrderEvent)
         self._chosen: dict[str, Any] = {"orders": orders, "seed": seed}
-        self._told_policies = policies or Policies()
+        self._own_policies = policies or Policies()
         self._wait_for_warehouse()
         self._database = Database(database)
         self._begin()
@@ -93,12 +93,12 @@ class OperationsNode:
         self._site = self._read_site()
         if file:
             self._site = layout_site.of_file(self._site, file)
-        self._policies = self._told_policies
+        self._policies = self._own_policies
         if file:
-            self._policies = layout_site.merged(file, self._told_policies)
+            self._policies = layout_site.merged(file, self._own_policies)
         self._transports = RemoteTransports(self._coordinator)
         heat = FloorHeat(self._site.plan, now)
-        since = max(0.0, (now // kpis.INTERVAL + 1 - SHOWN) * kpis.INTERVAL)
+        since = max(0.0, (now // INTERVAL + 1 - SHOWN) * INTERVAL)
         with self._database.reading():
             left = stored.transports_left(self.engine)
             heat.restore(stored.heat(self.engine, now))
@@ -108,7 +108,7 @@ class OperationsNode:
         self._shift = self._open_shift(now)
         self._shift.on_order_event = self._publish_order_event
         # Task numbers that a page got in an earlier run must not come again [ms, wall].
-        self._shift.tasks.number_from(time_ns() // 10**6)
+        self._shift.task_numbers.number_from(time_ns() // 10**6)
         self._shift.tasks.remember(reports)
         self._shift.notices.on_change = self._publish_notices
         self._publish_notices()
@@ -177,7 +177,7 @@ class OperationsNode:
         Stock and orders are as they are, transports are not.
         """
         rospy.logwarn(f"the world jumped from {self._shift.now:g} s to {now:g} s")
-        self._shift.journal.end(self._shift, self._figures())
+        self._shift.end(self._figures())
         self._shift.journal.flush()
         self._wait_for_warehouse()
         self._begin()
@@ -185,7 +185,7 @@ class OperationsNode:
     def close(self) -> None:
         """Writes what is left to the database. Raises DatabaseError."""
         with self._lock:
-            self._shift.journal.end(self._shift, self._figures())
+            self._shift.end(self._figures())
             self._database.close()
 
     def _wait_for_warehouse(self) -> None:
@@ -226,7 +226,7 @@ class OperationsNode:
         with self._lock:
             shift = self._shift
             answer = act(shift)
-            shift.journal.commit(shift)
+            shift.commit()
         shift.journal.flush()
         return answer
 
@@ -239,7 +239,9 @@ class OperationsNode:
 
     def _figures(self) -> dict[str, Any]:
         state, wall = self._coordinator.state, clock() - self._began
-        return operation_messages.figures(self._shift, self._site, state, self._log, wall)
+        fleet = operation_messages.fleet_figures(len(self._site.robots), state, self._log)
+        figures = self._shift.figures(fleet, self._site.kinematics, wall)
+        return figures | {"plan_ms": operation_messages.planning(state)}
 
     # Topics.
 
@@ -263,16 +265,17 @@ class OperationsNode:
 
     def _publish_changes(self, now: float) -> None:
         """Publishes orders and bins as they are now, if they have changed."""
-        orders = [operation_messages.order_status(one) for one in self._changes.take_orders()]
+        orders = [operation_messages.order_status(order) for order in self._changes.take_orders()]
         if orders:
             self._orders.publish(msg.OrderStatuses(header(now), orders))
-        places = [operation_messages.stock_place(one) for one in self._changes.take_bins()]
+        places = [operation_messages.stock_place(bin_) for bin_ in self._changes.take_bins()]
         if places:
             self._stock.publish(msg.StockPlaces(header(now), places))
 
     def _publish_figures(self, now: float) -> None:
         shift, plan, heat = self._shift, self._site.plan, self._floor_heat
-        self._kpis.publish(operation_messages.kpis_message(shift, self._figures(), now))
+        values, level = self._figures(), shift.inventory.level
+        self._kpis.publish(operation_messages.kpis_message(values, shift.order_book, level, now))
         self._throughput.publish(operation_messages.throughput(shift.tally, self._before, now))
         self._heat.publish(operation_messages.heat_map(heat, plan, now))
 

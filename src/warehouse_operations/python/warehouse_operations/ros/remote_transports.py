@@ -4,8 +4,8 @@
 from collections.abc import Iterable
 from typing import Any
 
-from warehouse_client.coordinator import Coordinator
-from warehouse_fleet.transports.transports import ENDS, STORE, Answer, Kind, TransportEvent
+from warehouse_client.coordinator import CoordinatorClient
+from warehouse_fleet.transports.transports import ENDS, STORE, Kind, TransportAnswer, TransportEvent
 
 UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
@@ -13,7 +13,7 @@ UNKEPT = 100  # most transports that a run asks for between two writes to the da
 class RemoteTransports:
     """Requests the transports of one run; see protocols.Requests."""
 
-    def __init__(self, coordinator: Coordinator) -> None:
+    def __init__(self, coordinator: CoordinatorClient) -> None:
         self._coordinator = coordinator
         self._open: set[int] = set()  # transports that this run asked for
         self._left: set[int] = set()  # transports that an earlier run asked for
@@ -29,13 +29,13 @@ class RemoteTransports:
         y: float | None = None,
         then: int = STORE,
         priority: int = 0,
-    ) -> Answer:
+    ) -> TransportAnswer:
         """Asks for a transport to a station, or to the cell at x, y in world [m]."""
         answer = self._coordinator.submit(shelf_id, station, x or 0.0, y or 0.0, then, priority)
         if answer.accepted:
             self._release_unknown(answer.transport_id)
             self._open.add(answer.transport_id)
-        return Answer(*answer)
+        return TransportAnswer(*answer)
 
     def release(self, transport_id: int) -> tuple[bool, str]:
         """Lets a unit leave its station. Returns success and the fault."""

@@ -7,12 +7,12 @@ from typing import Any, Protocol
 import rospy
 from sqlalchemy.engine import Engine
 
+from warehouse_layout.message_enums import PickOutcome
 from warehouse_msgs import srv
 from warehouse_operations.ros.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import order_table
 from warehouse_operations.shift.shift import Shift
-from warehouse_operations.shift.tasks import Report
-from warehouse_operations.stock.message_enums import Outcome
+from warehouse_operations.shift.task_reports import Report
 from warehouse_operations.store import queries
 
 LONGEST_ID = 80  # of a report
@@ -64,7 +64,7 @@ class ShiftServices:
 
     def _submit_table(self, request: Any) -> Any:
         fields = request.table, request.check_only
-        answer = self._host.carry_out(lambda shift: order_table.submit(shift, *fields))
+        answer = self._host.carry_out(lambda shift: order_table.submit(shift.order_book, *fields))
         line, column, text = zip(*answer.faults) if answer.faults else ((), (), ())
         return srv.SubmitOrdersResponse(
             accepted=not answer.faults,
@@ -105,14 +105,14 @@ class ShiftServices:
         )
 
     def _report_pick(self, request: Any) -> Any:
-        if request.outcome not in Outcome.__members__.values():
+        if request.outcome not in PickOutcome.__members__.values():
             text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
             return srv.ReportPickResponse(False, text, 0)
         if len(request.id) > LONGEST_ID:
             text = f"the id has {len(request.id)} characters; {LONGEST_ID} at most were expected"
             return srv.ReportPickResponse(False, text, 0)
         fields = request.station, request.order_id, request.item, request.sequence
-        report = Report(*fields, request.quantity, Outcome(request.outcome), request.id)
+        report = Report(*fields, request.quantity, PickOutcome(request.outcome), request.id)
         answer = self._host.carry_out(lambda shift: shift.tasks.report(report))
         self._host.publish_stations()
         return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)
@@ -125,7 +125,7 @@ class ShiftServices:
         return srv.UndoWriteOffResponse(*done)
 
     def _find_orders(self, request: Any) -> Any:
-        total, found = queries.find_orders(
+        total, orders = queries.find_orders(
             self._host.engine,
             request.order_id,
             request.search,
@@ -134,17 +134,17 @@ class ShiftServices:
             request.offset,
             self._host.shift.now if request.late else None,
         )
-        return srv.FindOrdersResponse(total, [stored_order_status(*one) for one in found])
+        return srv.FindOrdersResponse(total, [stored_order_status(*row) for row in orders])
 
     def _find_stock(self, request: Any) -> Any:
-        total, pieces, found = queries.find_stock(
+        total, pieces, bins = queries.find_stock(
             self._host.engine, request.sku, request.limit, request.offset
         )
-        return srv.FindStockResponse(total, pieces, [stock_place(one) for one in found])
+        return srv.FindStockResponse(total, pieces, [stock_place(bin_) for bin_ in bins])
 
     def _find_skus(self, request: Any) -> Any:
         inventory = self._host.shift.inventory
-        found = queries.matching(self._host.shift.assortment.skus, request.search)
-        shown = found[: min(request.limit, queries.MOST_ROWS)]
+        matching = queries.matching(self._host.shift.assortment.skus, request.search)
+        shown = matching[: min(request.limit, queries.MOST_ROWS)]
         available = [max(0, inventory.available(sku)) for sku in shown]
-        return srv.FindSkusResponse(len(found), shown, available)
+        return srv.FindSkusResponse(len(matching), shown, available)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where shifts run: in processes on this machine, or on a Ray cluster."""
+"""Executors for shifts: processes on this machine, or a Ray cluster."""
 
 import contextlib
 import multiprocessing
@@ -14,7 +14,7 @@ class ExecutorError(Exception):
 
 def make(processes: int | None = None, ray: str | None = None) -> Executor:
     """Returns an Executor: on the Ray cluster at an address, "local": one on this machine; else
-    with so many processes, None: one a core. Raises ExecutorError.
+    with a number of processes, None: one a core. Raises ExecutorError.
     """
     if not ray:
         return ProcessPoolExecutor(processes, initializer=_end_by_ctrl_c)

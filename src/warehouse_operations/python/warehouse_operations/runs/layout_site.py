@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a layout file says about a shift: how its stations work, its policies and initial stock."""
+"""The part of a layout file about shifts: settings of stations, policies and initial stock."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -32,7 +32,7 @@ def of_file(site: Site, file: LayoutFile) -> Site:
 
 def settings_of(file: LayoutFile) -> Settings:
     """Returns the Settings of a file's stations."""
-    return Settings(by_station={one.name: _of(one) for one in file.stations})
+    return Settings(by_station={station.name: _of(station) for station in file.stations})
 
 
 def _of(entry: StationEntry) -> dict[str, Any]:
@@ -43,8 +43,11 @@ def _of(entry: StationEntry) -> dict[str, Any]:
         "pick_seconds": "pick_s",
         "seconds_a_line": "line_s",
     }
-    told = {names.get(name, name): value for name, value in entry.settings.items()}
-    return told | ({"replenishes": True} if entry.kind == "both" else {})
+    settings = {names.get(name, name): value for name, value in entry.settings.items()}
+    for name in ("piece_s", "bundle_s"):
+        if isinstance(pace := settings.get(name), tuple):  # mean and deviation
+            settings |= {name: pace[0]} | ({"piece_sd": pace[1]} if name == "piece_s" else {})
+    return settings | ({"replenishes": True} if entry.kind == "both" else {})
 
 
 def policies_of(file: LayoutFile) -> Policies:
@@ -56,13 +59,13 @@ def _policies(file: LayoutFile) -> dict[str, Any]:
     return beside(dict(file.policies), Path(file.path or ".").parent)
 
 
-def merged(file: LayoutFile, told: Policies) -> Policies:
-    """Returns the policies that were told, and for the other roles those of a layout file.
+def merged(file: LayoutFile, policies: Policies) -> Policies:
+    """Returns the policies, and for the roles that they leave out those of a layout file.
 
     Raises PolicyError.
     """
     policies_of(file)
-    return Policies({**_policies(file), **told.given})
+    return Policies({**_policies(file), **policies.choices})
 
 
 def fault(file: LayoutFile) -> str:

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens in a shift, minute by minute, for reports, sizings and what limits a warehouse."""
+"""A log of a shift, minute by minute, for reports, sizings and limits."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Sized
+from typing import Any
 
-from warehouse_operations.shift.kpis import INTERVAL, upper_bound
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.kpis import upper_bound
+from warehouse_operations.shift.tally import INTERVAL
 from warehouse_operations.stock.stations import WorkStation
-
-if TYPE_CHECKING:
-    from warehouse_operations.runs.operations import Operations
 
 # Each a count since the last minute, but `open` as it is and `bound` as it was over RECENT minutes.
 SERIES = (
@@ -29,17 +30,38 @@ RECENT = 15  # minutes over which the pieces picked from a unit are averaged
 
 
 class MinuteLog:
-    """Notes each minute of a shift that is over. series: a list for each of SERIES."""
+    """Notes each minute of a shift that is over. series: a list for each of SERIES.
 
-    def __init__(self, ops: "Operations") -> None:
-        self._ops = ops
+    orders: those that are not over. fleet: an IdealFleet or a WorldFleet. spacing: of the cells
+    [m].
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        stations: Collection[WorkStation],
+        orders: Sized,
+        *,
+        fleet: Any,
+        kinematics: Kinematics,
+        spacing: float,
+    ) -> None:
+        self._clock, self._tally, self._orders, self._fleet = (
+            context.clock,
+            context.tally,
+            orders,
+            fleet,
+        )
+        self._picking = [station for station in stations if station.picks]
+        self._replenishing = [station for station in stations if not station.picks]
+        self._kinematics, self._spacing = kinematics, spacing
         self.series: dict[str, list[float]] = {name: [] for name in SERIES}
         self._last = dict.fromkeys(SERIES, 0.0)
         self._next = INTERVAL  # time since the begin [s]
 
     def observe(self) -> None:
         """Notes the minutes that are over by now."""
-        while self._ops.shift.now - self._ops.shift.began >= self._next:
+        while self._clock.now - self._clock.began >= self._next:
             self._next += INTERVAL
             self._note()
 
@@ -48,39 +70,31 @@ class MinuteLog:
         for name, total in totals.items():
             self.series[name].append(round(float(total - self._last[name]), 3))
         self._last |= totals
-        self.series["open"].append(len(self._ops.shift.orders))
+        self.series["open"].append(len(self._orders))
         self.series["bound"].append(round(self._bound(), 3))
 
     def _totals(self) -> dict[str, float]:
-        shift, fleet = self._ops.shift, self._ops.fleet
-        tally, activities = shift.tally, fleet.activities()
-        picking, replenishing = shift.picking.stations, _replenishing(self._ops)
+        tally, activities, now = self._tally, self._fleet.activities(), self._clock.now
         return {
             "arrived": tally.orders_received,
             "completed": tally.orders_completed,
             "pieces": tally.items_picked,
             "visits": tally.pick_visits,
-            "picking_s": sum(one.busy_s / one.pickers for one in picking),
-            "replenishing_s": sum(one.busy_s for one in replenishing),
-            "open_replenishing_s": sum(one.open_seconds(shift.now) for one in replenishing),
+            "picking_s": sum(s.busy_s / s.most_pickers for s in self._picking),
+            "replenishing_s": sum(s.busy_s for s in self._replenishing),
+            "open_replenishing_s": sum(s.open_seconds(now) for s in self._replenishing),
             "idle_s": activities["idle"],
             "queue_s": activities["queue"],
             "robots_s": sum(activities.values()),
-            "metres": fleet.distance_m,
+            "metres": self._fleet.distance_m,
         }
 
     def _bound(self) -> float:
-        shift, site = self._ops.shift, self._ops.site
         visits = sum(self.series["visits"][-RECENT:])
         pile_on = sum(self.series["pieces"][-RECENT:]) / max(visits, 1)
         per_hour = sum(
-            upper_bound(pile_on, shift.settings.of(one.name), site.kinematics, site.plan.spacing)
-            for one in shift.picking.stations
-            if one.is_open
+            upper_bound(pile_on, station.settings_now, self._kinematics, self._spacing)
+            for station in self._picking
+            if station.is_open and station.pickers
         )
         return per_hour * INTERVAL / 3600
-
-
-def _replenishing(ops: "Operations") -> list[WorkStation]:
-    """Returns the stations that only replenish."""
-    return [one for one in ops.shift.replenishing.stations if not one.picks]

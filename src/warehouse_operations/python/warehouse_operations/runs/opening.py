@@ -9,13 +9,14 @@ import numpy as np
 
 from warehouse_operations.policies import Policies
 from warehouse_operations.shift.shift import Shift
-from warehouse_operations.stock import order_mix
-from warehouse_operations.stock.assortment import Assortment, stocked, told
+from warehouse_operations.stock import days, orders_text
+from warehouse_operations.stock.assortment import Assortment, listed, stocked
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.stock.order_file import DemandError, lines_by_sku
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.stock.travel import Travel
 from warehouse_operations.stock.whereabouts import Whereabouts
 from warehouse_operations.store.returning import changes, layout_of
@@ -23,7 +24,6 @@ from warehouse_operations.store.returning import changes, layout_of
 if TYPE_CHECKING:
     from warehouse_operations.store.database import Database
     from warehouse_operations.store.database_journal import DatabaseJournal
-    from warehouse_operations.store.stored import Stored
 
 
 def open_shift(
@@ -66,13 +66,13 @@ def open_shift(
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
-    stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
+    stock_rng, demand_rng, policy_rng = (np.random.default_rng(seeds) for seeds in chance.spawn(3))
     if stored and database:
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
-        stock = [(one, 0) for one in (*stored.bins, *changed.new)]
+        stock = [(bin_, 0) for bin_ in (*stored.bins, *changed.new)]
     elif site.stock:
-        assortment, stock = told(site.items, site.stock, stock_rng)
+        assortment, stock = listed(site.items, site.stock, stock_rng)
     else:
         own = _own_skus(str(orders), site)
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level, own=own)
@@ -83,11 +83,11 @@ def open_shift(
     shift = Shift(
         transports,
         assortment,
-        [one for one, _ in stock],
+        [bin_ for bin_, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
         demand=make_demand(
-            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+            orders, assortment, count, demand_rng, now, sum(bin_.capacity for bin_, _ in stock)
         ),
         settings=settings,
         journal=journal,
@@ -102,10 +102,10 @@ def open_shift(
         journal.gone(changed.gone)
     else:
         if journal:
-            journal.begin(shift)
+            journal.begin(assortment, shift.inventory.bins.values())
         shift.begin(stock)
     if journal:  # what the shift begins with is kept before it does
-        journal.commit(shift)
+        shift.commit()
         journal.flush()
     return shift
 
@@ -115,15 +115,16 @@ def _own_skus(orders: str, site: Site) -> Assortment | None:
 
     Raises DemandError.
     """
-    file = order_mix.file_of(orders)
+    file = orders_text.file_of(orders)
     if not file:
         return None
-    lines = lines_by_sku(file)
-    if all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in lines):
+    day = orders_text.day_of(orders)
+    own = days.assortment_of(day) if day else Assortment.of_lines(lines_by_sku(file))
+    if not day and all(re.fullmatch(r"sku-[1-9]\d*", sku) for sku in own.skus):
         return None  # those that are drawn
-    if len(lines) > len(site.items):
+    if len(own.skus) > len(site.items):
         raise DemandError(
-            f"{file}: {len(lines)} SKUs are asked for; there are {len(site.items)} bins (items),"
+            f"{file}: {len(own.skus)} SKUs are asked for; there are {len(site.items)} bins (items),"
             " one of each SKU at least was expected"
         )
-    return Assortment.of_lines(lines)
+    return own

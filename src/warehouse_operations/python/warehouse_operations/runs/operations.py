@@ -7,11 +7,13 @@ import time as clock
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.fleets.ideal import IdealFleet
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.minute_log import MinuteLog
 from warehouse_operations.runs.opening import open_shift
-from warehouse_operations.shift import kpis
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
@@ -22,18 +24,21 @@ if TYPE_CHECKING:
 CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
 GATHER = 0.5  # rows for the database are written together, twice a second [s, wall]
-ASKED = 16  # cycles after which the progress is told: those of a large world take seconds
+ASKED = 16  # cycles between two calls of progress: those of a large world take seconds
 
 
 class Operations:
     """Runs one shift with its orders, stock and fleet.
 
     world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
-    warehouse; None: the world's own. orders: fill, fill:N, poisson:PER_HOUR, FILE.csv or none.
+    warehouse; None: the world's own. orders: see orders_text.EXPECTED.
     policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
     SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
-    PlanLoop. The same seed gives the same shift, to the last event, with any number of threads.
-    Raises what open_shift raises.
+    PlanLoop. availability: of ideal robots; simulated ones have their world's. The same seed gives
+    the same shift, to the last event, with any number of threads. Raises what open_shift raises.
+
+    context: what the parts of the shift share. stations: all of them. orders: those that are not
+    over, by id. log: what happened, minute by minute.
     """
 
     def __init__(
@@ -48,6 +53,7 @@ class Operations:
         site: Site | None = None,
         threads: int = 0,
         planner: Mapping[str, Any] | None = None,
+        availability: Availability | None = None,
     ) -> None:
         self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
@@ -68,9 +74,20 @@ class Operations:
                 travel=self.fleet.travel,
             )
             unless_open.pop_all()
+        self.context, self.stations = self.shift.context, self.shift.stations
+        self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
+        if availability and isinstance(self.fleet, IdealFleet):
+            self.fleet.keep_up(availability, np.random.default_rng((seed, 1)))
         self.wall_s = 0.0
-        self.log = MinuteLog(self)
+        self.log = MinuteLog(
+            self.context,
+            self.stations,
+            self.orders,
+            fleet=self.fleet,
+            kinematics=self.site.kinematics,
+            spacing=self.site.plan.spacing,
+        )
 
     def _fleet(
         self, world: Any, physics: bool, seed: int, threads: int, planner: Any
@@ -100,7 +117,7 @@ class Operations:
         progress: "Callable[[Operations], bool | None] | None" = None,
         observe: "Callable[[Operations], None] | None" = None,
     ) -> None:
-        """Goes on for the given time.
+        """Goes on for a time, the sum of its arguments.
 
         progress(self) is called now and then; it may return True to stop. observe(self) is called
         at the begin and after each cycle.
@@ -137,7 +154,7 @@ class Operations:
 
     def kpis(self) -> dict[str, Any]:
         """Returns the figures up to now, in the form of kpis.json."""
-        return kpis.of_shift(self.shift, self.fleet, self.site.kinematics, self.wall_s)
+        return self.shift.figures(self.fleet, self.site.kinematics, self.wall_s)
 
     def close(self) -> None:
         """Writes what is left and the run's figures to the database, and ends the fleet.
@@ -145,7 +162,7 @@ class Operations:
         Raises DatabaseError.
         """
         if self.database:
-            self.shift.journal.end(self.shift, self.kpis())
+            self.shift.end(self.kpis())
             self.database.close()
             self.database = None
         self.fleet.close()

@@ -89,7 +89,7 @@ class ProgressBar:
         self._line.end()
 
     def _show(self, ops: "Operations") -> None:
-        hourly = ops.shift.tally.items_picked / max(ops.time, 1e-9) * 3600
+        hourly = ops.context.tally.items_picked / max(ops.time, 1e-9) * 3600
         self._line.show(
             ops.time / self._seconds if self._seconds else 1.0,
             f"{hms(ops.time)} of {hms(self._seconds)}, {hourly:,.0f} pieces/h, "
@@ -111,13 +111,13 @@ class ProgressLines(ProgressBar):
         super().__init__(seconds, stream, clock, self.PERIOD)
 
     def _show(self, ops: "Operations") -> None:
-        told = {
+        state = {
             "time": round(ops.time, 1),
             "of": self._seconds,
-            "pieces": ops.shift.tally.items_picked,
+            "pieces": ops.context.tally.items_picked,
             "wall_s": round(self._line.wall, 2),
         }
-        self._line.write(json.dumps(told) + "\n")
+        self._line.write(json.dumps(state) + "\n")
 
 
 def hms(seconds: float) -> str:

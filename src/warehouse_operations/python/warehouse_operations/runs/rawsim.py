@@ -26,7 +26,7 @@ def read_instance(path: PathName) -> Site:
         for unit, pod in zip(instance.units, instance.pods)
         for i in range(max(1, round(number_of(path, pod, "Capacity", 500.0) / BIN)))
     ]
-    overrides = {name: _times(path, one) for name, one in instance.elements.items()}
+    overrides = {name: _times(path, seconds) for name, seconds in instance.elements.items()}
     return Site(
         instance.plan,
         instance.robots,

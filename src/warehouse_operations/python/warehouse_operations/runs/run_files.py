@@ -13,6 +13,7 @@ lateness, date [when it was simulated], version.
 import json
 import os
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,12 +24,12 @@ import numpy as np
 from warehouse_layout.file import user_file
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_operations.runs.version import version
-from warehouse_operations.shift.kpis import INTERVAL
+from warehouse_operations.shift.tally import INTERVAL, Tally
+from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.stations import WorkStation
 
 if TYPE_CHECKING:
     from warehouse_operations.runs.operations import Operations
-    from warehouse_operations.shift.shift import Shift
 
 KPIS, RUN, DATABASE, REPORT = "kpis.json", "run.json", "run.db", "report.html"
 
@@ -90,8 +91,9 @@ def read(folder: str | os.PathLike[str]) -> Run:
 
 def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, Any]:
     """Returns the content of run.json."""
-    shift, tally = ops.shift, ops.shift.tally
-    count = int(shift.now // INTERVAL)
+    tally, plan = ops.context.tally, ops.site.plan
+    now, began = ops.context.clock.now, ops.context.clock.began
+    count = int(now // INTERVAL)
     log = getattr(ops.fleet, "failures", None)
     series = {
         "picked": tally.picked_in,
@@ -105,14 +107,14 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
         "version": version(),
         "intervals": {"seconds": INTERVAL}
         | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
-        "stations": [_station(station, shift) for station in shift.stations],
+        "stations": [_station(station, plan, now) for station in ops.stations],
         "driven_m": ops.log.series["metres"],
-        "minutes": ops.log.series | {"late": _late(shift, count)},
-        "completed_s": [round(value - shift.began, 1) for value in tally.completed_s],
+        "minutes": ops.log.series | {"late": _late(tally, ops.orders.values(), now, count)},
+        "completed_s": [round(value - began, 1) for value in tally.completed_s],
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
         "robots": ops.fleet.activities(),
-        "floor": floor_rows(shift.floor.plan),
+        "floor": floor_rows(plan),
         "traffic": _map(ops.fleet, "passages"),
         "waiting": _map(ops.fleet, "waiting_map"),
         "failures": log.by_kind() if log else [],
@@ -132,23 +134,19 @@ def floor_rows(plan: FloorPlan) -> list[str]:
     return ["".join(row) for row in cells.tolist()]
 
 
-def _late(shift: "Shift", count: int) -> list[int]:
-    """Returns how many orders became late in each interval."""
-    late = Counter(shift.tally.late_in)
-    late.update(
-        int(order.due // INTERVAL)
-        for order in shift.orders.values()
-        if order.due and order.due < shift.now
-    )
+def _late(tally: Tally, orders: Iterable[Order], now: float, count: int) -> list[int]:
+    """Returns how many orders became late in each interval; `orders` are not over."""
+    late = Counter(tally.late_in)
+    late.update(int(order.due // INTERVAL) for order in orders if 0 < order.due < now)
     return [late[i] for i in range(count)]
 
 
-def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
+def _station(station: WorkStation, plan: FloorPlan, now: float) -> dict[str, Any]:
     return {
         "name": station.name,
         "kind": station.kind,
-        "cell": _cell(station.name, shift.floor.plan),
-        "busy_fraction": station.busy_fraction(shift.now),
+        "cell": _cell(station.name, plan),
+        "busy_fraction": station.busy_fraction(now),
         "pieces": station.pieces,
         "visits": station.visits,
     }
@@ -156,7 +154,7 @@ def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
 
 def _cell(name: str, plan: FloorPlan) -> list[int]:
     """Returns [x, y] of the cell in which units stand at a station."""
-    place = next(one for one in plan.stations if one.name == name)
+    place = next(station for station in plan.stations if station.name == name)
     return list(divmod(place.service_cell, plan.shape[1]))[::-1]
 
 

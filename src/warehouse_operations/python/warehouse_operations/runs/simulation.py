@@ -3,7 +3,7 @@
 
 import contextlib
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,10 +14,14 @@ from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_
 from warehouse_layout.file.request import items_for
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
+from warehouse_operations.fleets import availability
+from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.runs import layout_site
+from warehouse_operations.runs import event_file, layout_site
 from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.director import Director
+from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.runs.progress import ProgressBar
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
@@ -33,15 +37,18 @@ if TYPE_CHECKING:
     from kiva_plugin_cpp import World
 
 MOST_SEED = 2**63 - 1
+WriteReport = Callable[[Path, Sequence[runs.Run]], object]  # writes the report about runs
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
     DemandError,
+    EventError,
     InUseError,
     InstanceError,
     LayoutFileError,
     PlannerError,
     PolicyError,
+    RealismError,
     SiteError,
     runs.RunError,
 )
@@ -53,7 +60,7 @@ class Description:
 
     size: str = "medium"
     layout: str = ""  # a .layout.yaml file
-    robots: int = 0  # instead of the layout's or the preset's; 0: as many as it has
+    robots: int = 0  # overrides the layout's or the preset's number; 0: does not
     units: int = 0  # of a warehouse that is generated for them and the robots; 0: none is
     stations: int = 0  # picking stations that are open, the first ones; 0: all
     instance: str = ""  # an .xinst file
@@ -66,6 +73,7 @@ class Description:
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
     threads: int = 0  # that step the world, and that plan; 0: one, and all cores but one
+    events: tuple[Event, ...] = ()  # what happens in the shift, by time
 
     @property
     def config(self) -> dict[str, Any]:
@@ -81,6 +89,7 @@ class Description:
             **({"stations": self.stations} if self.stations else {}),
             **({"realism": self.realism} if self.realism else {}),
             **({"planner": self.planner} if self.planner else {}),
+            **({"events": [event.to_json() for event in self.events]} if self.events else {}),
             **({"layout": self._fingerprint} if self.layout else {}),
         }
 
@@ -101,7 +110,10 @@ class Description:
 
     @property
     def chosen_policies(self) -> Policies:
-        """The policies: those told, and besides them those of the layout. Raises PolicyError."""
+        """The policies of the description, and of the layout for other roles.
+
+        Raises PolicyError.
+        """
         if not self.layout:
             return Policies(self.policies)
         return layout_site.merged(layout_choice.chosen(self.layout), Policies(self.policies))
@@ -111,11 +123,11 @@ def with_settings(description: Description) -> Description:
     """Returns the Description completed by its settings file where it has defaults."""
     if not description.settings:
         return description
-    told, default = read_settings(description.settings), Description()
+    settings, default = read_settings(description.settings), Description()
     return replace(
         description,
-        orders=told.orders if description.orders == default.orders else description.orders,
-        policies=told.policies | description.policies,
+        orders=settings.orders if description.orders == default.orders else description.orders,
+        policies=settings.policies | description.policies,
     )
 
 
@@ -124,23 +136,25 @@ def remarks(description: Description) -> list[str]:
 
     Raises one of ERRORS.
     """
-    told: list[str] = []
+    sentences: list[str] = []
     if description.settings:
-        told += read_settings(description.settings).not_followed
+        sentences += read_settings(description.settings).not_followed
     if description.instance and not description.physics:
         jams = _jams(description.instance, read_instance(description.instance))
-        told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        sentences += (
+            [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+        )
     if description.layout and not description.physics:
         file = layout_choice.chosen(description.layout)
-        told += [f"{description.layout}: {text}" for text in _of_bodies(file)]
-    return told
+        sentences += [f"{description.layout}: {text}" for text in _of_bodies(file)]
+    return sentences
 
 
 def _of_bodies(file: LayoutFile) -> list[str]:
     """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
     ideal ones, too."""
     faults = file_check.faults(file)
-    return [one.text for one in faults] if all(one.is_of_bodies for one in faults) else []
+    return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
 
 
 def _jams(path: str, site: Site) -> str:
@@ -154,19 +168,49 @@ def _jams(path: str, site: Site) -> str:
 
 def open_operations(description: Description, database: str | None = None) -> Operations:
     """Opens the shift of a Description; raises one of ERRORS."""
+    if not description.events:
+        return _open_operations(description, database)
+    whole, spare = _with_spare_robots(description)
+    ops = _open_operations(whole, database)
+    try:
+        robots = sorted(ops.site.robots)
+        Director(ops, description.events, robots[len(robots) - spare :], description.seed)
+    except EventError:
+        ops.close()
+        raise
+    return ops
+
+
+def _with_spare_robots(description: Description) -> tuple[Description, int]:
+    """Returns a Description with all robots that are there at any time, and how many are not there
+    at first. Raises EventError."""
+    spare = event_file.most_added(description.events)
+    if not spare:
+        return description, 0
+    if description.instance:
+        event = next(event for event in description.events if event.kind == "robots")
+        raise event.fault("adds some; an instance has its own, a layout or a size was expected")
+    robots = description.robots
+    if not robots:
+        file = layout_choice.chosen(description.layout or description.size)
+        robots = len(placement.place(file, description.seed).robots)
+    return replace(description, robots=robots + spare), spare
+
+
+def _open_operations(description: Description, database: str | None = None) -> Operations:
     world: World | None
     if description.robots and description.instance:
         raise InstanceError("robots: an instance has its own; a layout or a size was expected")
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
-            told = read_settings(description.settings)
-            site = replace(site, level=told.level or site.level)
+            settings = read_settings(description.settings)
+            site = replace(site, level=settings.level or site.level)
         world = None
         if description.physics:
             if jams := _jams(description.instance, site):
                 raise InstanceError(jams)
-            with _told_as_ours():
+            with _errors_as_ours():
                 world, site = world_of(site, **_options(description))
     elif description.units:
         world = _generated(description)
@@ -196,6 +240,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
         physics=description.physics,
         threads=description.threads,
         planner=description.planner or None,
+        availability=None if description.physics else availability.read(description.realism),
     )
     if description.stations:
         ops.shift.open_picking(description.stations)
@@ -216,15 +261,20 @@ def simulate(
     database: str | Path | None = None,
     progress: ProgressBar | None = None,
     observe: Callable[[Operations], None] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[runs.Run, list[str]]:
     """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
     database: None: a new one in the folder. observe: called at the begin and after each cycle.
+    write_report: as reports.report.write; None: there is no report.
     """
     folder = Path(folder)
     with _locked(folder):
         kept = database or _new_database(folder)
-        return _simulate(description, folder, kept, progress, observe)
+        run, faults = _simulate(description, folder, kept, progress, observe)
+        if write_report:
+            write_report(folder / runs.REPORT, [run])
+        return run, faults
 
 
 @contextlib.contextmanager
@@ -258,15 +308,12 @@ def _simulate(
         if progress:
             progress.end(ops)
         kept: Any = ops.database
-        ops.shift.journal.commit(ops.shift)
+        ops.shift.commit()
         kept.flush()
         with kept.reading():
             faults = check.faults(kept.engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
-    from warehouse_operations.reports import report
-
-    report.write(folder / runs.REPORT, [run])
     if run.kpis["collisions"]:
         faults.append(f"{run.kpis['collisions']} collisions")
     if stuck:
@@ -277,7 +324,7 @@ def _simulate(
 def _of_layout(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.layout(
             description.layout or description.size,
             robots=description.robots or None,
@@ -294,7 +341,7 @@ def _generated(description: Description) -> "World":
         raise InstanceError(
             "units: a layout has its own; leave out the layout to have a warehouse generated"
         )
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.create(
             robots=description.robots,
             shelves=description.units,
@@ -306,7 +353,7 @@ def _generated(description: Description) -> "World":
 def _preset(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
-    with _told_as_ours():
+    with _errors_as_ours():
         return World.preset(description.size, **_options(description))
 
 
@@ -320,7 +367,7 @@ def _options(description: Description) -> dict[str, Any]:
 
 
 @contextlib.contextmanager
-def _told_as_ours() -> Iterator[None]:
+def _errors_as_ours() -> Iterator[None]:
     """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
     try:
         yield

@@ -3,12 +3,13 @@
 
 out: results                  # folder; beside the file
 size: medium                  # or layout: FILE, or instance: FILE.xinst, settings: FILE.xsett
-robots: 30                    # instead of as many as the layout or size has; also stations
+robots: 30                    # overrides the layout's or size's number; also stations
 minutes: 60
 physics: false
 seeds: 10                     # 1 to 10, or a list
-orders: fill
+orders: fill                  # or day:FILE.csv, demand:FILE.demand.yaml, either with *1.3, …
 policies: {storage: nearest}  # what all have
+events: [{at: 600, close: pick1}]  # or a file; see event_file
 grid:                         # each key is an axis
   policies.orders: [random, pile-on]
   policies.units: [nearest, most lines]
@@ -19,7 +20,9 @@ seed-1, seed-2, …
 """
 
 import contextlib
+import hashlib
 import itertools
+import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -30,14 +33,20 @@ from typing import Any
 
 from warehouse_layout.generate import layout_choice
 from warehouse_operations.policies import ROLES
+from warehouse_operations.runs import event_file
 from warehouse_operations.runs import run_files as runs
+from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.simulation import (
     ERRORS,
     MOST_SEED,
     Description,
+    WriteReport,
     simulate,
     with_settings,
 )
+from warehouse_operations.stock import orders_text
+from warehouse_operations.stock.lined_yaml import LinedYaml
+from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 from warehouse_operations.store.locks import FileLock, InUseError
 
@@ -52,8 +61,9 @@ KINDS: dict[str, tuple[Any, str]] = {
     "minutes": ((int, float), "a number above 0"),
     "physics": (bool, "true or false"),
     "realism": (str, "ideal, typical, bad_day or a file"),
-    "orders": (str, "fill, fill:N, poisson:PER_HOUR, FILE.csv or none"),
+    "orders": (str, orders_text.EXPECTED),
     "policies": ((dict, type(None)), "roles with a policy each"),
+    "events": ((list, str), "a list of events, or the name of a file with them"),
 }
 KEYS = {*KINDS, "seeds"}
 MOST_SEEDS, MOST_MINUTES = 10_000, 1e7
@@ -98,11 +108,11 @@ def read(path: str | Path) -> Sweep:
     folder = path.parent / data.get("out", path.stem)
     jobs = []
     for point in _points(path, data.get("grid") or {}):
-        one = _description(path, data, point)
+        description = _description(path, data, point)
         words = [f"{key.rpartition('.')[2]}={_word(value)}" for key, value in point.items()]
         name = re.sub(r"[^\w=.,-]+", "-", ",".join(words)) or _only(data)
         for seed in _seeds(path, data.get("seeds", 1)):
-            jobs.append((replace(one, seed=seed), folder / name / f"seed-{seed}"))
+            jobs.append((replace(description, seed=seed), folder / name / f"seed-{seed}"))
     return Sweep(folder, tuple(jobs))
 
 
@@ -111,14 +121,16 @@ def run_all(
     processes: int | None = None,
     executor: Executor | None = None,
     on_done: Callable[[int, int], object] | None = None,
+    write_report: WriteReport | None = None,
 ) -> tuple[list[runs.Run], list[str]]:
     """Runs what is left; returns all Runs and sentences about those that failed.
 
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
-    called after each.
+    called after each. write_report: a function of a module, see simulate.
     """
     with _alone(sweep.folder):
-        return _run_all(sweep, executor or ProcessPoolExecutor(processes), on_done)
+        pool = executor or ProcessPoolExecutor(processes)
+        return _run_all(sweep, pool, on_done, write_report)
 
 
 @contextlib.contextmanager
@@ -132,12 +144,15 @@ def _alone(folder: Path) -> Iterator[None]:
 
 
 def _run_all(
-    sweep: Sweep, executor: Executor, on_done: Callable[[int, int], object] | None
+    sweep: Sweep,
+    executor: Executor,
+    on_done: Callable[[int, int], object] | None,
+    write_report: WriteReport | None,
 ) -> tuple[list[runs.Run], list[str]]:
     complete, left = sweep.done()
     failures = []
     with executor as pool:
-        pending = {pool.submit(_one, *job): job for job in left}
+        pending = {pool.submit(_one, *job, write_report): job for job in left}
         while pending:
             finished, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in finished:
@@ -154,8 +169,8 @@ def _run_all(
     return sorted(complete, key=lambda run: order[run.folder]), failures
 
 
-def _one(description: Description, folder: Path) -> list[str]:
-    _, faults = simulate(description, folder)
+def _one(description: Description, folder: Path, write_report: WriteReport | None) -> list[str]:
+    _, faults = simulate(description, folder, write_report=write_report)
     return faults
 
 
@@ -190,9 +205,31 @@ def _only(data: dict[str, Any]) -> str:
     return "" if data.get("out") == "." else "all"
 
 
-def _beside(path: Path, given: str) -> str:
+def _beside(path: Path, name: str) -> str:
     """Returns a file that a sweep names, by the same path whichever folder that is seen from."""
-    return os.path.abspath(path.parent / given)
+    return os.path.abspath(path.parent / name)
+
+
+def _orders_beside(path: Path, orders: str) -> str:
+    """Returns an orders text with its file, if it names one that is beside a sweep."""
+
+    def beside(file: str) -> str:
+        return _beside(path, file) if os.path.exists(_beside(path, file)) else file
+
+    try:
+        return orders_text.with_file(orders, beside)
+    except DemandError as error:
+        raise SweepError(f"{path}: {error}") from error
+
+
+def _events(path: Path, events: list[Any] | str, is_varied: bool) -> tuple[Event, ...]:
+    """Returns the events of a list, or of a file beside a sweep. Raises EventError."""
+    if isinstance(events, str):
+        return event_file.read(_beside(path, events))
+    if is_varied or not events:
+        return event_file.events_of(events, path.parent)
+    file = LinedYaml(path, EventError)
+    return event_file.events_of(events, path.parent, file.fault, ("events",), str(path), file.line)
 
 
 def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
@@ -201,22 +238,24 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
     for key, value in point.items():
         if key.startswith("policies."):
             policies[key.removeprefix("policies.")] = value
-    known = {one.name for one in fields(Description)}
-    given = {key: merged[key] for key in merged.keys() & known}
+    known = {field.name for field in fields(Description)} - {"events"}
+    options = {key: merged[key] for key in merged.keys() & known}
     for key in ("layout", "instance", "settings"):
-        if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
-            given[key] = _beside(path, given[key])
-    orders = given.get("orders", "")
-    if orders.endswith(".csv") and os.path.exists(_beside(path, orders)):
-        given["orders"] = _beside(path, orders)
-    sites = [key for key in ("size", "layout", "instance") if key in given]
+        if options.get(key) and not (key == "layout" and layout_choice.is_preset(options[key])):
+            options[key] = _beside(path, options[key])
+    if "orders" in options:
+        options["orders"] = _orders_beside(path, options["orders"])
+    sites = [key for key in ("size", "layout", "instance") if key in options]
     if len(sites) > 1:
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
-        given |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
-        one = with_settings(Description(**given))
-        one.config  # noqa: B018 - policies that don't exist are told before anything runs
-        return one
+        options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
+        options["events"] = _events(path, merged.get("events", []), "events" in point)
+        description = with_settings(Description(**options))
+        description.config  # noqa: B018 - policies that don't exist are refused before anything runs
+        return description
+    except EventError as error:
+        raise SweepError(str(error)) from error
     except (TypeError, ValueError, *ERRORS) as error:
         raise SweepError(f"{path}: {error}") from error
 
@@ -237,4 +276,7 @@ def _is_seed(value: Any) -> bool:
 
 
 def _word(value: Any) -> str:
+    if isinstance(value, list):  # of events
+        text = json.dumps(value, sort_keys=True, default=str).encode()
+        return hashlib.blake2b(text, digest_size=4).hexdigest() if value else "none"
     return value.get("name", "") if isinstance(value, dict) else str(value)

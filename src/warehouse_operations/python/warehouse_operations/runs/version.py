@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which version of the project runs."""
+"""The version of the project."""
 
 import functools
 import importlib.metadata

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which orders and bins have changed, for those who follow a shift live."""
+"""The orders and bins that have changed, for clients that follow a shift live."""
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
+from typing import Any
 
 from warehouse_operations.shift.journal import Journal
 from warehouse_operations.stock.inventory import Bin
 from warehouse_operations.stock.orders import Line, Order
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
 
 
 class ChangeJournal:
@@ -42,10 +40,10 @@ class ChangeJournal:
         self._note(order)
         self._journal.unassigned(order, now)
 
-    def commit(self, shift: "Shift") -> None:
+    def commit(self, now: float, bins: Collection[Bin]) -> None:
         """Marks everything recorded since the last call as one consistent state."""
-        self._bins.update((one.bin_id, one) for one in shift.inventory.changed)
-        self._journal.commit(shift)
+        self._bins.update((bin_.bin_id, bin_) for bin_ in bins)
+        self._journal.commit(now, bins)
 
     def take_orders(self) -> list[Order]:
         """Returns the Orders that have changed since the last call."""

@@ -2,22 +2,24 @@
 """Bins that fell off their units: out of stock while they lie on the floor."""
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-from warehouse_operations.stock.inventory import Bin
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
+from warehouse_operations.shift.picking import Picking
+from warehouse_operations.shift.replenishing import Replenishing
+from warehouse_operations.shift.visits import Visits
+from warehouse_operations.stock.inventory import Bin, Inventory
 
 
 class Fallen:
-    """The part of a Shift that knows which of its bins lie on the floor."""
+    """The bins of an Inventory that lie on the floor; count: how often a bin fell."""
 
-    def __init__(self, shift: "Shift") -> None:
-        self.shift = shift
-        self._bins = {one.item: one for one in shift.inventory.bins.values()}
-        self._items = {one.item for one in self._bins.values() if one.fallen is not None}
-        self.count = 0  # how often one fell
+    def __init__(
+        self, inventory: Inventory, visits: Visits, picking: Picking, replenishing: Replenishing
+    ) -> None:
+        self._inventory, self._visits = inventory, visits
+        self._picking, self._replenishing = picking, replenishing
+        self._bins = {bin_.item: bin_ for bin_ in inventory.bins.values()}
+        self._items = {bin_.item for bin_ in self._bins.values() if bin_.fallen is not None}
+        self.count = 0
 
     def update(self, items: Iterable[str]) -> None:
         """Updates which bins lie on the floor, by the names of the items there; ignores other
@@ -29,23 +31,21 @@ class Fallen:
             self._is_back(self._bins[item])
         self._items = items
 
-    def forget(self, one: Bin) -> None:
+    def forget(self, bin_: Bin) -> None:
         """Removes a bin that is no longer in the warehouse."""
-        del self._bins[one.item]
-        self._items.discard(one.item)
+        del self._bins[bin_.item]
+        self._items.discard(bin_.item)
 
-    def _falls(self, one: Bin) -> None:
-        dropped = self.shift.picking.drop_bin(one)
-        self.shift.replenishing.drop_bin(one)
-        self.shift.inventory.fall(one)
-        self.shift.picking.serve_otherwise(dropped)
+    def _falls(self, bin_: Bin) -> None:
+        dropped = self._picking.drop_bin(bin_)
+        self._replenishing.drop_bin(bin_)
+        self._inventory.fall(bin_)
+        self._picking.serve_otherwise(dropped)
         self.count += 1
 
-    def _is_back(self, one: Bin) -> None:
-        self.shift.inventory.pick_up(one)
-        if one.unit in self.shift.free_units:
-            self.shift.picking.on_unit_free(one.unit)
-            self.shift.replenishing.on_unit_free()
+    def _is_back(self, bin_: Bin) -> None:
+        self._inventory.pick_up(bin_)
+        self._visits.offer(bin_.unit)
 
     def figures(self) -> dict[str, int]:
         """Returns the figures for kpis.json; empty if nothing fell."""

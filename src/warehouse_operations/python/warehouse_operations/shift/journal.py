@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The interface by which a shift records what it does; database_journal keeps the records."""
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
+from typing import Any
 
+from warehouse_layout.message_enums import OrderEventKind
+from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderEventKind
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Visit
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
-    from warehouse_operations.shift.tasks import Answer, Report
 
 
 class Journal:
@@ -22,7 +20,7 @@ class Journal:
     def move(
         self,
         now: float,
-        one: Bin,
+        bin_: Bin,
         quantity: int,
         reason: Reason,
         line: Line | None,
@@ -46,9 +44,6 @@ class Journal:
     def visit(self, visit: Visit) -> None:
         """Records a new Visit, or the new state of a known one."""
 
-    def unit(self, unit: int, in_service: bool) -> None:
-        """Records that a storage unit goes out of service, or returns to it."""
-
     def event(
         self,
         now: float,
@@ -62,17 +57,20 @@ class Journal:
     ) -> None:
         """Records an event of an order."""
 
-    def report(self, now: float, report: "Report", answer: "Answer") -> None:
+    def report(self, now: float, report: Report, answer: Answer) -> None:
         """Records a person's Report that has an id, and the Answer that it got."""
 
     def heat(self, slot: int, began: float, maps: bytes) -> None:
         """Records a part of the FloorHeat, in place of the one in that slot."""
 
-    def commit(self, shift: "Shift") -> None:
-        """Marks everything recorded since the last call as one consistent state."""
+    def commit(self, now: float, bins: Collection[Bin]) -> None:
+        """Marks everything recorded since the last call as one consistent state.
+
+        bins: those whose figures have changed since then.
+        """
 
     def flush(self) -> None:
         """Waits until everything that was committed is kept."""
 
-    def end(self, shift: "Shift", figures: dict[str, Any]) -> None:
-        """Records the end of the run, with the figures of kpis.json."""
+    def end(self, now: float, bins: Collection[Bin], figures: dict[str, Any]) -> None:
+        """Records the end of the run, with the figures of kpis.json, and commits."""

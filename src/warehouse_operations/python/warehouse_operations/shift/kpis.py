@@ -2,93 +2,16 @@
 """The figures of a shift, and the formulas behind them."""
 
 import math
-from collections import defaultdict
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_operations.stock.orders import Bundle, Line, Order
+from warehouse_operations.shift.context import Context
+from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.settings import Settings
-from warehouse_operations.stock.stations import Visit
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
-
-INTERVAL = 60.0  # of the series [s]
-
-
-class Tally:
-    """Counts what happens in a shift; times are simulated [s]."""
-
-    def __init__(self) -> None:
-        self.items_picked = self.lines_picked = self.orders_completed = 0
-        self.bundles_stored = self.pieces_stored = self.late_orders = self.orders_received = 0
-        self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
-        self.turnover_s: list[float] = []
-        self.throughput_s: list[float] = []
-        self.completed_s: list[float] = []  # when each of these orders was complete
-        self.picked_in: dict[int, int] = defaultdict(int)  # by INTERVAL
-        self.stored_in: dict[int, int] = defaultdict(int)
-        self.completed_in: dict[int, int] = defaultdict(int)
-        self.late_in: dict[int, int] = defaultdict(int)  # late orders, when they were due
-
-    def picked(self, now: float, pieces: int, line: Line) -> None:
-        """Counts pieces that were picked for an order line."""
-        self.items_picked += pieces
-        self.lines_picked += not line.open
-        self.picked_in[int(now // INTERVAL)] += pieces
-
-    def stored(self, now: float, bundle: Bundle) -> None:
-        """Counts a bundle that was put into its bin."""
-        self.bundles_stored += 1
-        self.pieces_stored += bundle.quantity
-        self.stored_in[int(now // INTERVAL)] += bundle.quantity
-
-    def unpicked(self, when: float, pieces: int, line: Line) -> None:
-        """Counts pieces no longer that were picked at a time [s]; the line still has them."""
-        self.items_picked -= pieces
-        self.lines_picked -= not line.open
-        self.picked_in[int(when // INTERVAL)] -= pieces
-
-    def unstored(self, when: float, bundle: Bundle) -> None:
-        """Counts a bundle no longer that was put in at a time [s]."""
-        self.bundles_stored -= 1
-        self.pieces_stored -= bundle.quantity
-        self.stored_in[int(when // INTERVAL)] -= bundle.quantity
-
-    def completed(self, order: Order) -> None:
-        """Counts an order that is complete."""
-        self.orders_completed += 1
-        self._late(order, 1)
-        self.turnover_s.append(order.completed - order.created)
-        self.throughput_s.append(order.completed - order.assigned)
-        self.completed_s.append(order.completed)
-        self.completed_in[int(order.completed // INTERVAL)] += 1
-
-    def reopened(self, order: Order) -> None:
-        """Counts an order no longer that was complete. Raises ValueError if it was not counted."""
-        self.orders_completed -= 1
-        self._late(order, -1)
-        times = order.completed - order.created, order.completed - order.assigned, order.completed
-        counted = self.turnover_s, self.throughput_s, self.completed_s
-        at = list(zip(*counted)).index(times)
-        for series in counted:
-            del series[at]
-        self.completed_in[int(order.completed // INTERVAL)] -= 1
-
-    def _late(self, order: Order, sign: int) -> None:
-        """Counts an order if it was late."""
-        if order.due and order.completed > order.due:
-            self.late_orders += sign
-            self.late_in[int(order.due // INTERVAL)] += sign
-
-    def visited(self, visit: Visit) -> None:
-        """Counts a visit that is over, if its unit reached the station."""
-        if visit.arrived is not None:
-            self.trips += 1
-            self.pick_visits += not visit.replenishes
+from warehouse_operations.stock.stations import WorkStation
 
 
 def upper_bound(
@@ -110,36 +33,44 @@ def upper_bound(
     return pieces * 3600 / (max(change, 0.0) + pieces * settings.piece_s / settings.pickers)
 
 
-def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) -> dict[str, Any]:
-    """Returns the content of kpis.json.
+def of_shift(
+    context: Context,
+    stations: Collection[WorkStation],
+    orders: Collection[Order],
+    spacing: float,
+    *,
+    fleet: Any,
+    kinematics: Kinematics,
+    wall_s: float,
+) -> dict[str, Any]:
+    """Returns the content of kpis.json, but the figures of fallen bins.
 
-    fleet: an IdealFleet, a WorldFleet, or what has the same figures. wall_s: how long the shift
-    took to simulate [s].
+    orders: those that are not over. spacing: of the cells [m]. fleet: an IdealFleet, a WorldFleet,
+    or what has the same figures. wall_s: how long the shift took to simulate [s].
     """
-    tally, elapsed = shift.tally, shift.now - shift.began
+    tally, now = context.tally, context.clock.now
+    elapsed = now - context.clock.began
     hours = max(elapsed, 1e-9) / 3600
     # A station that was closed all the time is as if it were not there.
-    picking = [s for s in shift.picking.stations if s.is_open or s.visits]
-    replenishing = shift.replenishing.stations
+    picking = [s for s in stations if s.picks and (s.is_open or s.visits)]
     picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
     pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
-    spacing = shift.floor.plan.spacing
     bound = sum(
-        upper_bound(pile_on, shift.settings.of(station.name), kinematics, spacing)
-        * (station.open_seconds(shift.now) / elapsed if elapsed else 1.0)
+        upper_bound(pile_on, station.settings, kinematics, spacing)
+        * (station.open_seconds(now) / elapsed if elapsed else 1.0)
         for station in picking
     )
     throughput = tally.items_picked / hours
-    overdue = sum(bool(order.due) and order.due < shift.now for order in shift.orders.values())
+    overdue = sum(bool(order.due) and order.due < now for order in orders)
     busy = sum(station.busy_s for station in picking)
-    attended = sum(station.open_seconds(shift.now) * station.pickers for station in picking)
+    attended = sum(station.picker_seconds(now) for station in picking)
     return {
         "simulated_s": elapsed,
         "wall_s": wall_s,
         "real_time_factor": elapsed / wall_s if wall_s else 0.0,
         "robots": fleet.robot_count,
         "pick_stations": len(picking),
-        "replenish_stations": len(replenishing),
+        "replenish_stations": sum(station.replenishes for station in stations),
         "items_picked": tally.items_picked,
         "lines_picked": tally.lines_picked,
         "orders_completed": tally.orders_completed,
@@ -162,8 +93,8 @@ def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) 
         "watchdog": fleet.watchdog,
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
-        "state_hash": shift.state_hash(),
-    } | (shift.fallen.figures() | _of_troubles(fleet, tally.items_picked))
+        "state_hash": context.state_hash(),
+    } | _of_troubles(fleet, tally.items_picked)
 
 
 def _of_troubles(fleet: Any, items_picked: int) -> dict[str, Any]:

@@ -2,14 +2,18 @@
 """The reports of people at stations in mode MANUAL."""
 
 from collections import deque
+from collections.abc import Mapping
 from typing import cast
 
+from warehouse_layout.message_enums import OrderEventKind, PickOutcome, StationMode
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.order_book import OrderBook
 from warehouse_operations.shift.picking import Picking
 from warehouse_operations.shift.replenishing import Replenishing
 from warehouse_operations.shift.taking_back import TakingBack
-from warehouse_operations.shift.tasks import Answer, Report
+from warehouse_operations.shift.task_reports import Answer, Report, TaskNumbers
+from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderEventKind, Outcome
 from warehouse_operations.stock.orders import Bundle, Line
 from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
@@ -17,9 +21,17 @@ from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 class ManualPicking:
     """Carries out the reports of people at picking stations."""
 
-    def __init__(self, picking: Picking) -> None:
-        self._picking, self._shift = picking, picking.shift
-        self._taking_back = TakingBack(picking.shift)
+    def __init__(
+        self,
+        context: Context,
+        picking: Picking,
+        order_book: OrderBook,
+        visits: Visits,
+        taking_back: TakingBack,
+    ) -> None:
+        self._clock, self._inventory = context.clock, context.inventory
+        self._picking, self._order_book = picking, order_book
+        self._visits, self._taking_back = visits, taking_back
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes pieces of a SKU as picked. Returns success and the fault."""
@@ -43,20 +55,20 @@ class ManualPicking:
         visit, picks = self._asked(station, sku)
         if not visit or not picks:
             return False, f"none of {sku} is asked for at {station.name} now"
-        one = picks[0].bin
-        if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in stock in {one.item}"
-        self._write_off(visit, one, lacking, reason)
+        bin_ = picks[0].bin
+        if not 0 < lacking <= bin_.quantity:
+            return False, f"{bin_.quantity} of {sku} are in stock in {bin_.item}"
+        self._write_off(visit, bin_, lacking, reason)
         return True, ""
 
-    def _write_off(self, visit: Visit, one: Bin, lacking: int, reason: Reason) -> list[Line]:
+    def _write_off(self, visit: Visit, bin_: Bin, lacking: int, reason: Reason) -> list[Line]:
         """Writes off pieces of a bin; returns the lines that were to be served from it."""
-        station, sku = visit.station, one.sku
-        lines = [line for _, line in self._picking.drop_bin(one)]
-        self._shift.inventory.move(one, sku, -lacking, reason, station=station)
+        station, sku = visit.station, bin_.sku
+        lines = [line for _, line in self._picking.drop_bin(bin_)]
+        self._inventory.move(bin_, sku, -lacking, reason, station=station)
         for line in lines:
             fields = sku, lacking, station.name, visit.unit, reason.value
-            self._shift.order_book.publish_event(line.order, OrderEventKind.SHORT, *fields)
+            self._order_book.publish_event(line.order, OrderEventKind.SHORT, *fields)
             self._picking.allot(station, line)
         self._picking.leave_if_done(station)
         return lines
@@ -80,28 +92,28 @@ class ManualPicking:
 
     def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
         """Carries out a Report of a Pick."""
-        # The pick is of the unit at the station: task() found it there.
-        visit, one, sku = cast(Visit, station.here), pick.bin, pick.line.sku
-        if report.outcome == Outcome.DONE:
+        # The pick is of the unit at the station, where task() looks for it.
+        visit, bin_, sku = cast(Visit, station.here), pick.bin, pick.line.sku
+        if report.outcome == PickOutcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
             taken = visit, pick, report.quantity
             self._picking.take(*taken)
             self._picking.complete(station)
             self._picking.leave_if_done(station)
-            when = self._shift.now
+            when = self._clock.now
             return Answer(True, "", report.quantity, lambda: self._taking_back.pick(*taken, when))
-        is_empty = report.outcome == Outcome.SHORT and not report.quantity
-        lacking = one.quantity if is_empty else report.quantity
-        if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
-        reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
-        lines = self._write_off(visit, one, lacking, reason)
-        undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
-        return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
+        is_empty = report.outcome == PickOutcome.SHORT and not report.quantity
+        lacking = bin_.quantity if is_empty else report.quantity
+        if not 0 < lacking <= bin_.quantity:
+            return Answer(False, f"{bin_.quantity} of {sku} are in stock in {bin_.item}")
+        reason = Reason.SHORT if report.outcome == PickOutcome.SHORT else Reason.DAMAGED
+        lines = self._write_off(visit, bin_, lacking, reason)
+        undo = lambda: self._put_back(station, bin_, (sku, lacking), lines)  # noqa: E731
+        return Answer(True, f"{lacking} of {sku} in {bin_.item} are written off", lacking, undo)
 
     def _put_back(
-        self, station: WorkStation, one: Bin, pieces: tuple[str, int], lines: list[Line]
+        self, station: WorkStation, bin_: Bin, pieces: tuple[str, int], lines: list[Line]
     ) -> str:
         """Puts (SKU, pieces) that were written off back into their bin.
 
@@ -109,18 +121,18 @@ class ManualPicking:
         them, or "".
         """
         sku, quantity = pieces
-        if one.room < quantity or not (one.empty or one.sku == sku):
-            return f"{one.item} has no room for {quantity} of {sku} any more"
-        self._shift.inventory.move(one, sku, quantity, Reason.UNDONE, station=station)
+        if bin_.room < quantity or not (bin_.empty or bin_.sku == sku):
+            return f"{bin_.item} has no room for {quantity} of {sku} any more"
+        self._inventory.move(bin_, sku, quantity, Reason.UNDONE, station=station)
         visit = station.here
-        if visit and visit.unit == one.unit:
+        if visit and visit.unit == bin_.unit:
             for line in lines:
                 if line.order.order_id in station.orders:
                     self._take_from_others(station, line)
                     self._picking.allot(station, line)
-            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not one))
-        elif one.unit in self._shift.free_units:
-            self._picking.on_unit_free(one.unit)
+            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not bin_))
+        elif bin_.unit in self._visits.free_units:
+            self._picking.on_unit_free(bin_.unit)
         return ""
 
     def _take_from_others(self, station: WorkStation, line: Line) -> None:
@@ -129,7 +141,7 @@ class ManualPicking:
             for pick in [pick for pick in visit.picks if pick.line is line]:
                 self._picking.drop(visit, pick)
                 if not visit.picks:
-                    self._shift.visits.cancel(visit)
+                    self._visits.cancel(visit)
 
     def _asked(self, station: WorkStation, sku: str) -> tuple[Visit | None, list[Pick]]:
         visit = station.here
@@ -139,9 +151,16 @@ class ManualPicking:
 class ManualReplenishing:
     """Carries out the reports of people at replenishing stations."""
 
-    def __init__(self, replenishing: Replenishing) -> None:
-        self._replenishing, self._shift = replenishing, replenishing.shift
-        self._taking_back = TakingBack(replenishing.shift)
+    def __init__(
+        self,
+        context: Context,
+        replenishing: Replenishing,
+        task_numbers: TaskNumbers,
+        taking_back: TakingBack,
+    ) -> None:
+        self._clock, self._inventory = context.clock, context.inventory
+        self._replenishing, self._task_numbers = replenishing, task_numbers
+        self._taking_back = taking_back
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes the bundle of a SKU as put in. Returns success and the fault."""
@@ -169,9 +188,9 @@ class ManualReplenishing:
 
     def _shorten(self, visit: Visit, bundle: Bundle, lacking: int) -> None:
         """Takes pieces out of a bundle before it is put in."""
-        self._shift.inventory.unexpect(bundle.bin, bundle.sku, lacking)
+        self._inventory.unexpect(bundle.bin, bundle.sku, lacking)
         bundle.quantity -= lacking
-        bundle.sequence = self._shift.tasks.number()  # what is left is another task
+        bundle.sequence = self._task_numbers.number()  # what is left is another task
         if not bundle.quantity:
             visit.puts.remove(bundle)
         self._replenishing.leave_if_done(visit.station)
@@ -194,14 +213,14 @@ class ManualReplenishing:
 
     def report(self, station: WorkStation, bundle: Bundle, report: Report) -> Answer:
         """Carries out a Report of a Bundle."""
-        # The bundle is for the unit at the station: task() found it there.
+        # The bundle is for the unit at the station, where task() looks for it.
         visit, there = cast(Visit, station.here), bundle.quantity
-        if report.outcome == Outcome.DONE:
+        if report.outcome == PickOutcome.DONE:
             if report.quantity != there:
                 return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
             self._replenishing.put(visit, bundle)
             self._replenishing.leave_if_done(station)
-            when = self._shift.now
+            when = self._clock.now
             return Answer(True, "", there, lambda: self._taking_back.put(visit, bundle, when))
         lacking = report.quantity
         if not 0 < lacking <= there:
@@ -213,12 +232,12 @@ class ManualReplenishing:
     def _lengthen(self, visit: Visit, bundle: Bundle, pieces: int) -> str:
         """Adds pieces that were left out to their bundle again, or orders them as another one."""
         is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
-        if is_there and self._shift.inventory.takes(bundle.bin, bundle.sku, pieces):
-            self._shift.inventory.expect(bundle.bin, bundle.sku, pieces)
+        if is_there and self._inventory.takes(bundle.bin, bundle.sku, pieces):
+            self._inventory.expect(bundle.bin, bundle.sku, pieces)
             if not bundle.quantity:
                 visit.puts.appendleft(bundle)
             bundle.quantity += pieces
-            bundle.sequence = self._shift.tasks.number()
+            bundle.sequence = self._task_numbers.number()
         else:
             self._replenishing.order(bundle.sku, pieces)
         return ""
@@ -226,3 +245,42 @@ class ManualReplenishing:
     def _asked(self, station: WorkStation, sku: str) -> tuple[Visit | None, Bundle | None]:
         visit = station.here
         return visit, next((b for b in visit.puts if b.sku == sku), None) if visit else None
+
+
+class ManualStations:
+    """The stations at which people work, by name, and who carries out what they report."""
+
+    def __init__(
+        self,
+        context: Context,
+        stations: Mapping[str, WorkStation],
+        picking: ManualPicking,
+        replenishing: ManualReplenishing,
+    ) -> None:
+        self._clock, self._stations = context.clock, stations
+        self._picking, self._replenishing = picking, replenishing
+
+    def part_of(self, station: WorkStation) -> ManualPicking | ManualReplenishing:
+        """Returns the part of the shift that takes reports of people at a station now."""
+        here = station.here
+        replenishes = here.replenishes if here else not station.picks
+        return self._replenishing if replenishes else self._picking
+
+    def confirm(self, name: str, sku: str, quantity: int) -> tuple[bool, str]:
+        """Takes pieces as picked, or put in, by a person. Returns success and the fault."""
+        station = self._stations.get(name)
+        if not station:
+            return False, f"there is no station '{name}'"
+        if station.mode != StationMode.MANUAL:
+            return False, f"{name} works by itself"
+        station.attended = self._clock.now
+        return self.part_of(station).confirm(station, sku, quantity)
+
+    def short(self, name: str, sku: str, lacking: int, damaged: bool = False) -> tuple[bool, str]:
+        """Writes off pieces that are missing or damaged. Returns success and the fault."""
+        station = self._stations.get(name)
+        if not station:
+            return False, f"there is no station '{name}'"
+        reason = Reason.DAMAGED if damaged else Reason.SHORT
+        station.attended = self._clock.now
+        return self.part_of(station).short(station, sku, lacking, reason)

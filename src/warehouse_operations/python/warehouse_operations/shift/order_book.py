@@ -3,15 +3,13 @@
 
 import itertools
 from collections import defaultdict
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Sequence
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.notices import Notices
 from warehouse_operations.stock import acceptance
-from warehouse_operations.stock.message_enums import OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Backlog, Order
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
 
 TOO_MANY = f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
 Lines = Sequence[tuple[str, int]]  # (SKU, pieces)
@@ -20,17 +18,35 @@ Lines = Sequence[tuple[str, int]]  # (SKU, pieces)
 class OrderBook:
     """The orders that are not over.
 
-    orders: all of them, by id. backlog: those that no station has. on_event: called for each
-    event with (order, kind, sku, quantity, station, unit, text), or None.
+    orders: all of them, by id. backlog: those that no station has. skus: those that may be asked
+    for. on_event: called for each event with (order, kind, sku, quantity, station, unit, text), or
+    None.
     """
 
-    def __init__(self, shift: "Shift") -> None:
-        self._shift = shift
+    def __init__(self, context: Context, skus: Iterable[str], notices: Notices) -> None:
+        self._context, self._notices = context, notices
         self.backlog = Backlog()
         self.orders: dict[int, Order] = {}
         self.on_event: Callable[..., object] | None = None
-        self._skus = frozenset(shift.assortment.skus)
+        self.skus = frozenset(skus)
         self._ids = itertools.count(1)
+        self._on_backlog_change: Callable[[], object] = lambda: None
+        self._take_away: Callable[[Order], object] = lambda _: None
+
+    @property
+    def capacity(self) -> int:
+        """The pieces that all bins can hold: no order may ask for more."""
+        return self._context.inventory.capacity
+
+    def register(
+        self, on_backlog_change: Callable[[], object], take_away: Callable[[Order], object]
+    ) -> None:
+        """Sets who assigns orders to stations.
+
+        on_backlog_change() is called where the backlog has a new order, take_away(order) for one
+        that is cancelled while a station has it.
+        """
+        self._on_backlog_change, self._take_away = on_backlog_change, take_away
 
     def submit(
         self, lines: Lines, due: float = 0.0, priority: int = 0, reference: str = ""
@@ -47,10 +63,12 @@ class OrderBook:
         merged: dict[str, int] = defaultdict(int)
         for sku, pieces in lines:
             merged[sku] += pieces
-        order = Order(next(self._ids), merged.items(), self._shift.now, due, priority, reference)
+        order = Order(
+            next(self._ids), merged.items(), self._context.clock.now, due, priority, reference
+        )
         self.orders[order.order_id] = order
-        self._shift.tally.orders_received += 1
-        self._shift.journal.order(order)
+        self._context.tally.orders_received += 1
+        self._context.journal.order(order)
         self.publish_event(order, OrderEventKind.RECEIVED)
         lacking = [s for s, n in merged.items() if n > self.unpromised(s)]
         for sku in lacking:
@@ -58,15 +76,15 @@ class OrderBook:
                 order, OrderEventKind.SHORT, sku, merged[sku], text="waits for replenishment"
             )
         self.backlog.add(order)
-        self._shift.picking.on_backlog_change()
+        self._on_backlog_change()
         return order, f"waits for replenishment of {', '.join(lacking)}" if lacking else ""
 
     def unpromised(self, sku: str) -> int:
         """Returns how many available pieces of a SKU the backlog does not ask for."""
-        return self._shift.inventory.available(sku) - self.backlog.demand.get(sku, 0)
+        return self._context.inventory.available(sku) - self.backlog.demand.get(sku, 0)
 
     def _fault_of(self, lines: Lines) -> str:
-        return acceptance.fault_of_lines(lines, self._skus, self._shift.inventory.capacity)
+        return acceptance.fault_of_lines(lines, self.skus, self.capacity)
 
     def cancel(self, order_id: int) -> tuple[bool, str]:
         """Cancels an order. Returns success and the reason of a refusal."""
@@ -76,7 +94,7 @@ class OrderBook:
         if order.done:
             return False, f"order {order_id} has all its pieces"
         if order.state == OrderState.ASSIGNED:
-            self._shift.picking.cancel(order)
+            self._take_away(order)
         else:
             self.backlog.remove(order)
         return True, self._end_cancelled(order)
@@ -95,22 +113,22 @@ class OrderBook:
         """Puts an order that its station can't finish back into the backlog."""
         order.state = OrderState.OPEN
         self.backlog.add(order)
-        self._shift.journal.order(order)
-        self._shift.picking.on_backlog_change()
+        self._context.journal.order(order)
+        self._on_backlog_change()
 
     def bring_back(self, order: Order) -> None:
         """Makes a complete order one of its station again: a piece was taken back."""
-        self._shift.tally.reopened(order)
+        self._context.tally.reopened(order)
         self.orders[order.order_id] = order
         order.state, order.completed = OrderState.ASSIGNED, 0.0
-        self._shift.journal.order(order)
+        self._context.journal.order(order)
         self.publish_event(order, OrderEventKind.REOPENED)
 
     def end(self, order: Order, kind: OrderEventKind, station: str = "", text: str = "") -> None:
         """Counts and drops an order that is complete or cancelled, and publishes that."""
         if kind == OrderEventKind.COMPLETED:
-            self._shift.tally.completed(order)
-        self._shift.journal.order(order)
+            self._context.tally.completed(order)
+        self._context.journal.order(order)
         self.publish_event(order, kind, station=station, text=text)
         del self.orders[order.order_id]
 
@@ -121,12 +139,12 @@ class OrderBook:
             self.orders[order.order_id] = order
             fault = self._fault_of([(line.sku, line.quantity) for line in order.lines])
             if order.done:
-                order.completed = self._shift.now
+                order.completed = self._context.clock.now
                 order.state = OrderState.COMPLETED
                 self.end(order, OrderEventKind.COMPLETED)
             elif fault:
                 self._end_cancelled(order, fault)
-                self._shift.notices.add(
+                self._notices.add(
                     f"order {order.order_id} ({order.reference}) is cancelled: {fault}"
                 )
             else:
@@ -143,8 +161,9 @@ class OrderBook:
         text: str = "",
     ) -> None:
         """Writes an event of an order down, hashes it and hands it to on_event."""
-        shift, station = self._shift, station or order.station
-        shift.update_hash("order", order.order_id, int(kind), sku, quantity, station, unit)
-        shift.journal.event(shift.now, kind, order.order_id, sku, quantity, station, unit, text)
+        station = station or order.station
+        about = order.order_id, sku, quantity, station, unit
+        self._context.update_hash("order", order.order_id, int(kind), *about[1:])
+        self._context.journal.event(self._context.clock.now, kind, *about, text)
         if self.on_event:
             self.on_event(order, kind, sku, quantity, station, unit, text)

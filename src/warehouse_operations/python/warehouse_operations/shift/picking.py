@@ -4,16 +4,18 @@
 import math
 from collections import defaultdict
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState, StationMode
+from warehouse_operations.policies import Policies
+from warehouse_operations.policies.view import View
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.order_book import OrderBook
+from warehouse_operations.shift.task_reports import TaskNumbers
+from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.candidates import Candidates
 from warehouse_operations.stock.inventory import Bin
-from warehouse_operations.stock.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Pick, Visit, WorkStation
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
@@ -22,10 +24,27 @@ EFFORT = 200_000  # most lines of orders that are looked at in a step: about 0.1
 
 
 class Picking:
-    """The part of a Shift that works at its picking stations."""
+    """The work at picking stations: which order to which of them, which unit, piece by piece."""
 
-    def __init__(self, shift: "Shift", stations: Sequence[WorkStation]) -> None:
-        self.shift, self.stations = shift, stations
+    def __init__(
+        self,
+        context: Context,
+        stations: Sequence[WorkStation],
+        *,
+        policies: Policies,
+        view: View,
+        order_book: OrderBook,
+        visits: Visits,
+        task_numbers: TaskNumbers,
+    ) -> None:
+        self._context, self._clock, self.stations = context, context.clock, stations
+        self._inventory, self._policies, self._view = context.inventory, policies, view
+        self._order_book, self._visits, self._task_numbers = order_book, visits, task_numbers
+        self._backlog = order_book.backlog
+        order_book.register(self.on_backlog_change, self.cancel)
+        visits.register(self, replenishes=False)
+        for station in stations:
+            station.on_hands_free.append(self.next_piece)
         # Stations that may take on an order, that lack units, in the order in which they change.
         self._to_assign: dict[WorkStation, None] = dict.fromkeys(stations)
         self._to_fetch: dict[WorkStation, None] = {}
@@ -43,37 +62,29 @@ class Picking:
         Orders that come one after the other are looked at together: a look costs as much as there
         are orders and stations.
         """
-        if self.shift.now >= self._next_look:
+        if self._clock.now >= self._next_look:
             self._check_backlog(None)
         elif not self._is_to_look:
             self._is_to_look = True
-            self.shift.events.schedule(self._next_look, self._check_backlog)
+            self._clock.schedule(self._next_look, self._check_backlog)
 
     def _check_backlog(self, _: None) -> None:
-        self._is_to_look, self._next_look = False, self.shift.now + LOOK
+        self._is_to_look, self._next_look = False, self._clock.now + LOOK
         for station in self.stations:
             if station.free_slots and station.is_open:
                 self._to_assign[station] = None
 
     def on_unit_free(self, unit: int) -> None:
         """Lets stations fetch a unit that is back in storage, if it holds what they lack."""
-        for one in self.shift.inventory.of_unit[unit]:
-            if one.available and one.sku in self._missing:
-                for station in self._missing[one.sku].values():
+        for bin_ in self._inventory.of_unit[unit]:
+            if bin_.available and bin_.sku in self._missing:
+                for station in self._missing[bin_.sku].values():
                     self._to_fetch[station] = None
-
-    def missing(self) -> dict[str, int]:
-        """Returns the pieces for which no unit comes, by SKU."""
-        return {
-            sku: sum(station.missing[key].missing for key, station in lines.items())
-            for sku, lines in self._missing.items()
-            if lines
-        }
 
     def work(self) -> None:
         """Assigns orders and asks for units where something has changed."""
         while self._to_assign or self._to_fetch:
-            for station in sorted(self._to_assign, key=lambda one: -one.free_slots):
+            for station in sorted(self._to_assign, key=lambda station: -station.free_slots):
                 self._assign(station)
             self._to_assign.clear()
             stations, self._to_fetch = self._to_fetch, {}
@@ -84,20 +95,20 @@ class Picking:
     # Orders.
 
     def _assign(self, station: WorkStation) -> None:
-        while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
+        while station.is_open and station.free_slots > 0 and len(self._backlog):
             if self._effort <= 0:
                 self._assign_later(station)
                 return
-            self._effort -= self.shift.backlog.lines
-            order = self.shift.policies.orders.choose(station, self.shift.view)
+            self._effort -= self._backlog.lines
+            order = self._policies.orders.choose(station, self._view)
             if order is None:
                 return
-            self.shift.backlog.remove(order)
+            self._backlog.remove(order)
             self._take_on(station, order)
 
     def _assign_later(self, station: WorkStation) -> None:
         if not self._put_off:
-            self.shift.events.schedule(self.shift.now + LATER, self._assign_put_off)
+            self._clock.schedule(self._clock.now + LATER, self._assign_put_off)
         self._put_off[station] = None
 
     def _assign_put_off(self, _: None) -> None:
@@ -108,30 +119,30 @@ class Picking:
         order.state, order.station, order.assigned = (
             OrderState.ASSIGNED,
             station.name,
-            self.shift.now,
+            self._clock.now,
         )
         station.take_on(order)
-        self.shift.journal.assigned(order)
-        self.shift.order_book.publish_event(order, OrderEventKind.ASSIGNED)
+        self._context.journal.assigned(order)
+        self._order_book.publish_event(order, OrderEventKind.ASSIGNED)
         for line in order.lines:
             self.allot(station, line)
 
     def allot(self, station: WorkStation, line: Line) -> None:
         """Reserves for a line what units at its station or on their way there can serve."""
         for visit in station.coming_for(replenishes=False):
-            for one in self.shift.inventory.of_unit[visit.unit]:
-                pieces = min(line.missing, one.available) if one.sku == line.sku else 0
+            for bin_ in self._inventory.of_unit[visit.unit]:
+                pieces = min(line.missing, bin_.available) if bin_.sku == line.sku else 0
                 if pieces > 0:
-                    self._reserve(visit, line, one, pieces)
+                    self._reserve(visit, line, bin_, pieces)
         self._note(station, line)
         here = station.here
         if here and here.picks:
             self.next_piece(station)
 
-    def _reserve(self, visit: Visit, line: Line, one: Bin, pieces: int) -> None:
-        self.shift.inventory.reserve(one, pieces)
+    def _reserve(self, visit: Visit, line: Line, bin_: Bin, pieces: int) -> None:
+        self._inventory.reserve(bin_, pieces)
         line.allotted += pieces
-        visit.picks.append(Pick(line, one, pieces, self.shift.tasks.number()))
+        visit.picks.append(Pick(line, bin_, pieces, self._task_numbers.number()))
 
     def _note(self, station: WorkStation, line: Line) -> None:
         """Notes whether units are to be fetched for a line."""
@@ -154,17 +165,17 @@ class Picking:
             self._note(station, line)
         order.station = ""
         self._to_assign[station] = None
-        self.shift.journal.unassigned(order, self.shift.now)
+        self._context.journal.unassigned(order, self._clock.now)
 
     def drop(self, visit: Visit, pick: Pick) -> None:
         """Removes a pick from its visit and gives its pieces back."""
         visit.picks.remove(pick)
         pick.line.allotted -= pick.quantity
-        self.shift.inventory.reserve(pick.bin, -pick.quantity)
+        self._inventory.reserve(pick.bin, -pick.quantity)
 
     def cancel(self, order: Order) -> None:
         """Takes an order away from the station that has it."""
-        station = self.shift.station(order.station)
+        station = next(s for s in self.stations if s.name == order.station)
         self._return(station, order)
         self.leave_if_done(station)
 
@@ -177,9 +188,9 @@ class Picking:
             self._note(visit.station, line)
         self._to_fetch[visit.station] = None  # there is room for another one
 
-    def drop_bin(self, one: Bin) -> list[tuple[Visit, Line]]:
+    def drop_bin(self, bin_: Bin) -> list[tuple[Visit, Line]]:
         """Drops all picks from a bin; returns the visit and line of each."""
-        dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
+        dropped = [(v, p) for v in self._visits_of(bin_.unit) for p in v.picks if p.bin is bin_]
         for visit, pick in dropped:
             self.drop(visit, pick)
         return [(visit, pick.line) for visit, pick in dropped]
@@ -200,7 +211,7 @@ class Picking:
         for visit in station.coming_for(replenishes=False):
             self.drop_visit(visit)
             if not visit.here:
-                self.shift.visits.cancel(visit)
+                self._visits.cancel(visit)
         self.leave_if_done(station)
         for order in list(station.orders.values()):
             if not order.done:
@@ -209,20 +220,20 @@ class Picking:
     def give_back(self, station: WorkStation, order: Order) -> None:
         """Puts an unfinished order of a station back into the backlog."""
         self._return(station, order)
-        self.shift.order_book.reopen(order)
+        self._order_book.reopen(order)
 
     # Units.
 
     def _fetch(self, station: WorkStation) -> None:
-        limit = self.shift.units_per_station
+        limit = self._visits.most
         while station.is_open and station.missing and len(station.coming) < limit:
             candidates = self._candidates(station)
             if not candidates:
                 return
-            unit = self.shift.policies.units.choose(station, candidates, self.shift.view)
-            visit = self.shift.visits.request(unit, station)
+            unit = self._policies.units.choose(station, candidates, self._view)
+            visit = self._visits.request(unit, station)
             if not visit:
-                self.shift.events.schedule(self.shift.now + RETRY, self._retry, station)
+                self._clock.schedule(self._clock.now + RETRY, self._retry, station)
                 return
             for line in candidates[unit]:
                 self.allot(station, line)
@@ -232,8 +243,8 @@ class Picking:
 
     def _candidates(self, station: WorkStation) -> Candidates:
         """Returns what each free unit could serve: {unit: {line: pieces}}."""
-        shift = self.shift
-        return Candidates(station.missing.values(), shift.inventory, shift.free_units)
+        free_units = self._visits.free_units
+        return Candidates(station.missing.values(), self._inventory, free_units)
 
     # At the station.
 
@@ -246,7 +257,7 @@ class Picking:
     def next_piece(self, station: WorkStation) -> None:
         """Starts picking the next pieces, as many as pickers are free, if a unit is there."""
         visit = station.here
-        if not visit or station.mode == Mode.MANUAL:
+        if not visit or station.mode == StationMode.MANUAL:
             return
         while station.at_work < station.pickers and station.reaching < visit.pieces_to_pick:
             self._reach(station, visit)
@@ -257,10 +268,11 @@ class Picking:
         station.reaching += 1
         line = visit.piece_to_pick(station.reaching - 1).line
         more = station.seconds_a_line if line is not station.line else 0.0
-        station.line, now = line, self.shift.now
-        self.shift.events.schedule(now + more + station.pick_seconds, self._taken, (station, visit))
-        taken = now + more + station.seconds_a_piece
-        self.shift.events.schedule(taken, self._in_tote, (station, now))
+        station.line, now = line, self._clock.now
+        whole, first = station.draw_times()
+        self._clock.schedule(now + more + first, self._taken, (station, visit))
+        taken = now + more + whole
+        self._clock.schedule(taken, self._in_tote, (station, now))
 
     def _taken(self, argument: tuple[WorkStation, Visit]) -> None:
         """Takes a piece out of its bin; the unit may leave if it was the last."""
@@ -273,26 +285,26 @@ class Picking:
     def _in_tote(self, argument: tuple[WorkStation, float]) -> None:
         station, began = argument
         station.at_work -= 1
-        station.busy_s += self.shift.now - began
+        station.busy_s += self._clock.now - began
         self.complete(station)
-        self.shift.next_work(station)
+        station.next_work()
 
     def take(self, visit: Visit, pick: Pick, pieces: int) -> None:
         """Takes pieces of a pick out of the stock."""
         line, station = pick.line, visit.station
-        self.shift.inventory.pick(pick.bin, pieces, line=line, station=station, visit=visit)
+        self._inventory.pick(pick.bin, pieces, line=line, station=station, visit=visit)
         pick.quantity -= pieces
         line.allotted -= pieces
         line.picked += pieces
         if pick.quantity:
-            pick.sequence = self.shift.tasks.number()  # what is left is another task
+            pick.sequence = self._task_numbers.number()  # what is left is another task
         else:
             visit.picks.remove(pick)
         visit.pieces += pieces
         station.pieces += pieces
-        self.shift.tally.picked(self.shift.now, pieces, line)
-        self.shift.journal.line(line)
-        self.shift.order_book.publish_event(
+        self._context.tally.picked(self._clock.now, pieces, line)
+        self._context.journal.line(line)
+        self._order_book.publish_event(
             line.order, OrderEventKind.PICKED, line.sku, pieces, station.name, visit.unit
         )
 
@@ -300,8 +312,8 @@ class Picking:
         """Completes the orders of a station that have all their pieces."""
         for order in [order for order in station.orders.values() if order.done]:
             station.let_go(order)
-            order.state, order.completed = OrderState.COMPLETED, self.shift.now
-            self.shift.order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
+            order.state, order.completed = OrderState.COMPLETED, self._clock.now
+            self._order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
             self._to_assign[station] = None
 
     def leave_if_done(self, station: WorkStation) -> None:
@@ -311,7 +323,7 @@ class Picking:
             return
         self._assign(station)
         if not visit.picks:
-            self.shift.visits.release(visit)
+            self._visits.release(visit)
             self._to_assign[station] = self._to_fetch[station] = None
 
     def _visits_of(self, unit: int) -> list[Visit]:

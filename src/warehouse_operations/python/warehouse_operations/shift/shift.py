@@ -7,38 +7,44 @@ It is driven by events and by simulated time, and sees the fleet through protoco
     shift.next_time()             # when it must be called next, if nothing happens before
 """
 
-import hashlib
 from collections.abc import Callable, Collection, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from warehouse_operations.policies.view import PolicyHooks, View
+from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout.message_enums import StationMode
+from warehouse_operations.policies import Policies
+from warehouse_operations.policies.view import View
+from warehouse_operations.shift import kpis
+from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.fallen import Fallen
 from warehouse_operations.shift.journal import Journal
-from warehouse_operations.shift.kpis import Tally
-from warehouse_operations.shift.manual_stations import ManualPicking, ManualReplenishing
+from warehouse_operations.shift.manual_stations import (
+    ManualPicking,
+    ManualReplenishing,
+    ManualStations,
+)
 from warehouse_operations.shift.notices import Notices
 from warehouse_operations.shift.order_book import Lines, OrderBook
 from warehouse_operations.shift.picking import Picking
+from warehouse_operations.shift.policy_hooks import PolicyHooks
 from warehouse_operations.shift.replenishing import PERIOD, Replenishing
+from warehouse_operations.shift.taking_back import TakingBack
+from warehouse_operations.shift.task_reports import TaskNumbers
 from warehouse_operations.shift.tasks import Tasks
 from warehouse_operations.shift.visits import Visits
 from warehouse_operations.stock.assortment import Assortment
-from warehouse_operations.stock.event_queue import EventQueue
-from warehouse_operations.stock.inventory import Bin, Inventory, Reason
-from warehouse_operations.stock.message_enums import Mode
+from warehouse_operations.stock.event_queue import Clock
+from warehouse_operations.stock.goods_in import GoodsIn
+from warehouse_operations.stock.inventory import Bin, Reason
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
-from warehouse_operations.stock.stations import Visit, WorkStation
+from warehouse_operations.stock.stations import WorkStation
+from warehouse_operations.stock.stored_warehouse import Changes, Stored
 from warehouse_operations.stock.units_by_id import UnitSet
 from warehouse_operations.stock.whereabouts import Whereabouts
-
-if TYPE_CHECKING:
-    from warehouse_operations.policies import Policies
-    from warehouse_operations.store.returning import Changes
-    from warehouse_operations.store.stored import Stored
 
 __all__ = ["Settings", "Shift"]
 
@@ -46,9 +52,9 @@ __all__ = ["Settings", "Shift"]
 class Shift:
     """The work of a warehouse from a moment on.
 
-    now, began: simulated times [s]. order_book, visits, picking, replenishing, fallen, tasks: its
-    parts. view: its state for policies. hooks: the policies' answers for the fleet. notices: what
-    a person must know. tally: counts for the KPIs.
+    order_book, visits, picking, replenishing, fallen, manual, tasks: its parts, which share its
+    context. task_numbers: of tasks for people. view: its state for policies. hooks: the policies'
+    answers for the fleet. notices: what a person must know. tally: counts for the KPIs.
     """
 
     def __init__(
@@ -58,33 +64,71 @@ class Shift:
         bins: Collection[Bin],
         *,
         floor: Whereabouts,
-        policies: "Policies",
+        policies: Policies,
         demand: Any = None,
         settings: Settings | None = None,
         journal: Journal | None = None,
         rng: np.random.Generator | None = None,
         now: float = 0.0,
     ) -> None:
-        self.transports, self.policies, self.floor = transports, policies, floor
+        self.policies, self.floor = policies, floor
         self.settings = settings or Settings()
         self.assortment, self.demand = assortment, demand
-        self.rng = rng or np.random.default_rng(1)
-        self.journal, self.tally = journal or Journal(), Tally()
-        self.now = self.began = now
-        self.events, self.notices = EventQueue(), Notices()
-        self._hash = hashlib.blake2b(digest_size=8)
-        self.inventory = Inventory(bins, self._on_move)
-        self.order_book, self.visits = OrderBook(self), Visits(self)
-        self.units_per_station = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
+        self._transports, self._rng = transports, rng or np.random.default_rng(1)
+        self._clock, self.notices = Clock(now), Notices()
+        self.context = Context(self._clock, bins, journal or Journal())
+        self.inventory, self.tally = self.context.inventory, self.context.tally
+        self.order_book = OrderBook(self.context, assortment.skus, self.notices)
+        most = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
+        self.visits = Visits(self.context, transports, floor, self.notices, most)
         self._stations = {place.name: self._work_station(place) for place in floor.plan.stations}
-        self.picking = Picking(self, [one for one in self.stations if one.picks])
-        self.replenishing = Replenishing(self, [one for one in self.stations if one.replenishes])
-        self._manual_picking = ManualPicking(self.picking)
-        self._manual_replenishing = ManualReplenishing(self.replenishing)
-        self.fallen, self.tasks = Fallen(self), Tasks(self)
-        self.view, self.hooks = View(self), PolicyHooks(self)
-        self.events.schedule(now, self._refill)
+        self._make_parts(GoodsIn(), TaskNumbers())
+        self._clock.schedule(now, self._refill)
         self._schedule_bundle()
+
+    def _make_parts(self, goods_in: GoodsIn, task_numbers: TaskNumbers) -> None:
+        context, order_book, visits = self.context, self.order_book, self.visits
+        self.view = View(
+            clock=self._clock,
+            inventory=self.inventory,
+            backlog=order_book.backlog,
+            floor=self.floor,
+            stations=self.stations,
+            orders=order_book.orders,
+            goods_in=goods_in,
+            free_units=visits.free_units,
+            assortment=self.assortment,
+            settings=self.settings,
+            rng=self._rng,
+        )
+        self.hooks, self.task_numbers = PolicyHooks(self.policies, self.view), task_numbers
+        self.picking = Picking(
+            context,
+            [station for station in self.stations if station.picks],
+            policies=self.policies,
+            view=self.view,
+            order_book=order_book,
+            visits=visits,
+            task_numbers=task_numbers,
+        )
+        self.replenishing = Replenishing(
+            context,
+            [station for station in self.stations if station.replenishes],
+            policies=self.policies,
+            view=self.view,
+            goods_in=goods_in,
+            visits=visits,
+            task_numbers=task_numbers,
+        )
+        taking_back = TakingBack(context, order_book, self.picking, task_numbers)
+        self.manual = ManualStations(
+            context,
+            self._stations,
+            ManualPicking(context, self.picking, order_book, visits, taking_back),
+            ManualReplenishing(context, self.replenishing, task_numbers, taking_back),
+        )
+        self.tasks = Tasks(context, self._stations, self.manual.part_of)
+        self.fallen = Fallen(self.inventory, visits, self.picking, self.replenishing)
 
     def _work_station(self, place: Any) -> WorkStation:
         settings = self.settings.of(place.name)
@@ -92,8 +136,18 @@ class Shift:
         edges = [(0.0, False)] if settings.hours else []
         edges += [edge for begin, end in settings.hours for edge in ((begin, True), (end, False))]
         for hour, is_open in edges:
-            self.events.schedule(self.began + 3600 * hour, self._keep_hours, (station, is_open))
+            self._clock.schedule(self.began + 3600 * hour, self._keep_hours, (station, is_open))
+        for hour, pickers in settings.shifts():
+            self._clock.schedule(self.began + 3600 * hour, self._set_pickers, (station, pickers))
+        if station.piece_sd:
+            station.set_chance(np.random.default_rng(self._rng.integers(2**63)))
         return station
+
+    def _set_pickers(self, argument: tuple[WorkStation, int]) -> None:
+        """Begins a break of a station's pickers, or has them or others go on."""
+        station, pickers = argument
+        station.set_pickers(pickers, self.now)
+        station.next_work()
 
     def _keep_hours(self, argument: tuple[WorkStation, bool]) -> None:
         """Opens or closes a station as its hours say."""
@@ -102,65 +156,73 @@ class Shift:
 
     def begin(self, stock: Iterable[tuple[Bin, int]]) -> None:
         """Lays the first stock, pairs (bin, pieces), into the bins."""
-        for one, pieces in stock:
+        for bin_, pieces in stock:
             if pieces:
-                self.inventory.move(one, one.sku, pieces, Reason.INITIAL)
+                self.inventory.move(bin_, bin_.sku, pieces, Reason.INITIAL)
 
-    def resume(self, stored: "Stored", changed: "Changes") -> None:
-        """Goes on with the orders of a Stored warehouse, whose bins this shift was given.
+    def resume(self, stored: Stored, changed: Changes) -> None:
+        """Goes on with the orders of a Stored warehouse, whose bins this shift has.
 
         Writes off what has Changed since, with a notice.
         """
         if text := str(changed):
             self.notices.add(text)
-        for one in changed.gone:
-            self.fallen.forget(one)
-            self.inventory.write_off(one)
+        for bin_ in changed.gone:
+            self.fallen.forget(bin_)
+            self.inventory.write_off(bin_)
         self.inventory.house(self.assortment.skus)
-        self.inventory.blocked |= stored.blocked
-        self.visits.free_units -= stored.blocked
         self.order_book.resume(stored.orders, stored.last_order)
 
     # Time.
 
+    @property
+    def now(self) -> float:
+        """The simulated time [s]."""
+        return self._clock.now
+
+    @property
+    def began(self) -> float:
+        """The simulated time at which the shift began [s]."""
+        return self._clock.began
+
     def next_time(self) -> float:
         """Returns when the next event of the shift itself is due [s]."""
-        return min(self.events.next_time, self.demand.next_time() if self.demand else np.inf)
+        return min(self._clock.next_time, self.demand.next_time() if self.demand else np.inf)
 
     def advance(self, time: float) -> None:
         """Takes in what happened up to a time [s] and decides what follows from it."""
-        self.now = time
-        for event in self.transports.take_events():
+        self._clock.now = time
+        for event in self._transports.take_events():
             self.visits.on_event(event)
-        self.events.run_until(time)
+        self._clock.run_until(time)
         self._submit_due_orders()
         self.picking.work()
         self._submit_due_orders()
         self.replenishing.work()
-        self.journal.commit(self)
+        self.commit()
 
     def _submit_due_orders(self) -> None:
         if not self.demand:
             return
-        for wanted in self.demand.due(self.now, self.backlog, self.order_book.unpromised):
-            order, why = self.submit(wanted.lines, wanted.due, wanted.priority, wanted.reference)
+        for draft in self.demand.due(self.now, self.backlog, self.order_book.unpromised):
+            order, why = self.submit(draft.lines, draft.due, draft.priority, draft.reference)
             if not order:
-                self.notices.add(f"order {wanted.reference} is refused: {why}")
+                self.notices.add(f"order {draft.reference} is refused: {why}")
 
     def _refill(self, _: None) -> None:
         self.replenishing.refill()
-        self.events.schedule(self.now + PERIOD, self._refill)
+        self._clock.schedule(self.now + PERIOD, self._refill)
 
     def _schedule_bundle(self) -> None:
         per_hour = self.demand.bundles_per_hour if self.demand else 0
         if per_hour and self.replenishing.stations:
-            wait = self.rng.exponential(3600 / per_hour)
-            self.events.schedule(self.now + wait, self._order_bundle)
+            wait = self._rng.exponential(3600 / per_hour)
+            self._clock.schedule(self.now + wait, self._order_bundle)
 
     def _order_bundle(self, _: None) -> None:
         sku = self.view.sku_to_refill()
         if sku:
-            self.replenishing.order(sku, int(self.rng.integers(4, 13)))
+            self.replenishing.order(sku, int(self._rng.integers(4, 13)))
         self._schedule_bundle()
 
     # Orders.
@@ -200,40 +262,19 @@ class Shift:
         """Returns the WorkStation of that name. Raises KeyError."""
         return self._stations[name]
 
-    def find_station(self, name: str) -> WorkStation | None:
-        """Returns the WorkStation of that name, or None."""
-        return self._stations.get(name)
-
     @property
     def stations(self) -> Collection[WorkStation]:
         """All WorkStations."""
         return self._stations.values()
 
-    def part_of(self, visit: Visit) -> Picking | Replenishing:
-        """Returns the part of the shift that asked for a visit."""
-        return self.replenishing if visit.replenishes else self.picking
-
-    def manual_part_of(self, station: WorkStation) -> ManualPicking | ManualReplenishing:
-        """Returns the part of the shift that takes reports of people at a station now."""
-        here = station.here
-        replenishes = here.replenishes if here else not station.picks
-        return self._manual_replenishing if replenishes else self._manual_picking
-
-    def next_work(self, station: WorkStation) -> None:
-        """Starts what people at a station can do next."""
-        if station.picks:
-            self.picking.next_piece(station)
-        if station.replenishes:
-            self.replenishing.next_bundle(station)
-
     def set_station(self, name: str, is_open: bool, mode: int) -> tuple[bool, str]:
-        """Opens or closes a station and sets its Mode. Returns success and the fault."""
+        """Opens or closes a station and sets its StationMode. Returns success and the fault."""
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
         station.set_open(bool(is_open), self.now)
-        station.mode, station.attended = Mode(mode), self.now
-        self.transports.set_open(name, station.is_open)
+        station.mode, station.attended = StationMode(mode), self.now
+        self._transports.set_open(name, station.is_open)
         parts: list[Picking | Replenishing] = [self.picking] if station.picks else []
         parts += [self.replenishing] if station.replenishes else []
         for part in parts:
@@ -244,32 +285,21 @@ class Shift:
         return True, ""
 
     def open_picking(self, count: int) -> None:
-        """Opens the first so many picking stations and closes the others, before robots begin."""
+        """Opens the first `count` picking stations and closes the others, before robots begin."""
         for i, station in enumerate(self.picking.stations):
             self.set_station(station.name, i < count, station.mode)
         working = sum(station.is_open for station in self.stations)
-        self.units_per_station = self.settings.units_at(len(self.floor.robots), working)
+        self.visits.most = self.settings.units_at(len(self.floor.robots), working)
 
     def confirm_pick(self, name: str, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes pieces as picked, or put in, by a person. Returns success and the fault."""
-        station = self._stations.get(name)
-        if not station:
-            return False, f"there is no station '{name}'"
-        if station.mode != Mode.MANUAL:
-            return False, f"{name} works by itself"
-        station.attended = self.now
-        return self.manual_part_of(station).confirm(station, sku, quantity)
+        return self.manual.confirm(name, sku, quantity)
 
     def report_short(
         self, name: str, sku: str, lacking: int, damaged: bool = False
     ) -> tuple[bool, str]:
         """Writes off pieces that are missing or damaged. Returns success and the fault."""
-        station = self._stations.get(name)
-        if not station:
-            return False, f"there is no station '{name}'"
-        reason = Reason.DAMAGED if damaged else Reason.SHORT
-        station.attended = self.now
-        return self.manual_part_of(station).short(station, sku, lacking, reason)
+        return self.manual.short(name, sku, lacking, damaged)
 
     # Units.
 
@@ -278,18 +308,13 @@ class Shift:
         """The ids of units that stand in storage and may be asked for."""
         return self.visits.free_units
 
-    def set_unit(self, unit: int, in_service: bool) -> tuple[bool, str]:
-        """Takes a unit out of service, or back. Returns success and the fault."""
-        if unit not in self.inventory.of_unit:
-            return False, f"there is no storage unit {unit}"
-        self.journal.unit(unit, in_service)
-        if in_service:
-            self.inventory.blocked.discard(unit)
-            self.visits.free(unit)
-        else:
-            self.inventory.blocked.add(unit)
-            self.visits.withdraw(unit)
-        return True, ""
+    def take_out(self, sku: str) -> None:
+        """Writes off the pieces of a SKU that are promised to no order; no more come."""
+        self.replenishing.sold_out.add(sku)
+        for bin_ in list(self.inventory.with_sku(sku)):
+            if bin_.available:
+                self.inventory.move(bin_, sku, -bin_.available, Reason.SHORT)
+        self.notices.add(f"{sku} is sold out")
 
     def update_units(self, units: set[int]) -> None:
         """Takes in the ids of all units of the warehouse; missing ones are not asked for."""
@@ -297,16 +322,30 @@ class Shift:
 
     # Records.
 
+    @property
+    def journal(self) -> Journal:
+        """Receives every change; another one takes over where it is set."""
+        return self.context.journal
+
+    @journal.setter
+    def journal(self, journal: Journal) -> None:
+        self.context.journal = journal
+
+    def commit(self) -> None:
+        """Marks everything recorded since the last call as one consistent state."""
+        self.context.commit()
+
+    def end(self, figures: dict[str, Any]) -> None:
+        """Records the end of the run, with its figures."""
+        self.journal.end(self.now, self.inventory.take_changed(), figures)
+
+    def figures(self, fleet: Any, kinematics: Kinematics, wall_s: float) -> dict[str, Any]:
+        """Returns the content of kpis.json up to now; see kpis.of_shift for the arguments."""
+        orders, spacing = self.orders.values(), self.floor.plan.spacing
+        about = {"fleet": fleet, "kinematics": kinematics, "wall_s": wall_s}
+        figures = kpis.of_shift(self.context, self.stations, orders, spacing, **about)
+        return figures | self.fallen.figures()
+
     def state_hash(self) -> str:
         """Returns a hash of all events: runs with equal hashes were equal to the last event."""
-        return self._hash.hexdigest()
-
-    def update_hash(self, *values: object) -> None:
-        """Adds an event to the state hash, with the time."""
-        self._hash.update(repr((round(self.now, 6), *values)).encode())
-
-    def _on_move(self, one: Bin, quantity: int, reason: Reason, context: dict[str, Any]) -> None:
-        station = context.get("station")
-        self.update_hash("move", one.bin_id, one.sku, quantity, reason.value)
-        name, visit = station.name if station else "", context.get("visit")
-        self.journal.move(self.now, one, quantity, reason, context.get("line"), name, visit)
+        return self.context.state_hash()

@@ -1,45 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person at a station is asked to do: each thing by a number of its own, done but once."""
+"""Tasks of people at stations: each has a number of its own and is done once."""
 
-import itertools
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
 
-from warehouse_operations.stock.message_enums import Mode, Outcome
+from warehouse_layout.message_enums import PickOutcome, StationMode
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.stations import WorkStation
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
 
 KEPT = 10_000  # reports that are known when they come again
 UNDO_WITHIN = 60.0  # after a write-off [s], simulated: ten of a person where time runs faster
 
 
-@dataclass(frozen=True)
-class Report:
-    """A person's report of a task, which station, order, item and sequence name.
+class ManualPart(Protocol):
+    """Carries out the reports of people about tasks of one kind."""
 
-    id: the sender's name of the report; one that comes again under it is the same. "": none.
-    """
+    def task(self, station: WorkStation, report: Report) -> Any:
+        """Returns the task that a Report names, at the unit that is there, or None."""
 
-    station: str
-    order_id: int
-    item: str
-    sequence: int
-    quantity: int
-    outcome: Outcome
-    id: str = field(default="", compare=False)
+    def asks(self, station: WorkStation) -> str:
+        """Returns a sentence about what a person is asked to do now."""
 
-
-@dataclass
-class Answer:
-    """The result of a Report; `undo()` takes it back, and returns why it can't."""
-
-    success: bool
-    message: str = ""
-    quantity: int = 0  # taken, put in or written off
-    undo: Callable[[], str] | None = None
+    def report(self, station: WorkStation, task: Any, report: Report) -> Answer:
+        """Carries out a Report of a task."""
 
 
 @dataclass
@@ -53,26 +38,23 @@ class Done:
 
 
 class Tasks:
-    """Takes the reports of people at a Shift's stations."""
+    """Takes the reports of people at stations, by name; part_of(station) carries them out now."""
 
-    def __init__(self, shift: "Shift") -> None:
-        self._shift = shift
+    def __init__(
+        self,
+        context: Context,
+        stations: Mapping[str, WorkStation],
+        part_of: Callable[[WorkStation], ManualPart],
+    ) -> None:
+        self._context, self._clock = context, context.clock
+        self._stations, self._part_of = stations, part_of
         self._done: dict[int, Done] = {}  # carried out, by sequence
         self._answered: dict[str, Done] = {}  # those with an id, refused ones too, by it
-        self._numbers = itertools.count(1)
-
-    def number_from(self, first: int) -> None:
-        """Numbers tasks from `first` on, above the numbers of earlier runs."""
-        self._numbers = itertools.count(first)
-
-    def number(self) -> int:
-        """Returns the number of a new task, or of the rest of one."""
-        return next(self._numbers)
 
     def remember(self, reports: Iterable[tuple[Report, Answer]]) -> None:
-        """Takes in reports of earlier runs, with their answers, as they are to be given again."""
+        """Takes in reports of earlier runs with their answers, for when they come again."""
         for report, answer in reports:
-            self._answered[report.id] = Done(report, answer, self._shift.now)
+            self._answered[report.id] = Done(report, answer, self._clock.now)
 
     def report(self, report: Report) -> Answer:
         """Carries out a Report; a repeated one gets the same answer and changes nothing."""
@@ -82,7 +64,7 @@ class Tasks:
             return known.answer if known.report == report else Answer(False, text)
         answer = self._carry_out(report)
         if report.id:
-            self._answered[report.id] = Done(report, answer, self._shift.now)
+            self._answered[report.id] = Done(report, answer, self._clock.now)
             _forget(self._answered)
         return answer
 
@@ -95,8 +77,8 @@ class Tasks:
         station, refusal = self._station(report.station)
         if refusal or station is None:
             return Answer(False, refusal)
-        part: Any = self._shift.manual_part_of(station)
-        now = self._shift.now
+        part = self._part_of(station)
+        now = self._clock.now
         task = part.task(station, report)
         if task is None:
             return Answer(False, f"that is no longer asked for; {part.asks(station)}")
@@ -113,24 +95,24 @@ class Tasks:
             return False, f"nothing was reported at {station} under {sequence}"
         if done.undone:
             return True, ""
-        is_write_off = done.report.outcome != Outcome.DONE  # else: until the unit leaves
-        if is_write_off and self._shift.now - done.time > UNDO_WITHIN:
+        is_write_off = done.report.outcome != PickOutcome.DONE  # else: until the unit leaves
+        if is_write_off and self._clock.now - done.time > UNDO_WITHIN:
             return False, f"it was written off more than {UNDO_WITHIN:g} s ago"
         refusal = done.answer.undo()
         done.undone = not refusal
         return done.undone, refusal
 
     def _station(self, name: str) -> tuple[WorkStation | None, str]:
-        station = self._shift.find_station(name)
+        station = self._stations.get(name)
         if not station:
             return None, f"there is no station '{name}'"
-        return station, "" if station.mode == Mode.MANUAL else f"{name} works by itself"
+        return station, "" if station.mode == StationMode.MANUAL else f"{name} works by itself"
 
     def _keep(self, done: Done) -> None:
         self._done[done.report.sequence] = done
         _forget(self._done)
         if done.report.id:
-            self._shift.journal.report(done.time, done.report, done.answer)
+            self._context.journal.report(done.time, done.report, done.answer)
 
 
 def _forget(reports: dict[Any, Done]) -> None:

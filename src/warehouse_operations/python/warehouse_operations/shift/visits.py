@@ -3,97 +3,129 @@
 
 import itertools
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from warehouse_fleet.transports.transports import ENDS, Kind, TransportEvent
+from warehouse_operations.shift.context import Context
+from warehouse_operations.shift.notices import Notices
+from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.stations import Visit, WorkStation
 from warehouse_operations.stock.units_by_id import UnitSet
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
+from warehouse_operations.stock.whereabouts import Whereabouts
 
 HOLD = 10.0  # a unit is not asked for this long after its transport failed or was refused [s]
+
+
+class Part(Protocol):
+    """A part of a shift that asks for visits."""
+
+    def on_arrival(self, visit: Visit) -> None:
+        """Begins the work at a unit that has arrived, or lets it leave."""
+
+    def drop_visit(self, visit: Visit) -> None:
+        """Gives up what a visit was to do: its unit does not come, or leaves early."""
+
+    def on_unit_free(self, unit: int) -> None:
+        """Looks for work of a unit that may be asked for again."""
 
 
 class Visits:
     """The visits of units to stations that are under way.
 
-    free_units: the ids of units that stand in storage and may be asked for.
+    free_units: the ids of units that stand in storage and may be asked for. most: how many units
+    at most are at a station or on their way to it.
     """
 
-    def __init__(self, shift: "Shift") -> None:
-        self._shift = shift
-        self.free_units = UnitSet(shift.floor.units)
+    def __init__(
+        self,
+        context: Context,
+        transports: Requests,
+        floor: Whereabouts,
+        notices: Notices,
+        most: int,
+    ) -> None:
+        self._context, self._transports = context, transports
+        self._floor, self._notices, self.most = floor, notices, most
+        self.free_units = UnitSet(floor.units)
+        self._parts: dict[bool, Part] = {}  # by whether their visits replenish
         self._absent: set[int] = set()  # units that are not in the warehouse any more
         self._by_transport: dict[int, Visit] = {}
         self._away: Counter[int] = Counter()  # visits of each unit
         self._ids = itertools.count(1)
+
+    def register(self, part: Part, replenishes: bool) -> None:
+        """Has a Part follow the visits that replenish, or those for picking."""
+        self._parts[replenishes] = part
 
     def request(self, unit: int, station: WorkStation, replenishes: bool = False) -> Visit | None:
         """Asks the fleet for a unit: for picking, or for bundles if it `replenishes`.
 
         Returns None where the fleet refuses: the unit is held for HOLD.
         """
-        shift = self._shift
-        answer = shift.transports.submit(unit, station.name)
+        clock = self._context.clock
+        answer = self._transports.submit(unit, station.name)
         self.free_units.discard(unit)
         if not answer.accepted:
-            shift.events.schedule(shift.now + HOLD, self.free, unit)
+            clock.schedule(clock.now + HOLD, self.free, unit)
             return None
-        visit = Visit(next(self._ids), answer.transport_id, unit, station, shift.now)
+        visit = Visit(next(self._ids), answer.transport_id, unit, station, clock.now)
         visit.replenishes = replenishes
         self._by_transport[answer.transport_id] = visit
         self._away[unit] += 1
         station.inbound[visit.visit_id] = visit
-        shift.journal.visit(visit)
+        self._context.journal.visit(visit)
         return visit
 
     def release(self, visit: Visit) -> None:
         """Lets the unit leave the station."""
-        visit.released = self._shift.now
-        self._shift.transports.release(visit.transport_id)
-        self._shift.journal.visit(visit)
+        visit.released = self._context.clock.now
+        self._transports.release(visit.transport_id)
+        self._context.journal.visit(visit)
 
     def cancel(self, visit: Visit) -> None:
         """Cancels the transport of a unit on its way."""
-        visit.released = self._shift.now
-        self._shift.transports.cancel(visit.transport_id)
+        visit.released = self._context.clock.now
+        self._transports.cancel(visit.transport_id)
 
     def update_units(self, units: set[int]) -> None:
         """Takes in the ids of all units of the warehouse; missing ones are not asked for."""
-        gone = self._shift.inventory.of_unit.keys() - units
+        gone = self._context.inventory.of_unit.keys() - units
         for unit in sorted(gone - self._absent):
-            self.withdraw(unit)
-            self._shift.notices.add(_gone(unit))
+            self._withdraw(unit)
+            self._notices.add(_gone(unit))
         back, self._absent = self._absent - gone, gone
         for unit in sorted(back):
-            self._shift.notices.drop(_gone(unit))
+            self._notices.drop(_gone(unit))
             self.free(unit)
 
-    def withdraw(self, unit: int) -> None:
+    def _withdraw(self, unit: int) -> None:
         """Ends the visits of a unit; it is not asked for until free() is called."""
         self.free_units.discard(unit)
         for visit in [v for v in self._by_transport.values() if v.unit == unit]:
-            self._shift.part_of(visit).drop_visit(visit)
+            self._part_of(visit).drop_visit(visit)
             if visit.here:
                 self.release(visit)
             elif visit.released is None:
                 self.cancel(visit)
 
     def free(self, unit: int) -> None:
-        """Lets a unit be asked for, unless it is away, absent or out of service."""
-        blocked, absent = self._shift.inventory.blocked, self._absent
-        if unit not in blocked and unit not in absent and not self._away[unit]:
+        """Lets a unit be asked for, unless it is away or absent."""
+        if unit not in self._absent and not self._away[unit]:
             self.free_units.add(unit)
-            self._shift.picking.on_unit_free(unit)
-            self._shift.replenishing.on_unit_free()
+            self.offer(unit)
+
+    def offer(self, unit: int) -> None:
+        """Lets the parts of the shift look for work of a unit, if it may be asked for."""
+        if unit in self.free_units:
+            for part in self._parts.values():
+                part.on_unit_free(unit)
 
     def on_event(self, event: TransportEvent) -> None:
         """Brings the visit up to date that a TransportEvent belongs to, if any."""
-        visit, shift = self._by_transport.get(event.transport_id), self._shift
+        visit = self._by_transport.get(event.transport_id)
         if not visit:
             return
-        shift.update_hash(
+        self._context.update_hash(
             "transport", event.transport_id, int(event.kind), event.kiva_id, event.shelf_id
         )
         if event.kind == Kind.CANCELLED:
@@ -102,8 +134,8 @@ class Visits:
                 self._end(visit, event)
         elif event.kind == Kind.LIFTED:
             visit.lifted = event.stamp
-            shift.floor.cells.pop(visit.unit, None)
-            shift.journal.visit(visit)
+            self._floor.cells.pop(visit.unit, None)
+            self._context.journal.visit(visit)
         elif event.kind == Kind.ARRIVED:
             self._arrive(visit, event)
         elif event.kind in ENDS:
@@ -111,27 +143,31 @@ class Visits:
 
     def _arrive(self, visit: Visit, event: TransportEvent) -> None:
         visit.arrived = event.stamp
-        self._shift.journal.visit(visit)
+        self._context.journal.visit(visit)
         if visit.released is None:
-            self._shift.part_of(visit).on_arrival(visit)
+            self._part_of(visit).on_arrival(visit)
         else:  # cancelled too late
-            self._shift.transports.release(visit.transport_id)
+            self._transports.release(visit.transport_id)
 
     def _end(self, visit: Visit, event: TransportEvent) -> None:
-        shift = self._shift
+        clock = self._context.clock
         del self._by_transport[visit.transport_id]
         self._away[visit.unit] -= 1
-        shift.part_of(visit).drop_visit(visit)
+        self._part_of(visit).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released
         del visit.station.inbound[visit.visit_id]
-        shift.journal.visit(visit)
-        shift.tally.visited(visit)
+        self._context.journal.visit(visit)
+        self._context.tally.visited(visit)
         visit.station.visits += visit.arrived is not None
         if event.kind == Kind.FAILED:
-            shift.events.schedule(shift.now + HOLD, self.free, visit.unit)
+            clock.schedule(clock.now + HOLD, self.free, visit.unit)
         else:
             self.free(visit.unit)
+
+    def _part_of(self, visit: Visit) -> Part:
+        """Returns the part of the shift that asked for a visit."""
+        return self._parts[visit.replenishes]
 
 
 def _gone(unit: int) -> str:

@@ -2,11 +2,12 @@
 """The answer of a sizing, in words and figures: how many, how sure, and what limits it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from warehouse_operations.reports import limits
 from warehouse_operations.reports.comparison import CONFIDENCE
 from warehouse_operations.reports.limits import Limit
+from warehouse_operations.sizing import helps, hourly
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
 from warehouse_operations.sizing.wish import count, named
@@ -22,24 +23,26 @@ KNEE = 0.99  # of the most orders an hour of any number of robots
 
 @dataclass(frozen=True)
 class Answer:
-    """The chosen point of a Study, with what was found around it.
+    """The chosen point of a Study, with the points around it.
 
-    verdict: of ideal robots. check: of simulated ones, None if that was not asked for; its robots
+    others: the points with a robot or a station more. verdict: of ideal robots. check: of
+    simulated ones, None if that was not asked for; its robots
     may be more.
     """
 
     study: Study
     verdict: Verdict
     check: Verdict | None = None
+    others: list[Verdict] = field(default_factory=list)
 
     @property
     def robots(self) -> int:
-        """How many robots are needed: simulated ones, if they were checked."""
+        """The number of robots needed: simulated ones, if they were checked."""
         return self.check.robots if self.check and self.check.met else self.verdict.robots
 
     @property
     def stations(self) -> int:
-        """How many picking stations have to be open."""
+        """The number of picking stations that have to be open."""
         return self.verdict.stations
 
     @property
@@ -64,12 +67,12 @@ class Answer:
         stations = count(self.stations, "open picking station")
         if not self.confirmed:
             return (
-                f"{robots} and {stations} would meet {wish.orders_per_hour:,.0f} orders an hour"
+                f"{robots} and {stations} would meet {wish.asked}"
                 " without traffic; simulated robots were not shown to."
             )
         return (
-            f"{robots} and {stations} ({self.names}) meet {wish.orders_per_hour:,.0f} orders an"
-            f" hour: at most {100 * self.measured.at_most:.2f} % of them are not done in time,"
+            f"{robots} and {stations} ({self.names}) meet {wish.asked}:"
+            f" at most {100 * self.measured.at_most:.2f} % of them are not done in time,"
             f" where {100 * wish.late:g} % may be ({100 * CONFIDENCE:.0f} % confidence,"
             f" {len(self.measured.records)} shifts)."
         )
@@ -80,15 +83,15 @@ class Answer:
         verdict = self.measured
         if not self.confirmed or self.robots > self.verdict.robots:
             return Limit.STREETS
-        found = limits.limit(verdict.windows)
-        if found != Limit.ORDERS:
-            return found
+        limit = limits.limit(verdict.windows)
+        if limit != Limit.ORDERS:
+            return limit
         use = {
             Limit.STATIONS: verdict.estimate("of_bound").mean,
             Limit.REPLENISHING: verdict.estimate("replenishing").mean,
             Limit.ROBOTS: verdict.estimate("robots_at_work").mean,
         }
-        return max(use, key=lambda one: use[one])
+        return max(use, key=lambda limit: use[limit])
 
     def reasons(self) -> Iterator[str]:
         """Yields sentences about what limits the answer."""
@@ -103,6 +106,12 @@ class Answer:
         yield from self._fewer_robots()
         yield from self._fewer_stations()
         yield from self._more_stations()
+        yield from self._hours()
+        yield from helps.sentences(self.study, self.verdict, self.others)
+
+    def _hours(self) -> Iterator[str]:
+        if self.study.wish.day:
+            yield from hourly.sentences(hourly.hours_of(self.measured))
 
     def _streets(self) -> Iterator[str]:
         check = self.check
@@ -119,7 +128,7 @@ class Answer:
             yield f"Traffic takes {count(more, 'robot')} more than ideal robots would be."
         else:
             yield "Simulated robots meet it too: traffic takes no robot more."
-        for fault in sorted({text for one in check.records for text in one.faults}):
+        for fault in sorted({text for record in check.records for text in record.faults}):
             yield f"With physics: {fault}."
 
     def _fewer_robots(self) -> Iterator[str]:
@@ -162,7 +171,7 @@ class Answer:
 
 def knee(verdicts: list[Verdict]) -> int | None:
     """Returns the fewest robots with nearly as many orders an hour as any of these points have."""
-    hourly = {one.robots: one.estimate("orders_per_hour").mean for one in verdicts}
+    hourly = {verdict.robots: verdict.estimate("orders_per_hour").mean for verdict in verdicts}
     if len(hourly) < 2:
         return None
     return min(robots for robots, orders in hourly.items() if orders >= KNEE * max(hourly.values()))

@@ -75,8 +75,8 @@ def write_png(path: Path, study: Study, chosen: Chosen) -> None:
 
     def draw(figure: Figure) -> None:
         width, height = SLIDE
-        for x, one in ((0, _draw_throughput), (width / 2, _draw_lateness)):
-            one(canvas.on(figure, (x, 0, width / 2, height), MARGINS), study, chosen)
+        for x, draw_chart in ((0, _draw_throughput), (width / 2, _draw_lateness)):
+            draw_chart(canvas.on(figure, (x, 0, width / 2, height), MARGINS), study, chosen)
 
     canvas.write_png(path, draw, *SLIDE)
 
@@ -143,21 +143,21 @@ def _band(
 
 def _points(verdicts: Sequence[Verdict], name: str, factor: float) -> Any:
     """Returns robots, and means with half their intervals of a figure."""
-    found = [one.estimate(name) for one in verdicts]
-    mean = factor * np.array([one.mean for one in found])
-    half = factor * np.nan_to_num([one.half for one in found])
-    return np.array([one.robots for one in verdicts]), mean, half
+    estimates = [verdict.estimate(name) for verdict in verdicts]
+    mean = factor * np.array([estimate.mean for estimate in estimates])
+    half = factor * np.nan_to_num([estimate.half for estimate in estimates])
+    return np.array([verdict.robots for verdict in verdicts]), mean, half
 
 
 def _label(drawn: Canvas, ends: Sequence[Any]) -> None:
     """Writes at the end of each line for how many stations it is, where it leaves the chart."""
     (_, right), (_, top) = drawn.axes.get_xlim(), drawn.axes.get_ylim()
-    wanted = []
+    heights = []
     for _, _, verdicts, name, factor in ends:
         robots, mean, _ = _points(verdicts, name, factor)
-        wanted.append(min(float(np.interp(right, robots, mean)), top))
+        heights.append(min(float(np.interp(right, robots, mean)), top))
     least = 15 * top / max(drawn.height - MARGINS[2] - MARGINS[3], 1)
-    for (i, words, *_), y in zip(ends, canvas.spread(wanted, least)):
+    for (i, words, *_), y in zip(ends, canvas.spread(heights, least)):
         drawn.say(right, y, words, tokens.series(i), xytext=(6, -4), fontweight="bold")
 
 

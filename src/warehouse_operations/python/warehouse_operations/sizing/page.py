@@ -4,6 +4,7 @@
 The first page is to be handed on: the answer, its figure, what limits it, what was assumed.
 """
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,15 +13,19 @@ from warehouse_operations.document import sheets
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.run_files import REPORT
 from warehouse_operations.runs.version import version
-from warehouse_operations.sizing import figures, table
+from warehouse_operations.sizing import figures, hourly, table
 from warehouse_operations.sizing.answer import Answer
-from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.costs import Bill, LayoutCosts
+from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.study import Study
+from warehouse_operations.sizing.verdict import Verdict
 from warehouse_operations.sizing.wish import Wish, count
+
+BY_HOUR = "by_hour.csv"
 
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"
-    " knee: the fewest robots with 99 % of the most orders an hour that so many stations complete."
+    " knee: the fewest robots with 99 % of the most orders an hour that these stations complete."
     " The upright line is the answer."
 )
 MISSED = (
@@ -35,7 +40,7 @@ MISSED = (
 
 
 def write(
-    folder: Path, study: Study, answer: Answer | None, why: str, prices: Prices | None
+    folder: Path, study: Study, answer: Answer | None, why: str, prices: Pricing | None
 ) -> Path:
     """Writes the report and tables into a folder; returns the report's path.
 
@@ -50,14 +55,42 @@ def write(
         (folder / name).write_text(text, encoding="utf-8")
     sheets.write_xlsx(folder / "points.xlsx", _sheets(study, prices))
     figures.write_png(folder / "figure.png", study, _chosen(answer))
+    if verdict := _shown(study, answer):
+        hours = hourly.hours_of(verdict)
+        (folder / BY_HOUR).write_text(hourly.to_csv(hours), encoding="utf-8")
+        hourly.write_png(folder / "by_hour.png", hours)
+    if bill := bill_of(answer, prices):
+        text = json.dumps(bill.to_json(), indent=1)
+        (folder / "costs.json").write_text(f"{text}\n", encoding="utf-8")
     return folder / REPORT
+
+
+def bill_of(answer: Answer | None, prices: Pricing | None) -> Bill | None:
+    """Returns what the answer costs, where all costs are known."""
+    if not answer or not isinstance(prices, LayoutCosts):
+        return None
+    figures_of = answer.measured.estimate
+    return prices.bill(
+        answer.robots,
+        answer.stations,
+        figures_of("orders_per_hour").mean,
+        figures_of("pieces_per_hour").mean,
+        figures_of("robots_at_work").mean,
+    )
+
+
+def _shown(study: Study, answer: Answer | None) -> Verdict | None:
+    """Returns the point that is shown hour by hour: the answer's, else the largest one."""
+    if answer:
+        return answer.measured
+    return study.verdicts[max(study.verdicts)] if study.verdicts else None
 
 
 def _chosen(answer: Answer | None) -> tuple[int, int] | None:
     return (answer.robots, answer.stations) if answer else None
 
 
-def page(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
+def page(study: Study, answer: Answer | None, why: str, prices: Pricing | None) -> str:
     """Returns the HTML of the report."""
     title = f"How many robots? {study.wish.file.title}"
     return document.document(
@@ -69,16 +102,15 @@ def page(study: Study, answer: Answer | None, why: str, prices: Prices | None) -
     )
 
 
-def _first(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
+def _first(study: Study, answer: Answer | None, why: str, prices: Pricing | None) -> str:
     """Returns the sheet that is handed on."""
     wish = study.wish
-    orders = f"{wish.orders_per_hour:,.0f} orders an hour"
-    asked = f"How many robots does {wish.file.title} need for {orders}?"
-    told = answer.headline() if answer else f"It can't be done: {why}."
+    asked = f"How many robots does {wish.file.title} need for {wish.asked}?"
+    result = answer.headline() if answer else f"It can't be done: {why}."
     is_bad = not answer or not answer.confirmed
     curve = figures.throughput(study, _chosen(answer)).html()
     parts = [
-        document.opening(asked, told, is_bad),
+        document.opening(asked, result, is_bad),
         document.big(_big(study, answer, prices)) if answer else "",
         document.section("How orders grow with robots", curve),
         document.section(f"What limits it: {answer.limit}", document.sentences(answer.reasons()))
@@ -89,11 +121,18 @@ def _first(study: Study, answer: Answer | None, why: str, prices: Prices | None)
     return "\n".join(filter(None, parts))
 
 
-def _rest(study: Study, answer: Answer | None, prices: Prices | None) -> str:
+def _rest(study: Study, answer: Answer | None, prices: Pricing | None) -> str:
     chosen = _chosen(answer)
     curves = figures.lateness(study, chosen).html() + f'<p class="note">{KNEES}</p>'
     links = sheets.links(_sheets(study, prices), "points")
+    hours = ""
+    if verdict := _shown(study, answer):
+        each = hourly.hours_of(verdict)
+        hours = hourly.chart(each).html() + hourly.use_chart(each).html()
+    bill = bill_of(answer, prices)
     parts = [
+        document.section("Hour by hour", hours) if hours else "",
+        document.section("What it costs", f"<p>{bill.text()}</p>") if bill else "",
         document.section("How many orders are late", curves),
         document.section("Fewest robots for each number of stations", _frontier(study, prices)),
         document.section("How busy they are", figures.use(study, chosen).html()),
@@ -103,7 +142,7 @@ def _rest(study: Study, answer: Answer | None, prices: Prices | None) -> str:
     return "\n".join(parts)
 
 
-def _big(study: Study, answer: Answer, prices: Prices | None) -> Iterator[tuple[str, str, str]]:
+def _big(study: Study, answer: Answer, prices: Pricing | None) -> Iterator[tuple[str, str, str]]:
     yield f"{answer.robots:,}", "", "robots"
     yield f"{answer.stations:,}", "", f"open picking stations ({answer.names})"
     yield f"{study.wish.orders_per_hour:,.0f}", "", "orders an hour"
@@ -111,9 +150,15 @@ def _big(study: Study, answer: Answer, prices: Prices | None) -> Iterator[tuple[
         yield cost, "", "cost of a piece"
 
 
-def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
+def assumptions(wish: Wish, prices: Pricing | None) -> Iterator[str]:
     """Yields sentences about what the answer takes for granted."""
-    if wish.orders_file:
+    if wish.day:
+        yield (
+            f"Orders are those of {wish.day}, after an hour in which those of its first hour come;"
+            f" {100 * wish.late:g} % may be late. Shifts differ by the stock"
+            f"{'' if wish.day.text.kind == 'day' else ' and by the orders that are drawn'}."
+        )
+    elif wish.orders_file:
         yield (
             f"Orders are drawn from those of {Path(wish.orders_file).name}, on the average"
             f" {wish.pieces_per_order:.2f} pieces each, with the time that each had until it was"
@@ -124,24 +169,21 @@ def assumptions(wish: Wish, prices: Prices | None) -> Iterator[str]:
             f"Orders have {wish.lines:g} lines of {wish.pieces:g} pieces on the average, of SKUs"
             " in stock; one in five is due within half an hour, the others within two hours."
         )
-    yield (
-        f"They come by chance (Poisson), {wish.orders_per_hour:,.0f} an hour without peaks;"
-        f" {100 * wish.late:g} % may be late. A peak hour is sized by its own orders an hour."
-    )
+    if not wish.day:
+        yield (
+            f"They come by chance (Poisson), {wish.orders_per_hour:,.0f} an hour without peaks;"
+            f" {100 * wish.late:g} % may be late. `--demand` sizes for a day with its peak."
+        )
     chosen = Policies(wish.file.policies).chosen
-    told = ", ".join(f"{role}: {_name(policy)}" for role, policy in chosen.items())
-    yield f"Decisions: {told}."
+    decisions = ", ".join(f"{role}: {_name(policy)}" for role, policy in chosen.items())
+    yield f"Decisions: {decisions}."
     yield (
         f"Shifts of {wish.hours:g} h on {wish.file.title}: {count(wish.units, 'storage unit')},"
-        f" {_bins(wish)}; all replenishing stations are open, and nothing breaks."
+        f" {_bins(wish)}; all replenishing stations are open, and"
+        f" {_upkeep(wish)}."
     )
     if prices:
-        yield (
-            f"Prices: robot {prices.robot:,g}, station {prices.station:,g}, storage unit"
-            f" {prices.unit:,g}, used up in {prices.hours:,g} hours; {prices.hour:,g} an hour for"
-            f" the person at each open picking station and at {_all(wish.replenishing)}."
-            " The answer is the cheapest point that does."
-        )
+        yield prices.sentence(wish.replenishing)
     else:
         yield (
             "Without prices the answer has the fewest stations, each of which takes a person, and"
@@ -154,8 +196,10 @@ def _bins(wish: Wish) -> str:
     return f"the stock of {Path(stock).name}" if stock else count(wish.file.items, "bin")
 
 
-def _all(replenishing: int) -> str:
-    return f"each of {count(replenishing, 'replenishing station')}"
+def _upkeep(wish: Wish) -> str:
+    if not wish.realism:
+        return "nothing breaks"
+    return f"robots charge, fail and are repaired as in {wish.realism}"
 
 
 def effort(study: Study) -> str:
@@ -173,7 +217,7 @@ def _name(policy: object) -> str:
     return str(policy["name"]) if isinstance(policy, dict) else str(policy)
 
 
-def _frontier(study: Study, prices: Prices | None) -> str:
+def _frontier(study: Study, prices: Pricing | None) -> str:
     rows = []
     for stations, robots in study.frontier.items():
         verdict = study.verdicts.get((robots or 0, stations))
@@ -184,14 +228,14 @@ def _frontier(study: Study, prices: Prices | None) -> str:
     return document.table(head, rows, "Fewest robots for each number of stations")
 
 
-def _table(study: Study, prices: Prices | None) -> str:
+def _table(study: Study, prices: Pricing | None) -> str:
     """Returns all points in two tables, each narrow enough for a sheet of paper."""
     half = len(table.FIGURES) // 2
     parts = table.FIGURES[:half], table.FIGURES[half:]
     return "".join(_part(study, prices, i, part) for i, part in enumerate(parts))
 
 
-def _part(study: Study, prices: Prices | None, number: int, columns: tuple) -> str:
+def _part(study: Study, prices: Pricing | None, number: int, columns: tuple) -> str:
     """Returns a table of some figures of all points."""
     is_last = bool(number)
     kept = table.HEAD[:2] if is_last else table.HEAD
@@ -199,11 +243,11 @@ def _part(study: Study, prices: Prices | None, number: int, columns: tuple) -> s
     rows = []
     for verdict, kind in table.rows(study):
         cells = table.head_of(verdict, kind)[: len(kept)]
-        cells += [table.cell_of(verdict, *one) for one in columns]
+        cells += [table.cell_of(verdict, *column) for column in columns]
         rows.append(cells + ([table.cost_of(study, prices, verdict)] if cost else []))
-    head = [*kept, *(one[1] for one in columns), *cost]
+    head = [*kept, *(column[1] for column in columns), *cost]
     return document.table(head, rows, f"All points, part {number + 1}")
 
 
-def _sheets(study: Study, prices: Prices | None) -> dict[str, sheets.Rows]:
+def _sheets(study: Study, prices: Pricing | None) -> dict[str, sheets.Rows]:
     return {"points": table.cells(study, prices)}

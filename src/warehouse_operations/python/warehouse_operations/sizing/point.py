@@ -12,26 +12,26 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from warehouse_layout.file import layout_file
+from warehouse_layout.message_enums import OrderEventKind
 from warehouse_operations.runs import minute_log
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.sizing import sites
 from warehouse_operations.stock import order_mix
-from warehouse_operations.stock.message_enums import OrderEventKind
 from warehouse_operations.stock.orders import Order
 
 MINUTE = 60.0  # [s]
 MOST_AFTER = 24 * 60  # minutes for which orders are waited for that are not due yet
 PATIENCE = order_mix.DUE_LATER  # after which an order without a due time is late [s]
-# Of the orders that came in each minute, those completed in time, whenever that was, and those not.
+# Orders by the minute in which they came: completed in time, whenever that was, or not.
 FATES = ("in_time", "missed")
 SERIES = (*minute_log.SERIES, *FATES)
 
 
 @dataclass(frozen=True)
 class Point:
-    """What decides the outcome of a shift. layout: the text of a layout file.
+    """A shift to be simulated, with all that decides its outcome.
 
-    minutes: those that count, after those of the run-in.
+    layout: the text of a layout file. minutes: the length of the shift after the run-in.
     """
 
     robots: int
@@ -43,6 +43,7 @@ class Point:
     run_in: int
     minutes: int
     policies: dict[str, Any] = field(default_factory=dict)
+    realism: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,7 @@ def simulate(point: Point) -> Record:
         seed=point.seed,
         physics=point.physics,
         policies=point.policies,
+        realism=point.realism,
     ) as ops:
         fates = _Fates()
         ops.shift.on_order_event = fates.on_order
@@ -100,7 +102,7 @@ def simulate(point: Point) -> Record:
 
 
 class _Fates:
-    """What became of the orders that came in each minute of a shift."""
+    """Counts the orders of each minute of a shift by their outcome."""
 
     def __init__(self) -> None:
         self._open: dict[int, Order] = {}  # by id

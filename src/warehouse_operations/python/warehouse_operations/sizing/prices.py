@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What robots, stations and units cost, for the cost of a piece.
+"""Prices of robots, stations and units, for the cost of a piece.
 
     robot: 25000      # one of them [money]
     station: 40000    # a picking or a replenishing one
@@ -12,12 +12,23 @@ Each may be left out: it costs nothing then.
 
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Protocol
 
 from warehouse_operations.stock.yaml_file import read_yaml
 
 
 class PriceError(Exception):
     """Says what is wrong in a file of prices, with its name and the key."""
+
+
+class Pricing(Protocol):
+    """What prices a point: Prices, or costs.LayoutCosts."""
+
+    def per_hour(self, robots: int, stations: int, units: int, /) -> float:
+        """Returns the cost an hour; stations: picking and replenishing stations."""
+
+    def sentence(self, replenishing: int, /) -> str:
+        """Returns what was assumed."""
 
 
 @dataclass(frozen=True)
@@ -35,11 +46,21 @@ class Prices:
         bought = self.robot * robots + self.station * stations + self.unit * units
         return bought / self.hours + self.hour * stations
 
+    def sentence(self, replenishing: int) -> str:
+        """Returns what was assumed."""
+        each = f"each of {replenishing:,} replenishing station{'' if replenishing == 1 else 's'}"
+        return (
+            f"Prices: robot {self.robot:,g}, station {self.station:,g}, storage unit"
+            f" {self.unit:,g}, used up in {self.hours:,g} hours; {self.hour:,g} an hour for"
+            f" the person at each open picking station and at {each}."
+            " The answer is the cheapest point that does."
+        )
+
 
 def read(path: str | Path) -> Prices:
     """Reads a YAML file of prices. Raises PriceError."""
     data = read_yaml(path, PriceError)
-    names = [one.name for one in fields(Prices)]
+    names = [field.name for field in fields(Prices)]
     if not isinstance(data, dict):
         raise PriceError(f"{path}: keys with prices were expected: {', '.join(names)}")
     for key, value in data.items():

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Shown:
-    """Shows each shift that was simulated; to be given to a Study as on_shift."""
+    """Shows each shift that was simulated; a Study calls it as on_shift."""
 
     def __init__(self, stream: TextIO = sys.stderr) -> None:
         self._stream, self._began = stream, time.monotonic()

@@ -11,7 +11,7 @@ from typing import Protocol
 
 
 class Judged(Protocol):
-    """What a search has to know of a point."""
+    """The result of a point, as far as a search needs it."""
 
     @property
     def met(self) -> bool:
@@ -42,14 +42,14 @@ class Search:
         best: int | None = None
         for stations in range(least, most + 1):
             highest = self.most_robots(stations) if best is None else best - 1
-            found = self.fewest(stations, highest)
-            if best is not None and found is None:
+            fewest = self.fewest(stations, highest)
+            if best is not None and fewest is None:
                 break
-            self.frontier[stations] = best = found
+            self.frontier[stations] = best = fewest
         return self.frontier
 
     def fewest(self, stations: int, highest: int) -> int | None:
-        """Returns the fewest robots up to `highest` that do with so many stations, or None."""
+        """Returns the fewest robots, `highest` at most, that suffice at some stations, or None."""
         if highest < 1:
             return None
         many = self.judge(highest, stations)

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Opens shifts on the floor of a layout file, with so many robots and open picking stations."""
+"""Opens shifts on the floor of a layout file with a number of robots and open picking stations."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.place import placement
+from warehouse_operations.fleets import availability
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.stock.site import Site
@@ -23,12 +24,13 @@ def open_shift(
     seed: int,
     physics: bool,
     policies: Mapping[str, Any] | None = None,
+    realism: str = "",
 ) -> Operations:
-    """Opens a shift with so many robots, and the first so many picking stations open.
+    """Opens a shift with a number of robots, and of open picking stations, the first ones.
 
     All replenishing stations are open. Raises LayoutFileError, DemandError, PolicyError, SiteError.
     """
-    world = _world(file, robots, seed) if physics else None
+    world = _world(file, robots, seed, realism) if physics else None
     if world is not None:
         site = Site.of_world(world, file.title)
     else:
@@ -41,6 +43,7 @@ def open_shift(
         seed=seed,
         policies=file.policies if policies is None else policies,
         physics=physics,
+        availability=None if physics else availability.read(realism),
     )
     ops.shift.open_picking(stations)
     return ops
@@ -48,10 +51,10 @@ def open_shift(
 
 def picking_stations(file: LayoutFile) -> list[str]:
     """Returns the names of the picking stations, in the order in which they are opened."""
-    return [one.name for one in file.stations if one.kind != "replenish"]
+    return [station.name for station in file.stations if station.kind != "replenish"]
 
 
-def _world(file: LayoutFile, robots: int, seed: int) -> "World":
+def _world(file: LayoutFile, robots: int, seed: int, realism: str) -> "World":
     from kiva_plugin_cpp import World
 
-    return World.layout(file, robots=robots, seed=seed)
+    return World.layout(file, robots=robots, seed=seed, realism=realism or None)

@@ -17,10 +17,10 @@ class Store:
 
     def __init__(self, folder: Path, *files: str) -> None:
         self._folder = folder
-        self._files = b"".join(user_file.read_bytes(one) for one in files if one)
+        self._files = b"".join(user_file.read_bytes(file) for file in files if file)
 
     def get(self, point: Point) -> Record | None:
-        """Returns the Record of a Point; None if there is none, or none that can be read."""
+        """Returns the Record of a Point; None where it is missing or can't be read."""
         try:
             text = self._path(point).read_text(encoding="utf-8")
             record = Record(**json.loads(text))

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 from warehouse_operations.sizing import point as shift
 from warehouse_operations.sizing.point import Point, Record
-from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.search import Search
 from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
-from warehouse_operations.sizing.wish import RUN_IN, ImpossibleError, Wish, count, named
+from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
 
 STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
 CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3  # of the fewest robots, and shifts each, to draw
@@ -50,7 +50,7 @@ class Study:
         return self.frontier
 
     def judge(self, robots: int, stations: int) -> Verdict:
-        """Returns the Verdict on ideal robots at so many stations."""
+        """Returns the Verdict on ideal robots at a number of stations."""
         return self._judge(self.verdicts, robots, stations, 0.0)
 
     def draw(self) -> None:
@@ -62,10 +62,15 @@ class Study:
                     points = self.wish.points(robots, stations, range(1, DRAWN + 1))
                     self._judged(self.verdicts, robots, stations, self._shifts(points))
 
+    def beside(self, verdict: Verdict, robots: int, stations: int) -> Verdict:
+        """Returns the Verdict on another point by the seeds of one that was judged."""
+        points = self.wish.points(robots, stations, [record.seed for record in verdict.records])
+        return self._judged(self.verdicts, robots, stations, self._shifts(points))
+
     def check(self, robots: int, stations: int, hours: float) -> int | None:
         """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
 
-        Shifts have so many hours.
+        hours: of a shift.
         """
         most, add = self.wish.robots(stations), 0
         for _ in range(TRIES):
@@ -78,7 +83,7 @@ class Study:
 
     def _judge(
         self,
-        found: dict[tuple[int, int], Verdict],
+        verdicts: dict[tuple[int, int], Verdict],
         robots: int,
         stations: int,
         physics_hours: float,
@@ -88,23 +93,31 @@ class Study:
         for enough in sorted({FIRST, *looks(seeds)}):
             numbers = range(len(records) + 1, max(enough, len(records)) + 1)
             records += self._shifts(self.wish.points(robots, stations, numbers, physics_hours))
-            verdict = self._judged(found, robots, stations, records)
+            verdict = self._judged(verdicts, robots, stations, records)
             if verdict.decided:
                 break
         return verdict
 
     def _judged(
         self,
-        found: dict[tuple[int, int], Verdict],
+        verdicts: dict[tuple[int, int], Verdict],
         robots: int,
         stations: int,
         records: Sequence[Record],
     ) -> Verdict:
-        """Returns the Verdict on these shifts, and adds it to those that were found."""
-        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds, RUN_IN)
-        known = found.get((robots, stations))
+        """Returns the Verdict on these shifts, and adds it to `verdicts`."""
+        verdict = Verdict(
+            robots,
+            stations,
+            tuple(records),
+            self.wish.late,
+            self.wish.seeds,
+            self.wish.run_in,
+            self.wish.day is not None,
+        )
+        known = verdicts.get((robots, stations))
         if known is None or len(known.records) < len(records):
-            found[robots, stations] = verdict
+            verdicts[robots, stations] = verdict
         return verdict
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
@@ -143,15 +156,15 @@ class Study:
 
 
 def choose(
-    frontier: dict[int, int | None], prices: Prices | None, units: int, replenishing: int
+    frontier: dict[int, int | None], prices: Pricing | None, units: int, replenishing: int
 ) -> tuple[int, int]:
-    """Returns the (robots, picking stations) of a frontier that are wanted.
+    """Returns the (robots, picking stations) of a frontier to recommend.
 
     units, replenishing: storage units and replenishing stations, the same at all points.
-    With prices the cheapest; without, the fewest stations, each of which takes a person, and as
-    few robots as they do with.
+    With prices these are the cheapest; without, the fewest stations, each of which takes a person,
+    and the fewest robots for them.
     """
     able = [(robots, stations) for stations, robots in frontier.items() if robots]
     if prices is None:
-        return min(able, key=lambda one: (one[1], one[0]))
-    return min(able, key=lambda one: prices.per_hour(one[0], one[1] + replenishing, units))
+        return min(able, key=lambda point: (point[1], point[0]))
+    return min(able, key=lambda point: prices.per_hour(point[0], point[1] + replenishing, units))

@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
 
@@ -31,28 +31,28 @@ HEAD = ("stations", "robots", "by", "verdict", "shifts", "warm-up min")
 def rows(study: Study) -> list[tuple[Verdict, str]]:
     """Returns each point with `ideal` or `physics`, by stations and robots."""
     return [
-        (found[key], kind)
-        for found, kind in ((study.verdicts, "ideal"), (study.checks, "physics"))
-        for key in sorted(found, key=lambda one: one[::-1])
+        (verdicts[key], kind)
+        for verdicts, kind in ((study.verdicts, "ideal"), (study.checks, "physics"))
+        for key in sorted(verdicts, key=lambda key: key[::-1])
     ]
 
 
-def to_csv(study: Study, prices: Prices | None) -> str:
+def to_csv(study: Study, prices: Pricing | None) -> str:
     """Returns all figures of all points as CSV."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(cells(study, prices))
     return out.getvalue()
 
 
-def cells(study: Study, prices: Prices | None) -> list[list[Any]]:
+def cells(study: Study, prices: Pricing | None) -> list[list[Any]]:
     """Returns headings, and all figures of all points: means and half their 95 % intervals."""
     named = [text for _, heading, *_ in FIGURES for text in (heading, f"{heading} ±")]
     out: list[list[Any]] = [[*HEAD, *named, "cost a piece"]]
     for verdict, kind in rows(study):
-        row: list[Any] = [_plain(one) for one in head_of(verdict, kind)]
+        row: list[Any] = [_plain(cell) for cell in head_of(verdict, kind)]
         for name, _, factor, digits in FIGURES:
-            found = verdict.estimate(name)
-            row += [round(factor * one, digits + 2) for one in (found.mean, found.half)]
+            estimate = verdict.estimate(name)
+            row += [round(factor * value, digits + 2) for value in (estimate.mean, estimate.half)]
         out.append([*row, _plain(cost_of(study, prices, verdict))])
     return out
 
@@ -69,9 +69,9 @@ def _plain(text: str) -> Any:
         return text
 
 
-def to_text(study: Study, prices: Prices | None) -> str:
-    """Returns what tells most of all points, in columns."""
-    columns = [one for one in FIGURES if one[0] in SHORT]
+def to_text(study: Study, prices: Pricing | None) -> str:
+    """Returns the most telling figures of all points, in columns."""
+    columns = [column for column in FIGURES if column[0] in SHORT]
     cost = ["cost a piece"] if prices else []
     lines: list[Sequence[str]] = [[*HEAD, *(heading for _, heading, *_ in columns), *cost]]
     for verdict, kind in rows(study):
@@ -86,16 +86,16 @@ def to_text(study: Study, prices: Prices | None) -> str:
 def head_of(verdict: Verdict, kind: str) -> list[str]:
     """Returns the cells of HEAD."""
     numbers = (verdict.stations, verdict.robots, kind, verdict.word)
-    return [str(one) for one in (*numbers, len(verdict.records), verdict.warm_up)]
+    return [str(number) for number in (*numbers, len(verdict.records), verdict.warm_up)]
 
 
 def cell_of(verdict: Verdict, name: str, _: str, factor: float, digits: int) -> str:
     """Returns a figure with half its confidence interval as text."""
-    found = verdict.estimate(name)
-    return f"{factor * found.mean:,.{digits}f} ± {factor * found.half:,.{digits}f}"
+    estimate = verdict.estimate(name)
+    return f"{factor * estimate.mean:,.{digits}f} ± {factor * estimate.half:,.{digits}f}"
 
 
-def cost_of(study: Study, prices: Prices | None, verdict: Verdict) -> str:
+def cost_of(study: Study, prices: Pricing | None, verdict: Verdict) -> str:
     """Returns what a piece costs at a point as text; empty without prices."""
     if not prices:
         return ""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges a point by its shifts: is the wish met, and how sure is that?
 
-Of the orders that came after the warm-up, the part counts that was late; orders that were not due
+Lateness is a part of the orders that came after the warm-up; orders that were not due
 yet when the shift was over are waited for. A point meets a wish if the upper confidence limit of
 the mean part, by Student's t over seeds, is at most the share that may be late, and if the open
 orders do not pile up: orders of which few are late today may all be late tomorrow.
@@ -20,7 +20,7 @@ from warehouse_operations.reports.limits import Window, windows_of
 from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.sizing.point import SERIES, Record
 
-FIRST = LEAST  # shifts after which a point that is far off is given up
+FIRST = LEAST  # shifts after which a point that is far off is dropped
 MORE = (1, 2, 4)  # times the seeds of a wish, at which a point is judged
 RISK = (1 - CONFIDENCE) / len(MORE)  # of one look: each has its part (Bonferroni)
 
@@ -28,7 +28,7 @@ Figures = dict[str, float]
 
 
 def looks(seeds: int) -> list[int]:
-    """Returns the numbers of shifts at which a point may be found to meet a wish."""
+    """Returns the numbers of shifts at which a point may be accepted."""
     return [seeds * times for times in MORE]
 
 
@@ -42,15 +42,16 @@ class Verdict:
     late: float
     seeds: int
     run_in: int = 0
+    is_day: bool = False  # with hours that differ: it is judged from its begin, by lateness alone
 
     @property
     def decided(self) -> bool:
-        """Whether more shifts would hardly say otherwise, or there are enough."""
+        """Whether more shifts would hardly change the verdict, or there are enough."""
         most = looks(self.seeds)[-1]
         return self.met or self.fails or len(self.records) >= most or self._hopeless(most)
 
     def _hopeless(self, most: int) -> bool:
-        """Whether the wish would not be shown to be met if `most` shifts went on like these."""
+        """Whether `most` shifts like these would leave it open that the wish is met."""
         return len(self.records) >= self.seeds and self.limit(RISK, 1, most) > self.late
 
     @cached_property
@@ -71,7 +72,7 @@ class Verdict:
     def piles_up(self) -> bool:
         """Whether more orders come than are completed, by more than may be late, with the
         confidence of a look."""
-        return self._limit("growth", RISK, -1) > self.late
+        return not self.is_day and self._limit("growth", RISK, -1) > self.late
 
     def at_work(self) -> float:
         """Returns how many of the robots were at work, on the average."""
@@ -87,12 +88,12 @@ class Verdict:
     def limit(self, risk: float, side: int, shifts: int = 0) -> float:
         """Returns the upper (side 1) or lower (-1) limit of the mean part that is late.
 
-        shifts: so many would there be, with the same mean and deviation; 0: those there are.
+        shifts: their assumed number, with the same mean and deviation; 0: the number simulated.
         """
         return self._limit("late", risk, side, shifts)
 
     def _limit(self, name: str, risk: float, side: int, shifts: int = 0) -> float:
-        values = np.array([one[name] for one in self.figures])
+        values = np.array([figures[name] for figures in self.figures])
         if len(values) < 2:
             return math.inf * side
         count = shifts or len(values)
@@ -107,26 +108,30 @@ class Verdict:
     @cached_property
     def warm_up(self) -> int:
         """The first minutes that are left out: the run-in, and until the open orders are steady."""
-        return max(self.run_in, mser5([one.series["open"] for one in self.records]))
+        if self.is_day:
+            return self.run_in
+        return max(self.run_in, mser5([record.series["open"] for record in self.records]))
 
     @cached_property
     def figures(self) -> list[Figures]:
         """The figures of each shift after the warm-up."""
-        return [figures_of(one, self.warm_up) for one in self.records]
+        return [figures_of(record, self.warm_up) for record in self.records]
 
     @cached_property
     def windows(self) -> list[Window]:
         """The Windows of all its shifts after the warm-up, summed."""
-        each = [one.series for one in self.records]
+        each = [record.series for record in self.records]
         series = {
-            name: np.sum([one[name] for one in each], axis=0)[self.warm_up :].tolist()
+            name: np.sum([series_of_shift[name] for series_of_shift in each], axis=0)[
+                self.warm_up :
+            ].tolist()
             for name in SERIES
         }
         return windows_of(series, series["missed"])
 
     def estimate(self, name: str) -> Estimate:
         """Returns the Estimate of one of the figures."""
-        return Estimate.of([one[name] for one in self.figures])
+        return Estimate.of([figures[name] for figures in self.figures])
 
 
 def figures_of(record: Record, warm_up: int) -> Figures:
@@ -155,10 +160,10 @@ def figures_of(record: Record, warm_up: int) -> Figures:
 
 def difference(first: Verdict, second: Verdict, name: str) -> Estimate:
     """Returns by how much a figure of `second` is above that of `first`, seed by seed."""
-    seen = {one.seed: figures[name] for one, figures in zip(first.records, first.figures)}
+    firsts = {record.seed: figures[name] for record, figures in zip(first.records, first.figures)}
     deltas: Sequence[float] = [
-        figures[name] - seen[one.seed]
-        for one, figures in zip(second.records, second.figures)
-        if one.seed in seen
+        figures[name] - firsts[record.seed]
+        for record, figures in zip(second.records, second.figures)
+        if record.seed in firsts
     ]
     return Estimate.of(deltas)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is asked of a warehouse, and the points that are simulated for it."""
+"""The demand on a warehouse, and the points that are simulated for it."""
 
 import math
 from collections.abc import Sequence
@@ -15,6 +15,8 @@ from warehouse_layout.place import file_check, placement
 from warehouse_operations.runs import layout_site
 from warehouse_operations.shift import kpis
 from warehouse_operations.sizing import sites
+from warehouse_operations.sizing.day import RUN_IN as DAY_RUN_IN
+from warehouse_operations.sizing.day import Day
 from warehouse_operations.sizing.point import Point
 from warehouse_operations.stock import order_mix
 from warehouse_operations.stock.order_file import read_csv
@@ -36,7 +38,7 @@ class ImpossibleError(Exception):
 
 @dataclass(frozen=True)
 class Wish:
-    """So many orders an hour on a floor, of which a share `late` may be late.
+    """A rate of orders on a floor, of which a share `late` may be late.
 
     lines, pieces: means, of an order and of a line. orders_file: a CSV file whose orders come
     instead. hours: of each shift, after its run-in. seeds: shifts of a point, at least. Raises
@@ -51,10 +53,12 @@ class Wish:
     late: float = 0.01
     hours: float = 8.0
     seeds: int = 5
-    most_robots: int = 0  # 0: as many as could be of use, and there is room for
+    most_robots: int = 0  # 0: what the demand can use and the floor has room for
+    day: Day | None = None  # comes instead of so many orders an hour
+    realism: str = ""  # what keeps robots from work: a preset or a file
 
     def __post_init__(self) -> None:
-        faults = [one for one in file_check.faults(self.file) if not one.is_of_bodies]
+        faults = [fault for fault in file_check.faults(self.file) if not fault.is_of_bodies]
         if faults:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
@@ -74,27 +78,41 @@ class Wish:
 
     @property
     def replenishing(self) -> int:
-        """How many replenishing stations there are; all of them are open."""
+        """The number of replenishing stations; all of them are open."""
         return len(self.file.stations) - len(self.stations)
 
     @cached_property
     def units(self) -> int:
-        """How many storage units there are."""
+        """The number of storage units."""
         return len(placement.place(self.file).units)
 
     @property
     def orders(self) -> str:
-        """The orders text of order_mix."""
+        """The orders text of a shift: of order_mix, or of the day."""
+        if self.day:
+            return self.day.whole_text
         return order_mix.text_of(self.orders_per_hour, self.lines, self.pieces, self.orders_file)
 
     @cached_property
     def pieces_per_order(self) -> float:
         """Pieces of an order, on the average. Raises DemandError for a file that is wrong."""
+        if self.day:
+            return self.day.pieces_per_order
         if not self.orders_file:
             return self.lines * self.pieces
         orders = read_csv(self.orders_file)
-        pieces = sum(n for one in orders for _, n in one.lines)
+        pieces = sum(n for order in orders for _, n in order.lines)
         return pieces / max(len(orders), 1)
+
+    @property
+    def run_in(self) -> int:
+        """The minutes in which an empty warehouse fills."""
+        return DAY_RUN_IN if self.day else RUN_IN
+
+    @property
+    def asked(self) -> str:
+        """What is asked for, in words."""
+        return str(self.day) if self.day else f"{self.orders_per_hour:,.0f} orders an hour"
 
     @property
     def pieces_per_hour(self) -> float:
@@ -120,13 +138,13 @@ class Wish:
         )
 
     def robots(self, stations: int) -> int:
-        """Returns the most robots that are tried with so many open picking stations."""
+        """Returns the largest number of robots that is tried at some open picking stations."""
         useful = AT_WORK * UNITS_MOST * (stations + self.replenishing)
         return min(self.most_robots or self.room, self.room, useful)
 
     @cached_property
     def room(self) -> int:
-        """How many robots have room on the floor: on parking, and beneath storage units."""
+        """The number of robots with room on the floor: on parking, and beneath storage units."""
         floor = self.file.floor
         parking = np.isin(floor, list(layout_file.PARKING + layout_file.CHARGING)).sum()
         return int(parking) + self.units
@@ -144,9 +162,10 @@ class Wish:
                 bool(physics_hours),
                 layout_file.text_of(file),
                 self.orders,
-                RUN_IN,
-                math.ceil(60 * (physics_hours or self.hours)),
+                self.run_in,
+                math.ceil(60 * (self.hours if self.day else physics_hours or self.hours)),
                 dict(self.file.policies),
+                self.realism,
             )
             for seed in seeds
         ]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a warehouse has and is asked for: SKUs, bins, orders, stations, and where units stand."""
+"""Stock and demand of a warehouse: SKUs, bins, orders, stations, and where units stand."""

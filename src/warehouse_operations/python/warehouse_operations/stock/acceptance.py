@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an order may be: bounds that keep one order, or a flood of them, from stopping a shift."""
+"""Bounds on orders, which keep one order, or a flood of them, from stopping a shift."""
 
 import math
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ def fault_of_lines(lines: Sequence[tuple[str, int]], skus: Any, capacity: float)
 
 
 def fault_of_pieces(pieces: int, capacity: float) -> str:
-    """Returns why an order of that many pieces is not accepted; empty if it is."""
+    """Returns why an order of a number of pieces is not accepted; empty if it is."""
     if pieces > capacity:
         return f"an order of {pieces} pieces; all bins of the warehouse together hold {capacity}"
     return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a warehouse deals in: SKUs, how often each is asked for, and the stock at first."""
+"""The assortment of a warehouse: SKUs, their popularity, and the initial stock."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -34,15 +34,15 @@ class Assortment:
         return cls(tuple(lines), counts / counts.sum())
 
 
-def told(
+def listed(
     items: Sequence[tuple[str, int]],
     stock: Sequence[tuple[str, str, int]],
     rng: np.random.Generator,
 ) -> tuple["Assortment", list[tuple[Bin, int]]]:
-    """Returns what stocked() does, of a stock that is told: (item, SKU, pieces) of each bin.
+    """Returns what stocked() does, for a stock that a file lists: (item, SKU, pieces) of each bin.
 
-    items: as for stocked(); those of which nothing is told have no bin. A bin has room for CAPACITY
-    pieces, or for as many as it holds. How often a SKU is asked for is drawn.
+    items: as for stocked(); those that are not listed have no bin. A bin has room for CAPACITY
+    pieces, or for its content if that is more. How often a SKU is asked for is drawn.
     """
     drawn = Assortment.draw(len({sku for _, sku, _ in stock}), rng)
     assortment = Assortment(tuple(dict.fromkeys(sku for _, sku, _ in stock)), drawn.popularity)
@@ -50,8 +50,8 @@ def told(
     result: list[tuple[Bin, int]] = []
     for item, sku, pieces in stock:
         if item in unit_of:
-            one = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)
-            result.append((one, pieces))
+            bin_ = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)
+            result.append((bin_, pieces))
     return assortment, result
 
 
@@ -66,7 +66,7 @@ def stocked(
     """Returns an Assortment and Bins with pieces of it: (assortment, [(bin, pieces)]).
 
     items: (name, unit) of each bin. Each SKU has a bin; the others are shared out by popularity.
-    own: the SKUs, as many as there are bins at most; None: they are drawn.
+    own: the SKUs, one a bin at most; None: they are drawn.
     """
     count = min(skus or SKUS, max(len(items) // (1 if skus else BINS_A_SKU), 1))
     assortment = own or Assortment.draw(count, rng)
@@ -82,6 +82,6 @@ def stocked(
     fill = np.round(capacity * rng.uniform(level - spread, level + spread, len(items)))
     result = []
     for i, ((item, unit), sku, pieces) in enumerate(zip(items, skus_of, fill)):
-        one = Bin(i + 1, item, unit, capacity, assortment.skus[sku])
-        result.append((one, int(pieces)))
+        bin_ = Bin(i + 1, item, unit, capacity, assortment.skus[sku])
+        result.append((bin_, int(pieces)))
     return assortment, result

@@ -12,7 +12,7 @@ from warehouse_operations.stock.units_by_id import UnitSet
 
 
 class Candidates(Mapping[int, Mapping[Line, int]]):
-    """What each unit could serve of some lines: {unit: {line: pieces}}, by ascending units.
+    """The pieces of some lines that units could serve: {unit: {line: pieces}}, ascending.
 
     units: their ids, (n,). completes: how many lines each completes, (n,). pieces: how many pieces
     each has for all lines, (n,).
@@ -20,8 +20,8 @@ class Candidates(Mapping[int, Mapping[Line, int]]):
 
     def __init__(self, lines: Collection[Line], inventory: Inventory, free_units: UnitSet) -> None:
         self._lines = list(lines)
-        found = [self._of_line(number, inventory) for number in range(len(self._lines))]
-        units, line, pieces, completes = (np.concatenate(parts) for parts in zip(*found))
+        each_line = [self._of_line(number, inventory) for number in range(len(self._lines))]
+        units, line, pieces, completes = (np.concatenate(parts) for parts in zip(*each_line))
         self.units, rows = np.unique(units, return_inverse=True)
         is_free = free_units.among(self.units)
         kept = is_free[rows]
@@ -45,8 +45,8 @@ class Candidates(Mapping[int, Mapping[Line, int]]):
 
     def __getitem__(self, unit: int) -> Mapping[Line, int]:
         """Returns {line: pieces} of a unit. Raises KeyError."""
-        found = np.flatnonzero(self._rows == self._number[unit])
-        lines = zip(self._line[found].tolist(), self._pieces[found].tolist())
+        rows = np.flatnonzero(self._rows == self._number[unit])
+        lines = zip(self._line[rows].tolist(), self._pieces[rows].tolist())
         return {self._lines[number]: pieces for number, pieces in lines}
 
     def __iter__(self) -> Iterator[int]:

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
-order_file), `mix:…` (see order_mix), or `none`."""
+"""Sources of orders and bundles: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
+order_file), `day:…`, `demand:…` or `mix:…` (see orders_text), or `none`."""
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_operations.stock import order_mix
+from warehouse_operations.stock import days, order_mix, orders_text
 from warehouse_operations.stock.acceptance import MOST_WAITING
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import ROOMY
 from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
 from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.stock.orders import Backlog
+from warehouse_operations.stock.orders_text import DAY
 
-FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: so many, or those of all stations
+FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: at least, and a station
 POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
@@ -66,7 +67,7 @@ class Customers:
 
 
 class Fill:
-    """So many orders wait at any time."""
+    """A constant number of orders waits at any time."""
 
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
@@ -79,14 +80,14 @@ class Fill:
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         for _ in range(self.waiting - len(backlog)):
-            wanted = self.customers.order(now, in_stock)
-            if wanted is None:
+            draft = self.customers.order(now, in_stock)
+            if draft is None:
                 return
-            yield wanted
+            yield draft
 
 
 class Poisson:
-    """Orders come by chance, so many an hour on the average; bundles likewise."""
+    """Orders and bundles that come by chance (Poisson), at a mean rate [1/h]."""
 
     def __init__(
         self,
@@ -108,10 +109,10 @@ class Poisson:
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         while self._next <= now:
-            wanted = self.customers.order(self._next, in_stock)
+            draft = self.customers.order(self._next, in_stock)
             self._wait()
-            if wanted:
-                yield wanted
+            if draft:
+                yield draft
 
     def _wait(self) -> None:
         self._next += self._rng.exponential(3600.0 / self.per_hour)
@@ -123,22 +124,22 @@ class FromFile:
 
     bundles_per_hour = 0.0
 
-    def __init__(self, wanted: Iterable[Wanted]) -> None:
-        self._wanted = sorted(wanted, key=lambda one: one.at)[::-1]
+    def __init__(self, drafts: Iterable[Wanted]) -> None:
+        self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
 
     def next_time(self) -> float:
         """Returns when the next order comes [s]; inf after the last."""
-        return max(self._wanted[-1].at, self._more_at) if self._wanted else float("inf")
+        return max(self._drafts[-1].at, self._more_at) if self._drafts else float("inf")
 
     def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
         """Yields the orders that come now."""
         for _ in range(AT_ONCE):
             if self.next_time() > now:
                 return
-            if backlog.lines + len(self._wanted[-1].lines) > MOST_WAITING:
+            if backlog.lines + len(self._drafts[-1].lines) > MOST_WAITING:
                 break
-            yield self._wanted.pop()
+            yield self._drafts.pop()
         self._more_at = now + PAUSE
 
 
@@ -169,11 +170,14 @@ def make_demand(
     if name == "mix":
         per_hour, mixed = order_mix.make(str(text), assortment, rng, capacity)
         return Poisson(mixed, per_hour, BUNDLES * stations[1], rng, now)
+    if day := orders_text.day_of(str(text)):
+        skus = assortment.skus if assortment else None
+        if day.kind == DAY:
+            return FromFile(days.orders_of(day, skus, rng, capacity))
+        return days.drawn(day, skus, rng, now)
     if str(text).endswith(".csv"):
         return FromFile(read_csv(text, set(assortment.skus) if assortment else None, capacity))
-    raise DemandError(
-        f"orders are '{text}'; fill, fill:N, poisson:PER_HOUR, FILE.csv or none was expected"
-    )
+    raise DemandError(f"orders are '{text}'; {orders_text.EXPECTED} was expected")
 
 
 def _number(text: str, value: str, default: float, most: float, whole: bool = False) -> float:

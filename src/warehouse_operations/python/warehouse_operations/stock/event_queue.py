@@ -42,3 +42,14 @@ class EventQueue:
         """Carries out all events up to a time [s], and those that they schedule."""
         while self.next_time <= time:
             self.run_next()
+
+
+class Clock(EventQueue):
+    """The simulated time of a shift, and the calls that are due.
+
+    began: when the shift began [s]. now: up to when it took in what happened [s].
+    """
+
+    def __init__(self, began: float = 0.0) -> None:
+        super().__init__()
+        self.began = self.now = began

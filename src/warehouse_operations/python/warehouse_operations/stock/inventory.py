@@ -21,7 +21,7 @@ class Reason(StrEnum):
     INITIAL = "initial"
     PICK = "pick"
     PUT = "put"
-    SHORT = "short"  # fewer were found than the books said
+    SHORT = "short"  # fewer were there than the books said
     DAMAGED = "damaged"
     FELL = "fell"  # they lie on the floor, with their bin,
     PICKED_UP = "picked up"  # or are back
@@ -57,7 +57,7 @@ class Bin:
 
     @property
     def room(self) -> int:
-        """Pieces that can be put in beside those that are expected."""
+        """Pieces that can be put in besides the expected ones."""
         return 0 if self.fallen is not None else self.capacity - self.quantity - self.expected
 
     @property
@@ -70,12 +70,12 @@ class Inventory:
     """The bins, by unit and by SKU. Calls on_move(bin, quantity, reason, context) for each move."""
 
     def __init__(self, bins: Collection[Bin], on_move: Callable[..., object] | None = None) -> None:
-        self.bins = {one.bin_id: one for one in bins}
+        self.bins = {bin_.bin_id: bin_ for bin_ in bins}
         self.of_unit: dict[int, list[Bin]] = defaultdict(list)
         self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
         self.capacity = self.total = self.expected = 0
         self.empty: dict[int, Bin] = {}  # bins without anything, by id
-        self._kept_for = Counter(one.sku for one in bins)  # bins by the SKU they have or had last
+        self._kept_for = Counter(bin_.sku for bin_ in bins)  # bins by the SKU they have or had last
         # SKUs without a bin, by the bin that is theirs once it is empty.
         self._heirs: dict[int, str] = {}
         # Bins with room for a bundle of any size, by SKU.
@@ -85,21 +85,20 @@ class Inventory:
         self._available: dict[str, int] = defaultdict(int)
         # Available pieces by row, a row a bin; and of each SKU, while none comes or goes, its rows
         # by unit with the units and where each begins.
-        self._row = {one.bin_id: row for row, one in enumerate(bins)}
+        self._row = {bin_.bin_id: row for row, bin_ in enumerate(bins)}
         self._pieces = np.zeros(len(bins), np.int32)
         self._rows_of: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._incoming: dict[str, int] = defaultdict(int)
-        self.blocked: set[int] = set()  # units out of service
         self._on_move = on_move or (lambda *_: None)
         self.changed: set[Bin] = set()  # bins whose figures are not written down yet
-        for one in bins:
-            self.of_unit[one.unit].append(one)
-            self.capacity += one.capacity
-            self.total += one.quantity
-            self._index(one)
-            self._available[one.sku] += one.available
-            self._pieces[self._row[one.bin_id]] = one.available
-            self._measure(one)
+        for bin_ in bins:
+            self.of_unit[bin_.unit].append(bin_)
+            self.capacity += bin_.capacity
+            self.total += bin_.quantity
+            self._index(bin_)
+            self._available[bin_.sku] += bin_.available
+            self._pieces[self._row[bin_.bin_id]] = bin_.available
+            self._measure(bin_)
 
     @property
     def level(self) -> float:
@@ -107,7 +106,7 @@ class Inventory:
         return self.total / self.capacity if self.capacity else 0.0
 
     def available(self, sku: str) -> int:
-        """Returns the pieces of a SKU promised to no order, units out of service included."""
+        """Returns the pieces of a SKU promised to no order."""
         return self._available.get(sku, 0)
 
     def incoming(self, sku: str) -> int:
@@ -132,160 +131,167 @@ class Inventory:
 
     def _sorted_rows(self, sku: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         bins = self._of_sku[sku].values()
-        unit_of = np.array([one.unit for one in bins], np.int64)
-        rows = np.array([self._row[one.bin_id] for one in bins], np.int64)
+        unit_of = np.array([bin_.unit for bin_ in bins], np.int64)
+        rows = np.array([self._row[bin_.bin_id] for bin_ in bins], np.int64)
         order = np.argsort(unit_of, kind="stable")
         units, begins = np.unique(unit_of[order], return_index=True)
         return rows[order], units, begins
 
-    def takes(self, one: Bin, sku: str, quantity: int) -> bool:
-        """Returns whether so many pieces of a SKU can be put into a bin.
+    def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
+        """Returns whether a quantity of a SKU can be put into a bin.
 
         The last bin of a SKU is kept for it: else it could never be refilled.
         """
-        if one.bin_id in self._heirs:
-            return one.empty and self._heirs[one.bin_id] == sku
-        may_move_in = one.empty and self._kept_for[one.sku] > 1
-        return one.room >= quantity and (one.sku == sku or may_move_in)
+        if bin_.bin_id in self._heirs:
+            return bin_.empty and self._heirs[bin_.bin_id] == sku
+        may_move_in = bin_.empty and self._kept_for[bin_.sku] > 1
+        return bin_.room >= quantity and (bin_.sku == sku or may_move_in)
 
-    def move(self, one: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
+    def move(self, bin_: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
         """Puts pieces into a bin, or takes them out; raises StockError."""
-        if quantity > 0 and one.quantity and one.sku != sku:
-            raise StockError(f"{one.item} holds {one.sku}, {sku} can't be put in")
-        if one.quantity + quantity < one.reserved:
+        if quantity > 0 and bin_.quantity and bin_.sku != sku:
+            raise StockError(f"{bin_.item} holds {bin_.sku}, {sku} can't be put in")
+        if bin_.quantity + quantity < bin_.reserved:
             raise StockError(
-                f"{-quantity} of {one.item}'s {one.quantity} pieces, {one.reserved} reserved"
+                f"{-quantity} of {bin_.item}'s {bin_.quantity} pieces, {bin_.reserved} reserved"
             )
         if quantity > 0:
-            self._rename(one, sku)
-        one.quantity += quantity
+            self._rename(bin_, sku)
+        bin_.quantity += quantity
         self.total += quantity
-        self._available[one.sku] += quantity
-        self._pieces[self._row[one.bin_id]] += quantity
-        self._index(one)
-        self._measure(one)
-        self.changed.add(one)
-        self._on_move(one, quantity, reason, context)
+        self._available[bin_.sku] += quantity
+        self._pieces[self._row[bin_.bin_id]] += quantity
+        self._index(bin_)
+        self._measure(bin_)
+        self.changed.add(bin_)
+        self._on_move(bin_, quantity, reason, context)
 
-    def reserve(self, one: Bin, quantity: int) -> None:
+    def take_changed(self) -> set[Bin]:
+        """Returns the bins whose figures have changed since the last call."""
+        changed, self.changed = self.changed, set()
+        return changed
+
+    def reserve(self, bin_: Bin, quantity: int) -> None:
         """Promises pieces of a bin; a negative number takes the promise back."""
-        if not 0 <= one.reserved + quantity <= one.quantity:
+        if not 0 <= bin_.reserved + quantity <= bin_.quantity:
             raise StockError(
-                f"{one.reserved} + {quantity} reserved of {one.quantity} in {one.item}"
+                f"{bin_.reserved} + {quantity} reserved of {bin_.quantity} in {bin_.item}"
             )
-        one.reserved += quantity
-        self._available[one.sku] -= quantity
-        self._pieces[self._row[one.bin_id]] -= quantity
-        self.changed.add(one)
+        bin_.reserved += quantity
+        self._available[bin_.sku] -= quantity
+        self._pieces[self._row[bin_.bin_id]] -= quantity
+        self.changed.add(bin_)
 
-    def pick(self, one: Bin, quantity: int, **context: Any) -> None:
+    def pick(self, bin_: Bin, quantity: int, **context: Any) -> None:
         """Takes reserved pieces out."""
-        self.reserve(one, -quantity)
-        self.move(one, one.sku, -quantity, Reason.PICK, **context)
+        self.reserve(bin_, -quantity)
+        self.move(bin_, bin_.sku, -quantity, Reason.PICK, **context)
 
-    def expect(self, one: Bin, sku: str, quantity: int) -> None:
+    def expect(self, bin_: Bin, sku: str, quantity: int) -> None:
         """Keeps room in a bin for pieces on their way."""
-        if not self.takes(one, sku, quantity):
-            raise StockError(f"{one.item} does not take {quantity} of {sku}")
-        self._rename(one, sku)
-        self._expect(one, sku, quantity)
+        if not self.takes(bin_, sku, quantity):
+            raise StockError(f"{bin_.item} does not take {quantity} of {sku}")
+        self._rename(bin_, sku)
+        self._expect(bin_, sku, quantity)
 
-    def unexpect(self, one: Bin, sku: str, quantity: int) -> None:
+    def unexpect(self, bin_: Bin, sku: str, quantity: int) -> None:
         """Frees the room kept for pieces that will not come."""
-        self._expect(one, sku, -quantity)
+        self._expect(bin_, sku, -quantity)
 
-    def put(self, one: Bin, sku: str, quantity: int, **context: Any) -> None:
+    def put(self, bin_: Bin, sku: str, quantity: int, **context: Any) -> None:
         """Puts expected pieces into a bin."""
-        self._expect(one, sku, -quantity)
-        self.move(one, sku, quantity, Reason.PUT, **context)
+        self._expect(bin_, sku, -quantity)
+        self.move(bin_, sku, quantity, Reason.PUT, **context)
 
-    def fall(self, one: Bin) -> None:
+    def fall(self, bin_: Bin) -> None:
         """Takes a bin that lies on the floor out of stock; its promises and expectations end."""
-        pieces, one.fallen = one.quantity, one.quantity
+        pieces, bin_.fallen = bin_.quantity, bin_.quantity
         if pieces:
-            self.move(one, one.sku, -pieces, Reason.FELL)
-        self._measure(one)
+            self.move(bin_, bin_.sku, -pieces, Reason.FELL)
+        self._measure(bin_)
 
-    def pick_up(self, one: Bin) -> None:
+    def pick_up(self, bin_: Bin) -> None:
         """Puts a bin back into stock, on its unit."""
-        pieces, one.fallen = one.fallen, None
+        pieces, bin_.fallen = bin_.fallen, None
         if pieces:
-            self.move(one, one.sku, pieces, Reason.PICKED_UP)
-        self._measure(one)
+            self.move(bin_, bin_.sku, pieces, Reason.PICKED_UP)
+        self._measure(bin_)
 
     def house(self, skus: Iterable[str]) -> None:
         """Gives each SKU that has lost all its bins a bin of a SKU with several: the emptiest,
         which is not refilled before it is empty."""
-        for sku in (one for one in skus if not self._kept_for[one]):
+        for sku in skus:
+            if self._kept_for[sku]:
+                continue
             free = (b for b in self.bins.values() if b.bin_id not in self._heirs)
-            bins = [one for one in free if self._kept_for[one.sku] > 1 and one.fallen is None]
+            bins = [bin_ for bin_ in free if self._kept_for[bin_.sku] > 1 and bin_.fallen is None]
             if not bins:
                 return
-            one = min(bins, key=lambda one: (one.quantity + one.expected, one.bin_id))
-            if one.empty:
-                self._rename(one, sku)
-                self.changed.add(one)
+            bin_ = min(bins, key=lambda bin_: (bin_.quantity + bin_.expected, bin_.bin_id))
+            if bin_.empty:
+                self._rename(bin_, sku)
+                self.changed.add(bin_)
             else:
-                self._keep_for(one, sku)
-                self._heirs[one.bin_id] = sku
+                self._keep_for(bin_, sku)
+                self._heirs[bin_.bin_id] = sku
 
-    def write_off(self, one: Bin) -> None:
+    def write_off(self, bin_: Bin) -> None:
         """Removes a bin with its pieces, of which none are promised or expected any more."""
-        if one.fallen is not None:
-            self.pick_up(one)
-        if one.quantity:
-            self.move(one, one.sku, -one.quantity, Reason.GONE)
-        self.capacity -= one.capacity
-        self._kept_for[one.sku] -= 1
-        self._forget_room(one)
-        self.empty.pop(one.bin_id, None)
-        del self.bins[one.bin_id]
-        self.of_unit[one.unit].remove(one)
-        if not self.of_unit[one.unit]:
-            del self.of_unit[one.unit]
+        if bin_.fallen is not None:
+            self.pick_up(bin_)
+        if bin_.quantity:
+            self.move(bin_, bin_.sku, -bin_.quantity, Reason.GONE)
+        self.capacity -= bin_.capacity
+        self._kept_for[bin_.sku] -= 1
+        self._forget_room(bin_)
+        self.empty.pop(bin_.bin_id, None)
+        del self.bins[bin_.bin_id]
+        self.of_unit[bin_.unit].remove(bin_)
+        if not self.of_unit[bin_.unit]:
+            del self.of_unit[bin_.unit]
 
-    def _expect(self, one: Bin, sku: str, quantity: int) -> None:
-        one.expected += quantity
+    def _expect(self, bin_: Bin, sku: str, quantity: int) -> None:
+        bin_.expected += quantity
         self.expected += quantity
         self._incoming[sku] += quantity
-        self._measure(one)
+        self._measure(bin_)
 
-    def _index(self, one: Bin) -> None:
-        bins = self._of_sku[one.sku]
-        if bool(one.quantity) == (one.bin_id in bins):
+    def _index(self, bin_: Bin) -> None:
+        bins = self._of_sku[bin_.sku]
+        if bool(bin_.quantity) == (bin_.bin_id in bins):
             return
-        self._rows_of.pop(one.sku, None)
-        if one.quantity:
-            bins[one.bin_id] = one
+        self._rows_of.pop(bin_.sku, None)
+        if bin_.quantity:
+            bins[bin_.bin_id] = bin_
         else:
-            del bins[one.bin_id]
+            del bins[bin_.bin_id]
 
-    def _rename(self, one: Bin, sku: str) -> None:
+    def _rename(self, bin_: Bin, sku: str) -> None:
         """Assigns another SKU to an empty bin."""
-        if one.sku != sku:
-            self._forget_room(one)
-        if one.sku != sku and not self._heirs.pop(one.bin_id, ""):
-            self._keep_for(one, sku)
-        one.sku = sku
+        if bin_.sku != sku:
+            self._forget_room(bin_)
+        if bin_.sku != sku and not self._heirs.pop(bin_.bin_id, ""):
+            self._keep_for(bin_, sku)
+        bin_.sku = sku
 
-    def _keep_for(self, one: Bin, sku: str) -> None:
-        self._kept_for[one.sku] -= 1
+    def _keep_for(self, bin_: Bin, sku: str) -> None:
+        self._kept_for[bin_.sku] -= 1
         self._kept_for[sku] += 1
 
-    def _measure(self, one: Bin) -> None:
-        if one.empty:
-            self.empty[one.bin_id] = one
+    def _measure(self, bin_: Bin) -> None:
+        if bin_.empty:
+            self.empty[bin_.bin_id] = bin_
         else:
-            self.empty.pop(one.bin_id, None)
-        if one.room < ROOMY:
-            self._forget_room(one)
-        elif one.bin_id not in self._roomy:
-            self._roomy.add(one.bin_id)
-            self.roomy[one.sku] += 1
-            self.room_changed.add(one.sku)
+            self.empty.pop(bin_.bin_id, None)
+        if bin_.room < ROOMY:
+            self._forget_room(bin_)
+        elif bin_.bin_id not in self._roomy:
+            self._roomy.add(bin_.bin_id)
+            self.roomy[bin_.sku] += 1
+            self.room_changed.add(bin_.sku)
 
-    def _forget_room(self, one: Bin) -> None:
-        if one.bin_id in self._roomy:
-            self._roomy.discard(one.bin_id)
-            self.roomy[one.sku] -= 1
-            self.room_changed.add(one.sku)
+    def _forget_room(self, bin_: Bin) -> None:
+        if bin_.bin_id in self._roomy:
+            self._roomy.discard(bin_.bin_id)
+            self.roomy[bin_.sku] -= 1
+            self.room_changed.add(bin_.sku)

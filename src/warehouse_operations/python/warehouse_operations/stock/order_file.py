@@ -8,15 +8,17 @@ The first line has names of columns, each further one is an order line:
     A-17,sku-9,1,0,1800,0
 
 Rows of one reference are one order. `at` [s of the shift] is when it comes (0), `due` when it is to
-be complete (0: at any time), `priority` 0 to 255; these three may be left out. Fields end at
-commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
+be complete (0: at any time), `priority` 0 to 255; these three may be left out. Instead of seconds
+`at` and `due` may be dates, `2025-03-01 08:15:00`: the shift begins at the first midnight then.
+Fields end at commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
 """
 
 import os
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
 from warehouse_layout.file.csv_table import CsvTable, fields, shown
@@ -24,6 +26,8 @@ from warehouse_operations.stock import acceptance
 
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
 MOST_FAULTS = 20
+MOST_SECONDS, DAY = 1e9, 86_400.0  # of a time of the shift [s]
+LARGE = 1e6  # numbers from which on a limit is not named to a person
 TEXT = "orders"  # what a text in place of a file is called in messages
 
 
@@ -32,7 +36,7 @@ class DemandError(ValueError):
 
 
 class Fault(NamedTuple):
-    """What is wrong in a line, counted from 1, and in which column; 0 and "": as a whole."""
+    """A fault in a line, counted from 1, and a column; 0 and "": in the whole file."""
 
     line: int
     column: str
@@ -70,7 +74,7 @@ def read_csv(
     table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
     orders, faults = _read(table, skus, capacity)
     if faults:
-        raise DemandError("\n".join(f"{path}:{one.line}: {one.text}" for one in faults))
+        raise DemandError("\n".join(f"{path}:{fault.line}: {fault.text}" for fault in faults))
     return orders
 
 
@@ -88,8 +92,8 @@ def parse_csv(
         table = CsvTable(TEXT, NEEDED, OPTIONAL, DemandError, text)
         return _read(table, skus, capacity)
     except DemandError as error:
-        found = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
-        start, line = (found.end(), int(found[1] or 0)) if found else (0, 0)
+        match = re.match(rf"{TEXT}:(?:(\d+):)? ", str(error))
+        start, line = (match.end(), int(match[1] or 0)) if match else (0, 0)
         return [], [Fault(line, "", str(error)[start:])]
 
 
@@ -99,13 +103,15 @@ def _read(
     faults: list[Fault] = []
     orders = _Orders(skus, capacity)
     for row in table:
+        errors: list[ValueError]
         try:
-            orders.add(row, table.decimal_comma)
+            errors = [*orders.add(row, table.decimal_comma)]
         except ValueError as error:
-            faults.append(Fault(table.line, getattr(error, "column", ""), str(error)))
-        if len(faults) == MOST_FAULTS:
+            errors = [error]
+        faults += [Fault(table.line, getattr(e, "column", ""), str(e)) for e in errors]
+        if len(faults) >= MOST_FAULTS:
             break
-    return orders.wanted(), faults
+    return orders.wanted(), faults[:MOST_FAULTS]
 
 
 class _Orders:
@@ -116,30 +122,29 @@ class _Orders:
         self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
         self._pieces: Counter[str] = Counter()
         self._unknown: set[str] = set()  # SKUs, each of which is named once
+        self._dated = False  # whether times are dates
 
-    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
-        """Adds a row. Raises ValueError, which says what is wrong with it."""
+    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> list[_FieldError]:
+        """Adds a row; returns what is wrong with its fields. Raises ValueError, which says what is
+        wrong with the row."""
         row = fields(row)
         if not row:
-            return
-        reference, sku = row["reference"], row["sku"]
-        if not reference:
-            raise _FieldError("reference", "reference is empty")
-        if fault := acceptance.fault_of_head(reference):
-            raise _FieldError("reference", fault)
-        if not sku or (self._skus is not None and sku not in self._skus):
-            if sku and sku in self._unknown:
-                return
-            self._unknown.add(sku)
-            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
-        quantity = _field(row, "quantity", int, 1, 2**31 - 1)
+            return []
         if decimal_comma:
             row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}
-        rest = (
-            _field(row, "at", float, 0, 1e9),
-            _field(row, "due", float, 0, 1e9),
-            _field(row, "priority", int, 0, 255),
-        )
+        faults: list[_FieldError] = []
+        values = [
+            _tried(read, row, faults)
+            for read in (self._reference, self._sku, _quantity, self._at, self._due, _priority)
+        ]
+        if not faults and None not in values:
+            reference, sku, quantity, *rest = values
+            self._take(reference, sku, quantity, tuple(rest))
+        return faults
+
+    def _take(
+        self, reference: str, sku: str, quantity: int, rest: tuple[float, float, int]
+    ) -> None:
         lines, first = self._rows.setdefault(reference, ({}, rest))
         if rest != first:
             raise ValueError(f"at, due or priority differ from the first row of {reference}")
@@ -150,12 +155,89 @@ class _Orders:
         if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
             raise _FieldError("quantity", f"{reference}: {fault}")
 
+    def _reference(self, row: Mapping[str, str]) -> str:
+        reference = row["reference"]
+        if not reference:
+            raise _FieldError("reference", "reference is empty")
+        if fault := acceptance.fault_of_head(reference):
+            raise _FieldError("reference", fault)
+        return reference
+
+    def _sku(self, row: Mapping[str, str]) -> str | None:
+        """Returns a known SKU; None for an unknown one that was named before."""
+        sku = row["sku"]
+        if sku and (self._skus is None or sku in self._skus):
+            return sku
+        if sku and sku in self._unknown:
+            return None
+        self._unknown.add(sku)
+        raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
+
+    def _at(self, row: Mapping[str, str]) -> float:
+        return self._time(row, "at")
+
+    def _due(self, row: Mapping[str, str]) -> float:
+        return self._time(row, "due")
+
+    def _time(self, row: Mapping[str, str], name: str) -> float:
+        """Returns a time [s]: of the shift, or of a date, since 1970."""
+        text = row.get(name, "")
+        date = _date(text)
+        if text and date is None and not self._dated:
+            return float(_field(row, name, float, 0, MOST_SECONDS))
+        if not text and (name == "due" or not self._dated):
+            return 0.0
+        if date is None or (self._rows and not self._dated):
+            raise _FieldError(
+                name, f"{name} is '{shown(text)}'; dates in all rows, or in none, were expected"
+            )
+        self._dated = True
+        return date
+
     def wanted(self) -> list[Wanted]:
         """Returns the orders, in the order of their first rows."""
-        return [
+        orders = [
             Wanted(tuple(lines.items()), *rest, reference)
             for reference, (lines, rest) in self._rows.items()
         ]
+        if not self._dated or not orders:
+            return orders
+        begin = DAY * (min(order.at for order in orders) // DAY)
+        return [
+            replace(order, at=order.at - begin, due=max(order.due - begin, 1.0) if order.due else 0)
+            for order in orders
+        ]
+
+
+def _tried(
+    read: Callable[[Mapping[str, str]], Any], row: Mapping[str, str], faults: list[_FieldError]
+) -> Any:
+    """Returns what is read of a row; None, with one fault more, where it is wrong."""
+    try:
+        return read(row)
+    except _FieldError as error:
+        faults.append(error)
+        return None
+
+
+def _quantity(row: Mapping[str, str]) -> Any:
+    return _field(row, "quantity", int, 1, 2**31 - 1)
+
+
+def _priority(row: Mapping[str, str]) -> Any:
+    return _field(row, "priority", int, 0, 255)
+
+
+def _date(text: str) -> float | None:
+    """Returns the seconds since 1970 of a date as people write it; None for other texts."""
+    if not re.match(r"\d{4}-\d\d-\d\d", text):
+        return None
+    try:
+        date = datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    # Local times: the offset to UTC would move orders into other hours of the day.
+    return date.replace(tzinfo=UTC).timestamp()
 
 
 def _field(
@@ -170,7 +252,10 @@ def _field(
         value = None
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
+        # A limit that no order comes near says nothing to a person who has mistyped.
+        is_near = most < LARGE or (value is not None and value > most)
+        limit = f"to {most:,.0f}" if is_near else "on"
         raise _FieldError(
-            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:.10g} was expected"
+            name, f"{name} is '{shown(text)}'; {what} from {least} {limit} was expected"
         )
     return value

@@ -63,21 +63,14 @@ class Alike:
         """Draws an order; it comes whether its SKUs are in stock or not."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
-        one = self._orders[int(rng.integers(len(self._orders)))]
-        due = now + one.due - one.at if one.due else 0.0
-        return Wanted(one.lines, now, due, one.priority)
+        draft = self._orders[int(rng.integers(len(self._orders)))]
+        due = now + draft.due - draft.at if draft.due else 0.0
+        return Wanted(draft.lines, now, due, draft.priority)
 
 
 def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str:
     """Returns the orders text that make() reads: `mix:…`."""
     return f"mix:{per_hour!r}:" + (file or f"{lines!r}x{pieces!r}")
-
-
-def file_of(orders: str) -> str:
-    """Returns the CSV file that an orders text names, by itself or in a mix; "" if none."""
-    if orders.startswith("mix:"):
-        orders = orders.removeprefix("mix:").partition(":")[2]
-    return orders if orders.endswith(".csv") else ""
 
 
 def make(
@@ -95,7 +88,7 @@ def make(
             raise DemandError(f"{mix}: there is no order in it")
         return per_hour, Alike(orders, rng)
     lines, _, pieces = mix.partition("x")
-    means = (_number(text, one, 1, MOST_MEAN) for one in (lines, pieces))
+    means = (_number(text, part, 1, MOST_MEAN) for part in (lines, pieces))
     return per_hour, Mixed(assortment, rng, *means)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from warehouse_operations.stock.message_enums import OrderState
+from warehouse_layout.message_enums import OrderState
 
 
 class Line:
@@ -125,9 +125,11 @@ class Backlog:
         """
         served: dict[Order, int] = {}
         for sku, pieces in stock.items():
-            for line, wanted in self.lines_of(sku).items():
-                found = served.get(line.order, 0)
-                served[line.order] = found + (wanted if wanted < pieces else pieces)
+            for line, open_pieces in self.lines_of(sku).items():
+                served_so_far = served.get(line.order, 0)
+                served[line.order] = served_so_far + (
+                    open_pieces if open_pieces < pieces else pieces
+                )
         return served
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from warehouse_fleet.transports.transports import STORE, Answer, TransportEvent
+from warehouse_fleet.transports.transports import STORE, TransportAnswer, TransportEvent
 
 
 class Task(NamedTuple):
@@ -59,7 +59,7 @@ class Requests(Protocol):
         y: float | None = None,
         then: int = STORE,
         priority: int = 0,
-    ) -> Answer:
+    ) -> TransportAnswer:
         """Asks for a transport to a station, or to the cell at x, y in world [m]."""
 
     def release(self, transport_id: int) -> tuple[bool, str]:

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift knows of its stations, and of the units that visit them."""
+"""The stations of a shift, and the visits of units to them."""
 
+import math
 from collections import defaultdict, deque
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+
 from warehouse_layout.floor.stations import PICK
+from warehouse_layout.message_enums import StationMode
 from warehouse_operations.stock.inventory import Bin, Inventory
-from warehouse_operations.stock.message_enums import Mode
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.totes import Totes
@@ -51,7 +54,7 @@ class Visit:
 
     @property
     def pieces_to_pick(self) -> int:
-        """How many pieces are still to be picked from its unit."""
+        """The number of pieces still to be picked from its unit."""
         return sum(pick.quantity for pick in self.picks)
 
     def piece_to_pick(self, index: int) -> Pick:
@@ -67,7 +70,8 @@ class WorkStation:
     """A station for picking or replenishing; `place` is the floor's Station.
 
     settings: its own. picks, replenishes: what is done there, one of them or both. began:
-    when its shift begins [s].
+    when its shift begins [s]. on_hands_free: called with the station where its people can begin
+    with something else.
     """
 
     def __init__(
@@ -78,14 +82,17 @@ class WorkStation:
         began: float = 0.0,
     ) -> None:
         self.name, self.kind = place.name, place.kind
-        self.mode, self.inventory = Mode.AUTOMATIC, inventory
+        self.mode, self.inventory, self.settings = StationMode.AUTOMATIC, inventory, settings
         self.is_open, self._opened, self._open_s = True, began, 0.0
         self.picks = place.kind == PICK
         self.replenishes = settings.replenishes or not self.picks
         self.capacity = settings.slots if self.picks else 0
         self.seconds_a_piece, self.seconds_a_bundle = settings.piece_s, settings.bundle_s
         self.pick_seconds = min(settings.pick_s, settings.piece_s)
-        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
+        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers_at(0.0)
+        self.most_pickers = max(settings.pickers, *settings.roster, 1)
+        self.piece_sd, self._rng = settings.piece_sd, np.random.default_rng(1)
+        self._picker_s, self._changed = 0.0, began  # of its pickers while it was open, until then
         self.orders: dict[int, Order] = {}  # by id
         self.totes = Totes(self.capacity)
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
@@ -97,11 +104,51 @@ class WorkStation:
         # Lines with pieces for which no unit comes, by (order, line).
         self.missing: dict[tuple[int, int], Line] = {}
         self.pieces = self.visits = 0  # done here
+        self.on_hands_free: list[Callable[[WorkStation], object]] = []
 
     def set_open(self, is_open: bool, now: float) -> None:
         """Opens or closes the station at a time [s]."""
+        self._note_pickers(now)
         self._open_s, self._opened = self.open_seconds(now), now
         self.is_open = is_open
+
+    def set_pickers(self, pickers: int, now: float) -> None:
+        """Sets how many people or robots pick here from a time on [s]; 0: a break."""
+        self._note_pickers(now)
+        self.pickers = pickers
+
+    def set_pace(self, seconds_a_piece: float | tuple[float, float]) -> None:
+        """Sets the time from a piece to the next [s]: a number, or a mean with its deviation."""
+        mean, deviation = (
+            seconds_a_piece if isinstance(seconds_a_piece, tuple) else (seconds_a_piece, 0.0)
+        )
+        self.seconds_a_piece, self.piece_sd = mean, deviation
+        self.pick_seconds = min(self.pick_seconds, mean)
+
+    @property
+    def settings_now(self) -> Settings:
+        """Its settings with the pickers of this moment and their pace."""
+        return replace(self.settings, pickers=self.pickers, piece_s=self.seconds_a_piece)
+
+    def set_chance(self, rng: np.random.Generator) -> None:
+        """Sets what the times of pieces are drawn with."""
+        self._rng = rng
+
+    def draw_times(self) -> tuple[float, float]:
+        """Returns how long a piece takes, and the part of that until it is out of its bin [s]:
+        log-normal where people differ from piece to piece."""
+        if not self.piece_sd:
+            return self.seconds_a_piece, self.pick_seconds
+        spread = math.log(1 + (self.piece_sd / self.seconds_a_piece) ** 2)
+        factor = math.exp(math.sqrt(spread) * self._rng.standard_normal() - spread / 2)
+        return factor * self.seconds_a_piece, factor * self.pick_seconds
+
+    def _note_pickers(self, now: float) -> None:
+        self._picker_s, self._changed = self.picker_seconds(now), now
+
+    def picker_seconds(self, now: float) -> float:
+        """Returns the time of all its pickers until a time while it was open [s]."""
+        return self._picker_s + (self.pickers * (now - self._changed) if self.is_open else 0.0)
 
     def open_seconds(self, now: float) -> float:
         """Returns for how long it was open until a time [s]."""
@@ -109,8 +156,13 @@ class WorkStation:
 
     def busy_fraction(self, now: float) -> float:
         """Returns the share of its pickers' hours in which they worked, until a time [s]."""
-        hours = self.open_seconds(now) * self.pickers
-        return self.busy_s / hours if hours else 0.0
+        time = self.picker_seconds(now)
+        return self.busy_s / time if time else 0.0
+
+    def next_work(self) -> None:
+        """Starts what its people can do next."""
+        for start in self.on_hands_free:
+            start(self)
 
     def take_on(self, order: Order, again: bool = False) -> None:
         """Adds an order, in a tote of its own; `again`: in the one that it had here."""
@@ -124,7 +176,7 @@ class WorkStation:
 
     @property
     def free_slots(self) -> int:
-        """How many more orders can be open here."""
+        """The number of further orders that can be open here."""
         return self.capacity - len(self.orders)
 
     @property
@@ -144,7 +196,7 @@ class WorkStation:
     def waiting(self, now: float) -> float:
         """Returns how long a task has waited for a person [s]; 0 without one."""
         visit = self.here
-        if self.mode != Mode.MANUAL or not visit or visit.arrived is None:
+        if self.mode != StationMode.MANUAL or not visit or visit.arrived is None:
             return 0.0
         if not (visit.picks or visit.puts):
             return 0.0
@@ -162,7 +214,7 @@ class WorkStation:
     def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
         stock: dict[str, int] = defaultdict(int)
         for visit in visits:
-            for one in self.inventory.of_unit[visit.unit]:
-                if one.available:
-                    stock[one.sku] += one.available
+            for bin_ in self.inventory.of_unit[visit.unit]:
+                if bin_.available:
+                    stock[bin_.sku] += bin_.available
         return stock

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the totes of a picking station's orders stand."""
+"""The places of the totes at a picking station."""
 
 from collections import deque
 from collections.abc import Iterator

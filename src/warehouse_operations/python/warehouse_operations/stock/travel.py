@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long robots take without traffic, in closed form on a floor plan.
+"""Travel times of robots without traffic, in closed form on a floor plan.
 
 A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
 turn takes its time, and a start and stop more.
@@ -17,7 +17,7 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 
 HEADINGS = 4
 TABLES = 400  # kept at most, the least recently used is dropped
-PLACE_TABLES = 4000  # likewise of storage places alone: a floor of 50,000 cells has a thousand
+PLACE_TABLES = 4000  # most tables of storage places alone: a floor of 50,000 cells has a thousand
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -77,7 +77,7 @@ class Travel:
 
     def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
         """Returns how long a loaded robot takes to a cell from others, most often storage places,
-        (n,) [s]; anything where there is none."""
+        (n,) [s]; anything where there is no way."""
         places = self._place[starts]
         seconds = self._of_storage(cell, False)[0][places]
         if (off := (places < 0) & (starts >= 0)).any():

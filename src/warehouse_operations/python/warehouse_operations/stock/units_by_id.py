@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of storage units by their ids, in arrays: a policy asks for thousands at once."""
+"""Sets and cells of storage units by their ids, in arrays: a policy asks for thousands at once."""
 
 from collections.abc import Iterable, Iterator, Mapping, MutableMapping, MutableSet
 from typing import Any
@@ -67,7 +67,7 @@ class UnitCells(MutableMapping[int, int]):
         self._cells[ids] = np.fromiter(cells.values(), np.int32, len(cells))
 
     def of(self, units: np.ndarray) -> np.ndarray:
-        """Returns the cells of units, (n,); NOWHERE of those that stand in none."""
+        """Returns the cells of units, (n,); NOWHERE for units that stand in no cell."""
         if not len(units):
             return np.zeros(0, np.int32)
         self._cells = _room_for(self._cells, int(units.max()), NOWHERE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where units stand and how far it is from there: what of the floor a shift's policies see."""
+"""The places of units and the ways from there: the floor as a shift's policies see it."""
 
 from collections.abc import Mapping
 
@@ -31,13 +31,15 @@ class Whereabouts:
         self.plan, self.robots, self.units = plan, dict(robots), dict(units)
         self.cells = UnitCells(units)
         self._travel = travel or Travel(plan, Kinematics())
-        self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
-        self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
+        self._service = {
+            station.name: int(station.cells[station.service]) for station in plan.stations
+        }
+        self._picking = [station.name for station in plan.stations if station.kind == "PICK"]
         self._place_rank: np.ndarray | None = None
 
     @property
     def reach(self) -> float:
-        """How much longer than the nearest unit one may take to a station [s]: on a wide floor
+        """The longest detour of a unit to a station, against the nearest unit [s]: on a wide floor
         there is always a better one, far away."""
         return REACH if len(self.units) > WIDE else np.inf
 

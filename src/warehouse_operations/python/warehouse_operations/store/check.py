@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a database balances: every piece exists once, nothing was done twice or half."""
+"""Checks that a database balances: every piece exists once, nothing was done twice or half."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -86,16 +86,16 @@ RULES = (
 
 
 def faults(engine: Engine, most: int = 20) -> list[str]:
-    """Returns sentences about what does not balance, at most so many a rule; none is good.
+    """Returns sentences about what does not balance, up to `most` a rule; [] where all does.
 
     Raises DatabaseError where values can't be read, as after damage to the file.
     """
-    found = []
+    sentences = []
     with _reading(engine) as connection:
         for sentence, query in RULES:
             rows = connection.execute(text(query)).fetchmany(most)
-            found += [sentence.format(*row) for row in rows]
-    return found
+            sentences += [sentence.format(*row) for row in rows]
+    return sentences
 
 
 def summary(engine: Engine) -> dict[str, Any]:

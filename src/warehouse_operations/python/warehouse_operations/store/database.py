@@ -27,9 +27,11 @@ WAITING = 20_000  # commits at most that are not written yet; beyond, the shift 
 
 
 class Database:
-    """Takes Rows from any thread and writes them in order on its own; no other program may, for as
-    long. url: see engines.url_of. gather: for so long [s] rows may wait for others, with which they
-    are written at less cost. Raises DatabaseError."""
+    """Takes Rows from any thread and writes them in order on its own; it locks out other programs.
+
+    url: see engines.url_of. gather: the longest time that rows wait for others, with which they are
+    written at less cost [s]. Raises DatabaseError.
+    """
 
     def __init__(self, url: str, gather: float = 0.0) -> None:
         self.url, self.engine = shown(url), make_engine(url)
@@ -94,14 +96,14 @@ class Database:
                 taken.append(self._queue.get())
             ended = None in taken
             rows = Rows()
-            for one in taken:
-                if one is not None:
-                    rows.merge(one)
+            for rows_of_commit in taken:
+                if rows_of_commit is not None:
+                    rows.merge(rows_of_commit)
             try:
                 if rows and not self._error:
                     with self.engine.begin() as connection:
                         rows.write(connection)
-            except Exception as error:  # told to those who put or flush
+            except Exception as error:  # raised by the next put or flush
                 self._error = error
             for _ in taken:
                 self._queue.task_done()

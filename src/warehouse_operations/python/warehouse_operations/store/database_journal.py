@@ -2,24 +2,22 @@
 """The journal that keeps a shift in a database."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sqlalchemy import func, select, update
 
+from warehouse_layout.message_enums import OrderEventKind, OrderState
 from warehouse_operations.shift.journal import Journal
+from warehouse_operations.shift.task_reports import Answer, Report
+from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderEventKind, OrderState
 from warehouse_operations.stock.orders import Line, Order
 from warehouse_operations.stock.stations import Visit
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.store import schema
 from warehouse_operations.store.rows import Rows
-
-if TYPE_CHECKING:
-    from warehouse_operations.shift.shift import Shift
-    from warehouse_operations.shift.tasks import Answer, Report
-    from warehouse_operations.store.stored import Stored
 
 
 class DatabaseJournal(Journal):
@@ -70,41 +68,41 @@ class DatabaseJournal(Journal):
             kpis=None,
         )
 
-    def begin(self, shift: "Shift") -> None:
+    def begin(self, assortment: Assortment, bins: Collection[Bin]) -> None:
         """Writes a new warehouse: its SKUs, units and bins, still empty."""
-        shares = zip(shift.assortment.skus, shift.assortment.popularity)
+        shares = zip(assortment.skus, assortment.popularity)
         for number, (sku, share) in enumerate(shares, 1):
             self._rows.insert(schema.sku, sku, number=number, popularity=float(share))
-        self.take_in(shift.inventory.bins.values())
+        self.take_in(bins)
 
     def take_in(self, bins: Iterable[Bin], moved: Iterable[Bin] = ()) -> None:
         """Writes bins that are new, still empty, and those that are on another unit now."""
-        for unit in dict.fromkeys(one.unit for one in (*bins, *moved)):
+        for unit in dict.fromkeys(bin_.unit for bin_ in (*bins, *moved)):
             if unit not in self._units:
                 self._units.add(unit)
                 self._rows.insert(schema.unit, unit, in_service=1)
-        for one in bins:
-            put = self._rows.update if one.bin_id in self._bins else self._rows.insert
+        for bin_ in bins:
+            put = self._rows.update if bin_.bin_id in self._bins else self._rows.insert
             put(
                 schema.bin_,
-                one.bin_id,
-                item=one.item,
-                unit=one.unit,
-                sku=one.sku,
+                bin_.bin_id,
+                item=bin_.item,
+                unit=bin_.unit,
+                sku=bin_.sku,
                 quantity=0,
                 reserved=0,
-                capacity=one.capacity,
+                capacity=bin_.capacity,
             )
-        for one in moved:
-            self._rows.update(schema.bin_, one.bin_id, unit=one.unit)
+        for bin_ in moved:
+            self._rows.update(schema.bin_, bin_.bin_id, unit=bin_.unit)
 
     def gone(self, bins: Iterable[Bin]) -> None:
         """Writes bins that are no longer in the warehouse, and were written off."""
-        for one in bins:
-            self._rows.update(schema.bin_, one.bin_id, capacity=0)
+        for bin_ in bins:
+            self._rows.update(schema.bin_, bin_.bin_id, capacity=0)
 
-    def resume(self, stored: "Stored") -> None:
-        """What an earlier run left under way has ended: its visits, assignments and promises. The
+    def resume(self, stored: Stored) -> None:
+        """Ends what an earlier run left under way: its visits, assignments and promises. The
         orders of a Stored warehouse are this run's from now on, and so are their times."""
         with self._database.engine.begin() as connection:
             self._rows.write(connection)  # with this run
@@ -143,7 +141,7 @@ class DatabaseJournal(Journal):
     def move(
         self,
         now: float,
-        one: Bin,
+        bin_: Bin,
         quantity: int,
         reason: Reason,
         line: Line | None,
@@ -156,8 +154,8 @@ class DatabaseJournal(Journal):
             self._id(schema.move),
             run=self.run_id,
             stamp=now,
-            bin=one.bin_id,
-            sku=one.sku,
+            bin=bin_.bin_id,
+            sku=bin_.sku,
             quantity=quantity,
             reason=reason.value,
             order_id=line.order.order_id if line else None,
@@ -247,10 +245,6 @@ class DatabaseJournal(Journal):
             **values,
         )
 
-    def unit(self, unit: int, in_service: bool) -> None:
-        """Writes that a storage unit goes out of service, or returns to it."""
-        self._rows.update(schema.unit, unit, in_service=int(in_service))
-
     def event(
         self,
         now: float,
@@ -277,7 +271,7 @@ class DatabaseJournal(Journal):
             text=text,
         )
 
-    def report(self, now: float, report: "Report", answer: "Answer") -> None:
+    def report(self, now: float, report: Report, answer: Answer) -> None:
         """Writes a person's Report that has an id, and the Answer that it got."""
         self._rows.insert(
             schema.report,
@@ -301,16 +295,13 @@ class DatabaseJournal(Journal):
         self._heat_slots.add(slot)
         put(schema.heat, slot, run=self.run_id, began_s=began, maps=maps)
 
-    def commit(self, shift: "Shift") -> None:
+    def commit(self, now: float, bins: Collection[Bin]) -> None:
         """Passes everything since the last call to the database, to be written together."""
-        changed = shift.inventory.changed
-        for one in sorted(changed, key=lambda one: one.bin_id):
-            self._rows.update(
-                schema.bin_, one.bin_id, sku=one.sku, quantity=one.quantity, reserved=one.reserved
-            )
-        changed.clear()
+        for bin_ in sorted(bins, key=lambda bin_: bin_.bin_id):
+            values = {"sku": bin_.sku, "quantity": bin_.quantity, "reserved": bin_.reserved}
+            self._rows.update(schema.bin_, bin_.bin_id, **values)
         if self._rows:
-            self._rows.update(schema.run, self.run_id, simulated_s=shift.now)
+            self._rows.update(schema.run, self.run_id, simulated_s=now)
             self._database.put(self._rows)
             self._rows = Rows()
 
@@ -318,10 +309,10 @@ class DatabaseJournal(Journal):
         """Waits until everything that was committed is in the database."""
         self._database.flush()
 
-    def end(self, shift: "Shift", figures: dict[str, Any]) -> None:
+    def end(self, now: float, bins: Collection[Bin], figures: dict[str, Any]) -> None:
         """Writes the end of the run, with its figures."""
         self._rows.update(schema.run, self.run_id, ended=_now(), kpis=json.dumps(figures))
-        self.commit(shift)
+        self.commit(now, bins)
 
     def _id(self, table: Any) -> int:
         key = self._next[table]

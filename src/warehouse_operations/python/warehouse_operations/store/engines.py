@@ -123,10 +123,10 @@ def _make_private(path: Path) -> None:
 
 
 def _check_pages(connection: Any) -> None:
-    found = connection.execute(text("PRAGMA quick_check(1)")).scalar()
-    if found != "ok":
-        told = " ".join(str(found).replace("*", "").split())
-        raise schema.SchemaError(f"is damaged ({told}); use another one, or a copy")
+    result = connection.execute(text("PRAGMA quick_check(1)")).scalar()
+    if result != "ok":
+        words = " ".join(str(result).replace("*", "").split())
+        raise schema.SchemaError(f"is damaged ({words}); use another one, or a copy")
 
 
 def lock(engine: Engine, text: Any) -> contextlib.AbstractContextManager[Any]:
@@ -167,5 +167,9 @@ def _server_lock(engine: Engine, name: str) -> contextlib.AbstractContextManager
         ).bindparams(**keys)
     ).first()
     connection.close()
-    told = f"{by[0] or 'another program'}, since {by[1]:%Y-%m-%d %H:%M:%S}" if by else "another one"
-    raise DatabaseError(f"{name}: is in use by {told}; end that first, or choose another database")
+    holder = (
+        f"{by[0] or 'another program'}, since {by[1]:%Y-%m-%d %H:%M:%S}" if by else "another one"
+    )
+    raise DatabaseError(
+        f"{name}: is in use by {holder}; end that first, or choose another database"
+    )

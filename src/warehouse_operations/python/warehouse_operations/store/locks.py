@@ -83,8 +83,8 @@ class FileLock:
 
 
 def _forked() -> None:
-    for one in list(_HELD):
-        one.leave_to_parent()
+    for held in list(_HELD):
+        held.leave_to_parent()
 
 
 os.register_at_fork(after_in_child=_forked)

@@ -4,83 +4,58 @@
 import itertools
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from warehouse_operations.stock.assortment import CAPACITY
 from warehouse_operations.stock.inventory import Bin
-
-if TYPE_CHECKING:
-    from warehouse_operations.stock.site import Site
-    from warehouse_operations.store.stored import Stored
+from warehouse_operations.stock.site import Site
+from warehouse_operations.stock.stored_warehouse import Changes, Stored
 
 
 class SiteError(ValueError):
     """Raised for a database of another warehouse."""
 
 
-@dataclass(frozen=True)
-class Changes:
-    """The differences between the bins of a warehouse and of its database.
-
-    gone: bins of the database that the warehouse has no more. new: empty bins that the database
-    does not have yet. moved: bins that are on another unit now.
-    """
-
-    gone: list[Bin]
-    new: list[Bin]
-    moved: list[Bin]
-
-    def __str__(self) -> str:
-        told = []
-        if self.gone:
-            pieces = sum(one.quantity + (one.fallen or 0) for one in self.gone)
-            told.append(f"{_named(self.gone)} gone: {pieces} pieces are written off")
-        if self.new:
-            told.append(f"{_named(self.new)} new, and still empty")
-        if self.moved:
-            told.append(f"{_named(self.moved)} on another storage unit than before")
-        return "; ".join(told)
-
-
-def layout_of(site: "Site") -> list[str]:
+def layout_of(site: Site) -> list[str]:
     """Returns the stations with their places [m], sorted: a warehouse is recognised by them."""
     plan = site.plan
-    places = ((one.name, *plan.point_of(int(one.cells[one.service]))) for one in plan.stations)
+    places = (
+        (station.name, *plan.point_of(int(station.cells[station.service])))
+        for station in plan.stations
+    )
     return sorted(f"{name} at ({x:.2f}, {y:.2f})" for name, x, y in places)
 
 
-def changes(site: "Site", stored: "Stored", url: str) -> Changes:
+def changes(site: Site, stored: Stored, url: str) -> Changes:
     """Returns what changed at a Site since it was Stored, and moves bins to their units of now.
 
     Raises SiteError if the database at url is of another warehouse.
     """
-    here, there = dict(site.items), {one.item for one in stored.bins}
-    gone = [one for one in stored.bins if one.item not in here]
-    moved = [one for one in stored.bins if one.unit != here.get(one.item, one.unit)]
+    here, there = dict(site.items), {bin_.item for bin_ in stored.bins}
+    gone = [bin_ for bin_ in stored.bins if bin_.item not in here]
+    moved = [bin_ for bin_ in stored.bins if bin_.unit != here.get(bin_.item, bin_.unit)]
     _check(layout_of(site), stored, len(gone), len(moved), url)
-    for one in moved:
-        one.unit = here[one.item]
+    for bin_ in moved:
+        bin_.unit = here[bin_.item]
     items = [(item, unit) for item, unit in here.items() if item not in there]
     return Changes(gone, _new_bins(items, stored, here), moved)
 
 
 def _new_bins(
-    items: Iterable[tuple[str, int]], stored: "Stored", here: Mapping[str, int]
+    items: Iterable[tuple[str, int]], stored: Stored, here: Mapping[str, int]
 ) -> list[Bin]:
     """Returns empty bins for items, each kept for the SKU with the fewest bins."""
-    count = Counter(one.sku for one in stored.bins if one.item in here)
+    count = Counter(bin_.sku for bin_ in stored.bins if bin_.item in here)
     rank = {sku: rank for rank, sku in enumerate(stored.assortment.skus)}
     numbers, result = itertools.count(stored.last_bin + 1), []
     for item, unit in items:
         number = stored.former.get(item) or next(numbers)
-        sku = min(rank, key=lambda one: (count[one], rank[one]))
+        sku = min(rank, key=lambda name: (count[name], rank[name]))
         count[sku] += 1
         result.append(Bin(number, item, unit, CAPACITY, sku))
     return result
 
 
-def _check(layout: Sequence[str], stored: "Stored", gone: int, moved: int, url: str) -> None:
+def _check(layout: Sequence[str], stored: Stored, gone: int, moved: int, url: str) -> None:
     """Raises SiteError if stations differ other than by loss or gain alone, or most bins do."""
     other = f"{url} is of another warehouse"
     if stored.layout is not None and not (
@@ -95,12 +70,3 @@ def _check(layout: Sequence[str], stored: "Stored", gone: int, moved: int, url: 
             f"{other}: of its {bins} bins, {gone} are not here and {moved} are on other storage "
             "units; choose another database, or bring the storage units back"
         )
-
-
-def _named(bins: Sequence[Bin]) -> str:
-    """Returns words for bins with the first units by name, and the verb."""
-    units = sorted({one.unit for one in bins})
-    names = ", ".join(map(str, units[:5])) + (f" and {len(units) - 5} more" if units[5:] else "")
-    which = f"{len(bins)} bins" if len(bins) > 1 else bins[0].item
-    where = f"storage unit{'s' if len(units) > 1 else ''} {names}"
-    return f"{which} of {where} {'are' if len(bins) > 1 else 'is'}"

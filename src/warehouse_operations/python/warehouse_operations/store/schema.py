@@ -72,6 +72,7 @@ sku = Table(
     Column("popularity", Float, nullable=False),
 )
 
+# in_service is 1 everywhere; databases of earlier versions have the column, too.
 unit = Table("unit", metadata, _id(), Column("in_service", Integer, nullable=False))
 
 bin_ = Table(
@@ -236,15 +237,16 @@ def prepare(
         metadata.create_all(connection)
         connection.execute(insert(schema_version).values(version=version))
         return
-    found = connection.execute(select(schema_version.c.version)).scalars().all()
-    if len(found) != 1 or not isinstance(found[0], int) or found[0] < 1:
-        told = ", ".join(map(str, found)) or "none"
-        raise SchemaError(f"the schema version is {told}; 1 to {version} was expected")
-    if found[0] > version:
+    versions = connection.execute(select(schema_version.c.version)).scalars().all()
+    if len(versions) != 1 or not isinstance(versions[0], int) or versions[0] < 1:
+        words = ", ".join(map(str, versions)) or "none"
+        raise SchemaError(f"the schema version is {words}; 1 to {version} was expected")
+    (current,) = versions
+    if current > version:
         raise SchemaError(
-            f"the database is of schema version {found[0]}; this program knows {version} and older"
+            f"the database is of schema version {current}; this program knows {version} and older"
         )
-    for step in range(found[0], version):
+    for step in range(current, version):
         migrations[step](connection)
         connection.execute(update(schema_version).values(version=step + 1))
     _check_tables(connection)

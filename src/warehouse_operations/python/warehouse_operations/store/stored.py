@@ -4,42 +4,24 @@
 import json
 from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from sqlalchemy import Table, and_, func, or_, select
 from sqlalchemy.engine import Connection, Engine
 
-from warehouse_operations.shift.kpis import INTERVAL
-from warehouse_operations.shift.tasks import Answer, Report
+from warehouse_layout.message_enums import OrderState, PickOutcome
+from warehouse_operations.shift.tally import INTERVAL
+from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
-from warehouse_operations.stock.message_enums import OrderState, Outcome
 from warehouse_operations.stock.orders import Order
+from warehouse_operations.stock.stored_warehouse import Stored
 from warehouse_operations.store import schema
 
 
-@dataclass(frozen=True)
-class Stored:
-    """A warehouse at rest: nothing is promised or under way, units stand, orders wait."""
-
-    assortment: Assortment
-    bins: list[Bin]
-    former: dict[str, int]  # ids of bins that are gone, by item
-    last_bin: int  # the highest id there was
-    orders: list[
-        Order
-    ]  # those that are not over; their times are those of a run that begins at `now`
-    last_order: int  # the highest id there was
-    blocked: set[int]  # units out of service
-    layout: (
-        list[Any] | None
-    )  # what returning.layout_of gave the last run; None: of an older version
-
-
 def read(engine: Engine, now: float = 0.0) -> Stored | None:
-    """Reads the warehouse of a database; None if there is none.
+    """Reads the warehouse of a database; None where it holds no warehouse.
 
     now: the simulated time at which the next run begins [s].
     """
@@ -51,13 +33,11 @@ def read(engine: Engine, now: float = 0.0) -> Stored | None:
             tuple(row.sku for row in skus), np.array([row.popularity for row in skus])
         )
         last = connection.execute(select(func.max(schema.orders.c.id))).scalar() or 0
-        units = connection.execute(select(schema.unit.c.id).where(schema.unit.c.in_service == 0))
         return Stored(
             assortment,
             *_bins(connection, assortment.skus),
             _orders(connection, now),
             last,
-            set(units.scalars()),
             _layout(connection),
         )
 
@@ -65,8 +45,8 @@ def read(engine: Engine, now: float = 0.0) -> Stored | None:
 def _layout(connection: Connection) -> list[Any] | None:
     run = schema.run.c
     query = select(run.layout).where(run.layout.is_not(None)).order_by(run.id.desc()).limit(1)
-    found = connection.execute(query).scalar()
-    return None if found is None else json.loads(found)
+    layout = connection.execute(query).scalar()
+    return None if layout is None else json.loads(layout)
 
 
 def transports_left(engine: Engine) -> tuple[set[int], int | None]:
@@ -84,7 +64,7 @@ def throughput(
 ) -> tuple[float, dict[int, int], dict[int, int], dict[int, int]]:
     """Returns (begin, picked, stored, completed) of the runs before one that begins at `now`.
 
-    begin: their first moment. The counts are those of kpis.Tally in each kpis.INTERVAL from `since`
+    begin: their first moment. The counts are those of tally.Tally in each INTERVAL from `since`
     on, by its number. Times are those of the run that begins [s]."""
     move, order, begin = schema.move.c, schema.orders.c, now
     picked: dict[int, int] = defaultdict(int)
@@ -125,13 +105,13 @@ def reports(engine: Engine, most: int) -> list[tuple[Report, Answer]]:
     """Returns what people at stations reported under ids, the last ones, the oldest first."""
     rows = select(schema.report).order_by(schema.report.c.id.desc()).limit(most)
     with engine.connect() as connection:
-        found = list(connection.execute(rows))
-    return [(_report(row), Answer(True, row.message, row.done)) for row in reversed(found)]
+        newest = list(connection.execute(rows))
+    return [(_report(row), Answer(True, row.message, row.done)) for row in reversed(newest)]
 
 
 def _report(row: Any) -> Report:
     named = row.station, row.order_id, row.item, row.sequence
-    return Report(*named, row.quantity, Outcome(row.outcome), row.code)
+    return Report(*named, row.quantity, PickOutcome(row.outcome), row.code)
 
 
 def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:
@@ -170,9 +150,9 @@ def _bins(connection: Connection, skus: Iterable[str]) -> tuple[list[Bin], dict[
         if not row.capacity:
             former[row.item] = row.id
             continue
-        one = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
-        one.quantity, one.fallen = row.quantity, fallen.get(row.id)
-        result.append(one)
+        bin_ = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
+        bin_.quantity, bin_.fallen = row.quantity, fallen.get(row.id)
+        result.append(bin_)
     return result, former, last
 
 
@@ -181,7 +161,9 @@ def _fallen(connection: Connection) -> dict[int, int]:
     move = schema.move.c
     pieces = func.sum(move.quantity)
     query = select(move.bin, pieces).where(move.reason.in_((Reason.FELL, Reason.PICKED_UP)))
-    return {one: -n for one, n in connection.execute(query.group_by(move.bin).having(pieces < 0))}
+    return {
+        bin_id: -n for bin_id, n in connection.execute(query.group_by(move.bin).having(pieces < 0))
+    }
 
 
 def _orders(connection: Connection, now: float) -> list[Order]:

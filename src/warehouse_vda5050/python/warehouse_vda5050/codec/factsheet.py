@@ -85,7 +85,7 @@ def _action_json(action: SupportedAction) -> dict[str, Any]:
 
 
 def _described(action: SupportedAction) -> str:
-    types = ", ".join(one.value for one in action.blocking if one is not BlockingType.SINGLE)
+    types = ", ".join(kind.value for kind in action.blocking if kind is not BlockingType.SINGLE)
     return f"{action.description}; blocking types: {types}"
 
 
@@ -133,5 +133,5 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
 
 def _read_action(fields: Fields) -> SupportedAction:
     scopes = fields.any("actionScopes", [])
-    told = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
-    return SupportedAction(fields.text("actionType"), told, fields.text("actionDescription", ""))
+    names = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
+    return SupportedAction(fields.text("actionType"), names, fields.text("actionDescription", ""))

@@ -12,8 +12,8 @@ from warehouse_vda5050.model import (
     Header,
     InstantActions,
     Node,
-    Order,
     Position,
+    VehicleOrder,
 )
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.fields import Fields
@@ -21,10 +21,10 @@ from warehouse_vda5050.validation.fields import Fields
 NODE_DEMANDS, EDGE_DEMANDS = demands(POSITION), demands(EDGE)
 
 
-def read_order(fields: Fields, header: Header) -> Order:
+def read_order(fields: Fields, header: Header) -> VehicleOrder:
     """Returns an order. Raises MessageError."""
     fields.skip(*shown(ORDER))
-    order = Order(
+    order = VehicleOrder(
         fields.text("orderId"),
         fields.natural("orderUpdateId"),
         tuple(_read_node(node) for node in fields.objects("nodes")),
@@ -141,7 +141,7 @@ def read_instant_actions(fields: Fields, header: Header) -> InstantActions:
     return InstantActions(tuple(actions), header)
 
 
-def order_json(order: Order) -> dict[str, Any]:
+def order_json(order: VehicleOrder) -> dict[str, Any]:
     """Returns the object of an order."""
     return {
         **header_json(order.header),

@@ -18,14 +18,14 @@ from warehouse_vda5050.model import (
     Load,
     NodeState,
     OperatingMode,
-    State,
+    VehicleState,
     Velocity,
     Visualization,
 )
 from warehouse_vda5050.validation.fields import Fields
 
 
-def state_json(state: State) -> dict[str, Any]:
+def state_json(state: VehicleState) -> dict[str, Any]:
     """Returns the object of a state.
 
     A paused action is told as RUNNING, with `paused` beside it: the published schema of 2.1.0
@@ -66,8 +66,8 @@ def state_json(state: State) -> dict[str, Any]:
 
 def _node_state_json(node: NodeState) -> dict[str, Any]:
     position = node.position and position_json(node.position)
-    told = {"nodeId": node.id, "sequenceId": node.sequence, "released": node.released}
-    return {**told, **without_nothing(nodePosition=position)}
+    fields = {"nodeId": node.id, "sequenceId": node.sequence, "released": node.released}
+    return {**fields, **without_nothing(nodePosition=position)}
 
 
 def _action_state_json(action: ActionState) -> dict[str, Any]:
@@ -118,12 +118,12 @@ def visualization_json(message: Visualization) -> dict[str, Any]:
     return {**header_json(message.header), **_motion_json(message.position, message.velocity)}
 
 
-def read_state(fields: Fields, header: Header) -> State:
+def read_state(fields: Fields, header: Header) -> VehicleState:
     """Returns a state; what a vehicle leaves out has its default. Raises MessageError."""
     fields.skip("zoneSetId", "zoneSets", "plannedPath", "intermediatePath", "information", "maps")
     fields.skip("zoneRequests", "edgeRequests", "zoneActionStates")
     safety, battery = fields.object("safetyState") or Fields({}), fields.object("batteryState")
-    state = State(
+    state = VehicleState(
         fields.text("orderId", ""),
         fields.natural("orderUpdateId", 0),
         fields.text("lastNodeId", ""),

@@ -30,17 +30,17 @@ from warehouse_vda5050.model import (
     Header,
     InstantActions,
     Message,
-    Order,
-    State,
+    VehicleOrder,
+    VehicleState,
     Visualization,
 )
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation.fields import Fields
 
 WRITERS: dict[type, Callable[[Any], dict[str, Any]]] = {
-    Order: order_json,
+    VehicleOrder: order_json,
     InstantActions: instant_actions_json,
-    State: state_json,
+    VehicleState: state_json,
     Connection: connection_json,
     Visualization: visualization_json,
     Factsheet: factsheet_json,

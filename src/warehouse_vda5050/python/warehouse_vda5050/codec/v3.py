@@ -11,7 +11,7 @@ from typing import Any
 
 from warehouse_vda5050.codec.v2 import CodecV2
 from warehouse_vda5050.errors import LEVELS, Error, former_type, precise_type
-from warehouse_vda5050.model import ActionState, Factsheet, Message, State
+from warehouse_vda5050.model import ActionState, Factsheet, Message, VehicleState
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation.fields import Fields
 
@@ -83,7 +83,11 @@ NEAREST: dict[str, dict[str, str]] = {
 }
 # Errors name fields of orders.
 FIELD = re.compile(rf"\b({'|'.join(NAMES[Kind.ORDER])})\b")
-KINDS = {"State": Kind.STATE, "Order": Kind.ORDER, "InstantActions": Kind.INSTANT_ACTIONS}
+KINDS = {
+    "VehicleState": Kind.STATE,
+    "VehicleOrder": Kind.ORDER,
+    "InstantActions": Kind.INSTANT_ACTIONS,
+}
 KINDS |= {"Connection": Kind.CONNECTION, "Visualization": Kind.VISUALIZATION}
 KINDS |= {"Factsheet": Kind.FACTSHEET}
 
@@ -95,19 +99,19 @@ class CodecV3(CodecV2):
         """Returns the object that stands for a message."""
         kind = KINDS[type(message).__name__]
         value = _renamed(super().to_json(message), NAMES[kind], VALUES)
-        if isinstance(message, State):
+        if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
-            for told, error in zip(value["errors"], message.errors):
-                _tell_error(told, error)
+            for row, error in zip(value["errors"], message.errors):
+                _tell_error(row, error)
         for node in value.get("nodes", ()):
             _give_axes(node.get("nodePosition", {}))
         for edge in value.get("edges", ()):
             edge.pop("startNodeId", None), edge.pop("endNodeId", None)
         if isinstance(message, Factsheet):
             told_actions = value["protocolFeatures"]["mobileRobotActions"]
-            for told, action in zip(told_actions, message.actions):
-                told["blockingTypes"] = [one.value for one in action.blocking]
-                told["pauseAllowed"], told["cancelAllowed"] = action.can_pause, action.can_cancel
+            for row, action in zip(told_actions, message.actions):
+                row["blockingTypes"] = [blocking.value for blocking in action.blocking]
+                row["pauseAllowed"], row["cancelAllowed"] = action.can_pause, action.can_cancel
         return value
 
     def of_json(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
@@ -120,14 +124,14 @@ class CodecV3(CodecV2):
         instant = value.pop("instantActionStates", None)
         if kind is Kind.STATE and isinstance(instant, list):
             marked = [{**item, "instant": True} for item in instant if isinstance(item, dict)]
-            told = value.get("actionStates")
-            value["actionStates"] = [*(told if isinstance(told, list) else ()), *marked]
+            reported = value.get("actionStates")
+            value["actionStates"] = [*(reported if isinstance(reported, list) else ()), *marked]
         return value
 
     def read(self, kind: Kind, fields: Fields) -> Any:
         """Returns the message that an object stands for. Raises MessageError."""
         message = super().read(kind, fields)
-        if isinstance(message, State):
+        if isinstance(message, VehicleState):
             return replace(message, errors=tuple(_former(error) for error in message.errors))
         return message
 
@@ -155,14 +159,14 @@ def _give_axes(position: dict[str, Any]) -> None:
         position["allowedDeviationXY"] = {"a": radius, "b": radius, "theta": 0.0}
 
 
-def _tell_error(told: dict[str, Any], error: Error) -> None:
+def _tell_error(fields: dict[str, Any], error: Error) -> None:
     """Gives an error the type and level that 3.0 has for it, and fields their names there."""
     names = NAMES[Kind.ORDER]
-    told["errorType"] = precise_type(error)
-    told["errorLevel"] = LEVELS.get(told["errorType"], told["errorLevel"])
-    if "errorDescription" in told:
-        told["errorDescription"] = FIELD.sub(lambda m: names[m[1]], told["errorDescription"])
-    for reference in told["errorReferences"]:
+    fields["errorType"] = precise_type(error)
+    fields["errorLevel"] = LEVELS.get(fields["errorType"], fields["errorLevel"])
+    if "errorDescription" in fields:
+        fields["errorDescription"] = FIELD.sub(lambda m: names[m[1]], fields["errorDescription"])
+    for reference in fields["errorReferences"]:
         if reference["referenceKey"] == "field":
             name = reference["referenceValue"]
             reference["referenceValue"] = names.get(name, name)
@@ -175,8 +179,8 @@ def _former(error: Error) -> Error:
 
 def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:
     """Parts the states of instant actions from those of the order, and tells what is paused."""
-    told = value.pop("actionStates")
-    for item, action in zip(told, actions):
+    reported = value.pop("actionStates")
+    for item, action in zip(reported, actions):
         item["actionStatus"] = action.status.value
-    value["actionStates"] = [a for a, b in zip(told, actions) if not b.instant]
-    value["instantActionStates"] = [a for a, b in zip(told, actions) if b.instant]
+    value["actionStates"] = [a for a, b in zip(reported, actions) if not b.instant]
+    value["instantActionStates"] = [a for a, b in zip(reported, actions) if b.instant]

@@ -12,7 +12,7 @@ class RefusedError(ValueError):
 
 @dataclass(frozen=True)
 class Follow:
-    """As warehouse_msgs/FollowPath: points in the frame world [m]."""
+    """A path or a change of one, as warehouse_msgs/FollowPath: points in the frame world [m]."""
 
     path_id: int
     first: int
@@ -22,7 +22,7 @@ class Follow:
 
 @dataclass(frozen=True)
 class Lift:
-    """As warehouse_msgs/Lift; shelf_id 0: what it carries."""
+    """A lift or a drop, as warehouse_msgs/Lift; shelf_id 0: the unit that the robot carries."""
 
     up: bool
     shelf_id: int
@@ -30,12 +30,12 @@ class Lift:
 
 @dataclass(frozen=True)
 class Cancel:
-    """As warehouse_msgs/Cancel."""
+    """The end of a command, as warehouse_msgs/Cancel."""
 
 
 @dataclass(frozen=True)
 class Stop:
-    """As warehouse_msgs/Stop."""
+    """An emergency stop or its end, as warehouse_msgs/Stop."""
 
     stop: bool
 

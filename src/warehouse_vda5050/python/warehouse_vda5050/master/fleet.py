@@ -8,7 +8,7 @@ from warehouse_vda5050.master.commands import Cancel, Command, Stop
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow, shadow_of
-from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
 from warehouse_vda5050.topics import Identity
 
 ALL = 0  # the number that stands for every robot in a Stop
@@ -39,17 +39,17 @@ class RemoteFleet:
         elif kiva_id in self._vehicles:
             self._vehicles[kiva_id].command(command)
 
-    def take(self, identity: Identity, message: State | Connection, now: float) -> None:
+    def take(self, identity: Identity, message: VehicleState | Connection, now: float) -> None:
         """Takes in what a vehicle tells; that of vehicles that are in no file is dropped."""
         vehicle = self._by_identity.get(identity)
         if vehicle is None:
             return
-        if isinstance(message, State):
+        if isinstance(message, VehicleState):
             vehicle.take_state(message, now)
         else:
             vehicle.take_connection(message.state, now)
 
-    def messages(self, now: float) -> Iterator[tuple[Identity, Order | InstantActions]]:
+    def messages(self, now: float) -> Iterator[tuple[Identity, VehicleOrder | InstantActions]]:
         """Yields what is to be sent now, and to which vehicle."""
         for vehicle in self._vehicles.values():
             for message in vehicle.messages(now):
@@ -57,8 +57,8 @@ class RemoteFleet:
 
     def shadows(self, now: float) -> list[Shadow]:
         """Returns what the warehouse is told now, of the vehicles that have told where they are."""
-        told = (shadow_of(vehicle, now) for vehicle in self._vehicles.values())
-        return [shadow for shadow in told if shadow is not None]
+        shadows = (shadow_of(vehicle, now) for vehicle in self._vehicles.values())
+        return [shadow for shadow in shadows if shadow is not None]
 
     def take_events(self) -> list[Happened]:
         """Returns what has happened since the last call."""

@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from warehouse_vda5050.model import Action, BlockingType, InstantActions, State
+from warehouse_vda5050.model import Action, BlockingType, InstantActions, VehicleState
 
 RESEND = 2.0  # [s] without an answer
 MOST_TIMES = 10
@@ -37,16 +37,18 @@ class InstantRequests:
     def forget(self, *kinds: str) -> None:
         """Sends actions of these types no more: one that is wanted now must not be undone."""
         self._pending = {
-            name: one for name, one in self._pending.items() if one.action.type not in kinds
+            name: request
+            for name, request in self._pending.items()
+            if request.action.type not in kinds
         }
 
     def due(self, now: float) -> InstantActions | None:
         """Returns what is to be sent now."""
-        pending = [one for one in self._pending.values() if not one.is_given_up]
-        due = [one for one in pending if one.due <= now]
-        for one in due:
-            one.times, one.due = one.times + 1, now + RESEND
-        return InstantActions(tuple(one.action for one in due)) if due else None
+        pending = [request for request in self._pending.values() if not request.is_given_up]
+        due = [request for request in pending if request.due <= now]
+        for request in due:
+            request.times, request.due = request.times + 1, now + RESEND
+        return InstantActions(tuple(request.action for request in due)) if due else None
 
     def is_pending(self, name: str) -> bool:
         """Returns whether the vehicle has not answered an action yet, and it is still sent."""
@@ -56,7 +58,7 @@ class InstantRequests:
         """Returns whether the vehicle did not answer an action however often it was sent."""
         return name in self._pending and self._pending[name].is_given_up
 
-    def take(self, state: State) -> None:
+    def take(self, state: VehicleState) -> None:
         """Takes in a state: what it answers is sent no more."""
         for action in state.actions:
             self._pending.pop(action.id, None)

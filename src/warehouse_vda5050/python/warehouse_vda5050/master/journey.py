@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from warehouse_vda5050.driver import Point
-from warehouse_vda5050.master.commands import Follow, RefusedError
+from warehouse_vda5050.master.commands import Follow, Lift, RefusedError
 from warehouse_vda5050.master.whereabouts import NEAR, SQUARE
-from warehouse_vda5050.model import Action, Edge, Node, Order, Position
+from warehouse_vda5050.model import Action, Edge, Node, Position, VehicleOrder
 
 # A vehicle takes a node as reached that is within its deviation: without these it does not move.
 EXACTLY = (("allowedDeviationXY", NEAR), ("allowedDeviationTheta", SQUARE))
@@ -31,8 +31,9 @@ class Journey:
     end: int = 0  # sequenceId of the last node that it has
     update: int = -1  # the last orderUpdateId sent
     is_changed: bool = True  # since then
-    sent: Order | None = field(default=None, repr=False)
+    sent: VehicleOrder | None = field(default=None, repr=False)
     actions: tuple[Action, ...] = ()  # at the last point
+    lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
 
     def change(self, command: Follow) -> None:
@@ -92,7 +93,7 @@ class Journey:
         self.sent, self.is_changed = None, False
         self.released = self.had
 
-    def next_order(self, place: PlaceNode) -> Order | None:
+    def next_order(self, place: PlaceNode) -> VehicleOrder | None:
         """Returns the order that says what has changed; None as long as there is nothing to say, or
         the vehicle is yet to tell that it has the last one."""
         if self.awaits_answer or not self.is_changed:
@@ -101,7 +102,7 @@ class Journey:
         first = max(0, self.had - 1)
         nodes = tuple(self._node(i, place) for i in range(first, len(self.points)))
         edges = tuple(self._edge(i, place) for i in range(first, len(self.points) - 1))
-        self.sent = Order(self.order_id, self.update, nodes, edges)
+        self.sent = VehicleOrder(self.order_id, self.update, nodes, edges)
         self.is_changed = False
         return self.sent
 

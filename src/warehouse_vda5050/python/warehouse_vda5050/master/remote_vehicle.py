@@ -8,7 +8,7 @@ clock [s] of any zero.
 import math
 import re
 from dataclasses import dataclass
-from enum import Enum
+from enum import Enum, auto
 
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.grid import Grid
@@ -24,15 +24,42 @@ from warehouse_vda5050.model import (
     ActionStatus,
     ConnectionState,
     InstantActions,
-    Order,
     Position,
-    State,
+    VehicleOrder,
+    VehicleState,
 )
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand, and to its path while it drives
 BACK_OFF = (1.0, 30.0)  # the first and the longest wait after an order that was refused [s]
+
+
+class Phase(Enum):
+    """Where a vehicle is with a command.
+
+    from         on                                                     to
+    IDLE         begin: a command was accepted                          UNDER_WAY
+    IDLE         it drives what no command asks for                     CLEARING
+    UNDER_WAY    end, give up                                           IDLE
+    UNDER_WAY    cancel                                                 CANCELLING
+    CANCELLING   end                                                    IDLE
+    CANCELLING   give up: it never had the order that is cancelled      CLEARING
+    CLEARING     it has no order any more, and has answered             IDLE
+    """
+
+    IDLE = auto()
+    UNDER_WAY = auto()  # a command is carried out by the journey
+    CANCELLING = auto()  # the journey is to end early
+    CLEARING = auto()  # it is to forget an order that belongs to no command
+
+
+FOLLOWS: dict[Phase, frozenset[Phase]] = {
+    Phase.IDLE: frozenset((Phase.UNDER_WAY, Phase.CLEARING)),
+    Phase.UNDER_WAY: frozenset((Phase.IDLE, Phase.CANCELLING)),
+    Phase.CANCELLING: frozenset((Phase.IDLE, Phase.CLEARING)),
+    Phase.CLEARING: frozenset((Phase.IDLE,)),
+}
 
 
 class EventKind(Enum):
@@ -59,7 +86,8 @@ class Happened:
 
 
 class RemoteVehicle:
-    """Drives one vehicle. `run` tells the orders of this run from those of others."""
+    """Drives one vehicle. `run` tells the orders of this run from those of others. There is a
+    journey while a command is UNDER_WAY or CANCELLING."""
 
     def __init__(self, robot: RemoteRobot, grid: Grid, run: str) -> None:
         self.robot, self._grid, self._run = robot, grid, run
@@ -67,9 +95,9 @@ class RemoteVehicle:
         self._instants = InstantRequests(f"{run}-{robot.number}")
         self._state_id = self._instants.ask("stateRequest")  # else the first may be 30 s away
         self._count = 0  # of orders
+        self._phase = Phase.IDLE
         self._journey: Journey | None = None
-        self._lift: Lift | None = None  # that the journey is made for
-        self._cancelling, self._cancel_id = False, ""
+        self._cancel_id = ""
         self._sent_at, self._times = 0.0, 0
         self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
         self._fatal: frozenset[str] = frozenset()  # what it told last
@@ -91,7 +119,7 @@ class RemoteVehicle:
         except RefusedError as refusal:
             self._happened(EventKind.REFUSED, str(refusal))
 
-    def take_state(self, state: State, now: float) -> None:
+    def take_state(self, state: VehicleState, now: float) -> None:
         """Takes in what the vehicle tells; what is older than what it told before is dropped."""
         before, heard_at, was_there = self.view.pose, self.view.heard_at, self.view.is_there
         if not self.view.take_state(state, now):
@@ -99,8 +127,8 @@ class RemoteVehicle:
         self._instants.take(state)
         self._take_load(state)
         self._take_errors()
-        if self._cancelling and not self._journey and self._is_cancelled(state):
-            self._cancelling = False
+        if self._phase is Phase.CLEARING and self._is_cancelled(state):
+            self._go_to(Phase.IDLE)
         if self._journey:
             self._advance(self._journey, state, now)
         if was_there:
@@ -115,7 +143,7 @@ class RemoteVehicle:
 
     # --- out
 
-    def messages(self, now: float) -> list[Order | InstantActions]:
+    def messages(self, now: float) -> list[VehicleOrder | InstantActions]:
         """Returns what is to be sent now."""
         if not self.view.hears:
             return []
@@ -131,7 +159,7 @@ class RemoteVehicle:
     @property
     def is_idle(self) -> bool:
         """Whether it takes a new command."""
-        return self._journey is None and not self._cancelling
+        return self._phase is Phase.IDLE
 
     @property
     def order_id(self) -> str:
@@ -141,7 +169,7 @@ class RemoteVehicle:
     @property
     def lifts(self) -> bool:
         """Whether its command is to take up or put down a unit."""
-        return self._lift is not None
+        return self._journey is not None and self._journey.lift is not None
 
     @property
     def waits(self) -> bool:
@@ -168,8 +196,8 @@ class RemoteVehicle:
 
     def _follow(self, command: Follow) -> None:
         way = self._journey
-        if way and not self._lift and command.path_id == way.path_id:
-            if self._cancelling:
+        if way and not way.lift and command.path_id == way.path_id:
+            if self._phase is Phase.CANCELLING:
                 raise RefusedError("its path is being cancelled")
             way.change(command)
             return
@@ -179,7 +207,7 @@ class RemoteVehicle:
         heading = square(self.view.pose[2]) - self.robot.frame.theta
         way = journey.begin(command, self._next_id(), math.remainder(heading, math.tau))
         self._check_start(way.points[0])
-        self._begin(way, None, f"follow path {way.path_id}")
+        self._begin(way, f"follow path {way.path_id}")
         self.path_id, self.reached = way.path_id, 1
 
     def _begin_lift(self, command: Lift) -> None:
@@ -192,20 +220,28 @@ class RemoteVehicle:
         x, y, _ = self.view.pose
         here = self._grid.position(self._grid.cell_at(x, y))
         action = self._action("pick" if command.up else "drop", unit)
-        way = Journey(0, self._next_id(), [here], 1, actions=(action,))
-        self._begin(way, Lift(command.up, unit), f"{'carry' if command.up else 'drop'} {unit}")
+        lift = Lift(command.up, unit)
+        way = Journey(0, self._next_id(), [here], 1, actions=(action,), lift=lift)
+        self._begin(way, f"{'carry' if command.up else 'drop'} {unit}")
         self.path_id = self.reached = 0
 
     def _action(self, kind: str, unit: int) -> Action:
-        told = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
-        parameters = tuple({**told, **self.robot.action_parameters}.items())
+        values = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
+        parameters = tuple({**values, **self.robot.action_parameters}.items())
         name = f"{self._run}-{self.robot.number}-a{self._count}"
         return Action(kind, name, parameters=parameters)
 
-    def _begin(self, way: Journey, lift: Lift | None, text: str) -> None:
-        self._journey, self._lift, self._times = way, lift, 0
+    def _go_to(self, phase: Phase) -> None:
+        """Enters a phase. Raises ValueError where it does not follow."""
+        if phase not in FOLLOWS[self._phase]:
+            raise ValueError(f"{phase.name} can't follow {self._phase.name}")
+        self._phase = phase
+
+    def _begin(self, way: Journey, text: str) -> None:
+        self._go_to(Phase.UNDER_WAY)
+        self._journey, self._times = way, 0
         self.last_end = None
-        self._happened(EventKind.ACCEPTED, text, lift.shelf_id if lift else 0)
+        self._happened(EventKind.ACCEPTED, text, way.lift.shelf_id if way.lift else 0)
 
     def _check_ready(self) -> None:
         if why := self.view.why_not:
@@ -222,20 +258,33 @@ class RemoteVehicle:
             )
 
     def _cancel(self) -> None:
-        if self._journey and not self._cancelling:
+        if self._phase is Phase.UNDER_WAY:
+            self._go_to(Phase.CANCELLING)
             self._ask_to_cancel()
 
+    def _clear(self) -> None:
+        """Has the vehicle forget an order that belongs to no command."""
+        self._go_to(Phase.CLEARING)
+        self._ask_to_cancel()
+
     def _ask_to_cancel(self) -> None:
-        self._cancelling, self._cancel_id = True, self._instants.ask("cancelOrder")
+        self._cancel_id = self._instants.ask("cancelOrder")
+
+    @property
+    def _is_ending(self) -> bool:
+        """Whether the vehicle was asked to cancel its order."""
+        return self._phase in (Phase.CANCELLING, Phase.CLEARING)
 
     def _insist(self) -> None:
         """Asks again to cancel what a vehicle that never answered still drives."""
         drives = self.view.state is not None and self.view.state.nodes
-        if self._cancelling and drives and self._instants.is_given_up(self._cancel_id):
+        if self._is_ending and drives and self._instants.is_given_up(self._cancel_id):
             self._ask_to_cancel()
 
-    def _is_cancelled(self, state: State) -> bool:
-        return not state.nodes and not self._instants.is_pending(self._cancel_id)
+    def _is_cancelled(self, state: VehicleState) -> bool:
+        """Returns whether the vehicle was asked to cancel its order, and has done so."""
+        has_answered = not self._instants.is_pending(self._cancel_id)
+        return self._is_ending and not state.nodes and has_answered
 
     # --- the order under way
 
@@ -248,10 +297,10 @@ class RemoteVehicle:
         x, y = self.robot.frame.to_vehicle(*point)
         return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
 
-    def _due_order(self, now: float) -> Order | None:
+    def _due_order(self, now: float) -> VehicleOrder | None:
         """Returns the next order; or the last one again, while the vehicle does not tell it."""
         way = self._journey
-        if way is None or self._cancelling:
+        if way is None or self._phase is not Phase.UNDER_WAY:
             return None
         if way.awaits_answer:
             return self._again(way, now)
@@ -262,7 +311,7 @@ class RemoteVehicle:
             self._sent_at, self._times = now, 0
         return order
 
-    def _again(self, way: Journey, now: float) -> Order | None:
+    def _again(self, way: Journey, now: float) -> VehicleOrder | None:
         """Returns the last order once more, if that is due.
 
         An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
@@ -275,7 +324,7 @@ class RemoteVehicle:
         if way.had or self._times < MOST_TIMES:
             return way.sent
         self._give_up(way, "the vehicle does not tell that it has the order")
-        self._ask_to_cancel()  # it may have it all the same
+        self._clear()  # it may have it all the same
         return None
 
     def _ask_for_state(self) -> None:
@@ -287,43 +336,45 @@ class RemoteVehicle:
         self._happened(EventKind.REFUSED, why)
         way.refuse()
         if not way.had:
-            self._journey = self._lift = None
+            self._journey = None
+            is_cancelling = self._phase is Phase.CANCELLING
+            self._go_to(Phase.CLEARING if is_cancelling else Phase.IDLE)
 
-    def _advance(self, way: Journey, state: State, now: float) -> None:
+    def _advance(self, way: Journey, state: VehicleState, now: float) -> None:
         if state.order_id == way.order_id and way.confirm(state.order_update):
             self._refusals = 0
         self._note_refusal(way, state, now)
         if self._journey is None or state.order_id != way.order_id:
-            if self._cancelling and self._is_cancelled(state):
+            if self._is_cancelled(state):
                 self._end(EventKind.DONE, "cancelled")
             elif self._journey and way.had:
                 self._end(EventKind.BLOCKED, "the vehicle does not know its order any more")
             return
-        if not self._lift and state.last_node_sequence <= 2 * (way.had - 1):
+        if not way.lift and state.last_node_sequence <= 2 * (way.had - 1):
             self.reached = max(self.reached, state.last_node_sequence // 2 + 1)
         if not state.nodes and not state.driving:
             self._settle(way, state)
 
-    def _settle(self, way: Journey, state: State) -> None:
+    def _settle(self, way: Journey, state: VehicleState) -> None:
         """Ends the command where nothing of it is left to be done."""
-        if self._cancelling and self._is_cancelled(state):
+        if self._is_cancelled(state):
             self._end(EventKind.DONE, "cancelled")
             return
         if way.is_cut_short(state.order_update, state.last_node_sequence):
             self._end(EventKind.BLOCKED, f"others ended its order at {state.last_node}")
             return
         mine = {action.id for action in way.actions}
-        told = {one.id: one for one in state.actions if one.id in mine}
-        failed = [one for one in told.values() if one.status == ActionStatus.FAILED]
+        states = {act.id: act for act in state.actions if act.id in mine}
+        failed = [act for act in states.values() if act.status == ActionStatus.FAILED]
         if failed:
             self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
             return
-        is_told = way.is_whole and all(name in told for name in mine)
-        if is_told and all(one.status.is_over for one in told.values()):
+        is_told = way.is_whole and all(name in states for name in mine)
+        if is_told and all(act.status.is_over for act in states.values()):
             self._finish(way)
 
     def _finish(self, way: Journey) -> None:
-        lift = self._lift
+        lift = way.lift
         if way.straightens and (why := missed(self.view.pose, way.points[0])):
             self._end(EventKind.BLOCKED, why)
             return
@@ -336,20 +387,21 @@ class RemoteVehicle:
             self.load = lift.shelf_id if lift.up else 0
 
     def _end(self, kind: EventKind, text: str) -> None:
-        self._journey, self._lift, self._cancelling = None, None, False
+        self._go_to(Phase.IDLE)
+        self._journey = None
         if self.view.state:
             self._take_load(self.view.state)  # a lift that was cancelled may be done all the same
         self.last_end = kind
         self._happened(kind, text)
 
-    def _note_refusal(self, way: Journey, state: State, now: float) -> None:
+    def _note_refusal(self, way: Journey, state: VehicleState, now: float) -> None:
         """Takes an error that names the order for its refusal, as long as it is not confirmed."""
         if not way.awaits_answer:
             return
         for error in state.errors:
-            told = dict(error.references)
-            update = told.get("orderUpdateId", str(way.update))
-            if told.get("orderId") == way.order_id and update == str(way.update):
+            references = dict(error.references)
+            update = references.get("orderUpdateId", str(way.update))
+            if references.get("orderId") == way.order_id and update == str(way.update):
                 wait = min(BACK_OFF[0] * 2**self._refusals, BACK_OFF[1])
                 self._refusals, self._not_before = self._refusals + 1, now + wait
                 self._give_up(way, f"{error.type}: {error.description}")
@@ -369,19 +421,19 @@ class RemoteVehicle:
     def _check_place(self, jump: str) -> None:
         """Ends the path of a vehicle that is not on it any more: others may drive where it is."""
         way = self._journey
-        if way and way.had and not self._lift and not self._cancelling:
+        if way and way.had and not way.lift and self._phase is Phase.UNDER_WAY:
             within = NEAR * self._grid.spacing
             if off := left_way(self.view.pose, way.points[: way.released], within):
                 self._end(EventKind.BLOCKED, jump or off)
-                self._ask_to_cancel()
+                self._clear()
         elif jump and not way:
             self._happened(EventKind.BLOCKED, jump)
 
     # --- what others did
 
-    def _take_load(self, state: State) -> None:
+    def _take_load(self, state: VehicleState) -> None:
         """Believes what the vehicle says of its load; which unit it is, only if no pick told."""
-        if self._lift or not self.view.tells_loads:
+        if self.lifts or not self.view.tells_loads:
             return
         if not state.loads:
             self.load = 0
@@ -390,12 +442,11 @@ class RemoteVehicle:
         if named and not self.load:
             self.load = int(named[1])
 
-    def _end_foreign(self, state: State) -> None:
+    def _end_foreign(self, state: VehicleState) -> None:
         """Has an order cancelled that an earlier run or another master left, or that was given up
         and came all the same."""
-        if self._journey or self._cancelling or not state.nodes:
-            return
-        self._ask_to_cancel()
+        if self._phase is Phase.IDLE and state.nodes:
+            self._clear()
 
     def _happened(self, kind: EventKind, text: str, unit: int = 0) -> None:
         self._events.append(Happened(self.robot.number, kind, text, unit))

@@ -41,38 +41,38 @@ class RemoteRobot:
 def read(path: Path) -> list[RemoteRobot]:
     """Returns the robots of a file, by number. Raises RobotsFileError."""
     try:
-        told = yaml.safe_load(user_file.read_text(path))
+        entries = yaml.safe_load(user_file.read_text(path))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RobotsFileError(f"{path}: {error}") from error
-    if not isinstance(told, dict) or not told:
+    if not isinstance(entries, dict) or not entries:
         raise RobotsFileError(
             f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}"
         )
-    robots = [_robot(f"{path}: robot {number}", number, one) for number, one in told.items()]
+    robots = [_robot(f"{path}: robot {number}", number, entry) for number, entry in entries.items()]
     _check_distinct(path, robots)
     return sorted(robots, key=lambda robot: robot.number)
 
 
-def _robot(where: str, number: Any, told: Any) -> RemoteRobot:
+def _robot(where: str, number: Any, entry: Any) -> RemoteRobot:
     if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= MOST_NUMBER:
         raise RobotsFileError(f"{where}: its number must be whole, from 1 to {MOST_NUMBER}")
-    if not isinstance(told, dict):
-        raise RobotsFileError(f"{where}: manufacturer and serial were expected, not {told!r}")
-    for name in told:
+    if not isinstance(entry, dict):
+        raise RobotsFileError(f"{where}: manufacturer and serial were expected, not {entry!r}")
+    for name in entry:
         if name not in FIELDS:
             raise RobotsFileError(f"{where}: unknown field {name!r}; known are {', '.join(FIELDS)}")
     try:
-        identity = Identity(_text(where, told, "manufacturer"), _text(where, told, "serial"))
+        identity = Identity(_text(where, entry, "manufacturer"), _text(where, entry, "serial"))
     except TopicError as error:
         raise RobotsFileError(f"{where}: {error}") from error
-    parameters = told.get("action_parameters", {})
+    parameters = entry.get("action_parameters", {})
     if not isinstance(parameters, dict):
         raise RobotsFileError(f"{where}: action_parameters must be names with values")
-    return RemoteRobot(number, identity, _frame(where, told.get("origin", [0, 0, 0])), parameters)
+    return RemoteRobot(number, identity, _frame(where, entry.get("origin", [0, 0, 0])), parameters)
 
 
-def _text(where: str, told: Mapping[str, Any], name: str) -> str:
-    value = told.get(name)
+def _text(where: str, entry: Mapping[str, Any], name: str) -> str:
+    value = entry.get(name)
     if not isinstance(value, str):
         hint = "; put it in quotes" if isinstance(value, int) else ""
         raise RobotsFileError(f"{where}: {name} must be a text, not {value!r}{hint}")
@@ -88,9 +88,9 @@ def _frame(where: str, origin: Any) -> Frame:
 
 
 def _check_distinct(path: Path, robots: list[RemoteRobot]) -> None:
-    seen: dict[Identity, int] = {}
+    numbers: dict[Identity, int] = {}
     for robot in robots:
-        other = seen.setdefault(robot.identity, robot.number)
+        other = numbers.setdefault(robot.identity, robot.number)
         if other != robot.number:
             name = f"{robot.identity.manufacturer}/{robot.identity.serial}"
             raise RobotsFileError(f"{path}: robots {other} and {robot.number} are both {name}")

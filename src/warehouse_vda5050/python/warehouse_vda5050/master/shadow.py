@@ -5,8 +5,8 @@ import math
 from dataclasses import dataclass
 
 from warehouse_fleet.robots.failures import EMPTY, OUT_OF_ORDER
-from warehouse_fleet.robots.message_enums import EventKind as Ended
-from warehouse_fleet.robots.message_enums import FailureKind, State, Status
+from warehouse_layout.message_enums import EventKind as Ended
+from warehouse_layout.message_enums import FailureKind, State, Status
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
 
 # What breaks, by words in the types that makers give their errors.
@@ -21,7 +21,7 @@ LAST_END = {None: 0, EventKind.DONE: int(Ended.DONE), EventKind.BLOCKED: int(End
 
 @dataclass(frozen=True)
 class Shadow:
-    """As warehouse_msgs/FleetState has it of one robot [m, rad]."""
+    """The state of one robot, as in warehouse_msgs/FleetState [m, rad]."""
 
     kiva_id: int
     x: float

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
-from warehouse_vda5050.model import ConnectionState, OperatingMode, State
+from warehouse_vda5050.model import ConnectionState, OperatingMode, VehicleState
 
 SILENT = 45.0  # [s] without a state: vehicles tell one each 30 s at the latest
 TAKES_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)
@@ -16,14 +16,14 @@ class VehicleView:
     """The newest state of a vehicle, in the warehouse's terms."""
 
     frame: Frame
-    state: State | None = None
+    state: VehicleState | None = None
     connection: ConnectionState | None = None
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
     tells_loads: bool = False
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
-    def take_state(self, state: State, now: float) -> bool:
+    def take_state(self, state: VehicleState, now: float) -> bool:
         """Takes in a state. Returns False for one that is older than the one before.
 
         Older is what both the time and the number of its header say to be: clocks are set back,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.headers import Headers
-from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
@@ -29,17 +29,19 @@ class MasterLink:
         codec: Codec,
         topics: Topics,
         broker: BrokerSettings,
-        take: Callable[[Identity, State | Connection], None],
+        take: Callable[[Identity, VehicleState | Connection], None],
         tell: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self._codec, self._topics, self._take, self._tell = codec, topics, take, tell
-        self._headers = {one: Headers(one, codec.version) for one in who}
-        wanted = [(topics.of(one, kind), kind.qos) for one in self._headers for kind in HEARD]
-        self.link = Link(name, broker, wanted, self._on_message)
+        self._headers = {vehicle: Headers(vehicle, codec.version) for vehicle in who}
+        subscriptions = [
+            (topics.of(vehicle, kind), kind.qos) for vehicle in self._headers for kind in HEARD
+        ]
+        self.link = Link(name, broker, subscriptions, self._on_message)
 
-    def send(self, identity: Identity, message: Order | InstantActions) -> None:
+    def send(self, identity: Identity, message: VehicleOrder | InstantActions) -> None:
         """Sends a message to a vehicle, if there is a connection."""
-        kind = Kind.ORDER if isinstance(message, Order) else Kind.INSTANT_ACTIONS
+        kind = Kind.ORDER if isinstance(message, VehicleOrder) else Kind.INSTANT_ACTIONS
         message = replace(message, header=self._headers[identity].next(kind))
         topic = self._topics.of(identity, kind)
         self.link.publish(Outgoing(topic, self._codec.encode(message), kind.qos, kind.retained))

@@ -39,8 +39,10 @@ class VehicleLink:
         self._now = -math.inf
         self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
-        wanted = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
-        self.link = Link(name, broker, wanted, self._on_message, self._on_connect, self._make_will)
+        subscriptions = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
+        self.link = Link(
+            name, broker, subscriptions, self._on_message, self._on_connect, self._make_will
+        )
 
     def rests(self, now: float) -> bool:
         """Whether a tick would change nothing, as long as the robot reports the same."""
@@ -53,7 +55,7 @@ class VehicleLink:
         self.vehicle.update(now)
         report = self.vehicle.report
         if report is not None and not report.answers:
-            if self.link.wanted:
+            if self.link.is_wanted:
                 self._cut(report.silent)
         elif not self.link.closed:
             self.link.restore()
@@ -70,9 +72,9 @@ class VehicleLink:
         state = self.vehicle.take_state(now)
         if state:
             self._send(Kind.STATE, state)
-        seen = self.vehicle.take_visualization(now)
-        if seen:
-            self._send(Kind.VISUALIZATION, seen)
+        visualization = self.vehicle.take_visualization(now)
+        if visualization:
+            self._send(Kind.VISUALIZATION, visualization)
         factsheet = self.vehicle.take_factsheet()
         if factsheet:
             self._send(Kind.FACTSHEET, factsheet)
@@ -124,8 +126,8 @@ class VehicleLink:
             self.vehicle.on_instant_actions(message, self._now, unknown)
 
     def _check_address(self, message: Any) -> None:
-        told = (message.header.manufacturer, message.header.serial)
+        addressee = (message.header.manufacturer, message.header.serial)
         ours = (self.identity.manufacturer, self.identity.serial)
-        if any(theirs and theirs != our for theirs, our in zip(told, ours)):
-            text = f"the message is for {'/'.join(told)}, and came to {'/'.join(ours)}"
+        if any(theirs and theirs != our for theirs, our in zip(addressee, ours)):
+            text = f"the message is for {'/'.join(addressee)}, and came to {'/'.join(ours)}"
             raise MessageError(text, ErrorType.VALIDATION.value)

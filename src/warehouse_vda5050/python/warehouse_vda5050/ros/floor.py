@@ -16,10 +16,10 @@ def read_map() -> Any:
     return rospy.ServiceProxy("warehouse/map", GetMap)().map
 
 
-def grid_of(told: Any) -> Grid:
+def grid_of(grid: Any) -> Grid:
     """Returns the Grid of a nav_msgs/OccupancyGrid."""
-    corner, spacing = told.info.origin.position, told.info.resolution
-    rows, columns = np.nonzero(is_taken(occupancy_of(told)))
+    corner, spacing = grid.info.origin.position, grid.info.resolution
+    rows, columns = np.nonzero(is_taken(occupancy_of(grid)))
     blocked = frozenset(zip(columns.tolist(), rows.tolist()))
     x, y = corner.x + spacing / 2, corner.y + spacing / 2
-    return Grid(x, y, spacing, told.info.width, told.info.height, blocked)
+    return Grid(x, y, spacing, grid.info.width, grid.info.height, blocked)

@@ -14,9 +14,10 @@ import rospy
 
 from warehouse_client.engine import Engine, EngineError
 from warehouse_client.services import is_offered
-from warehouse_client.warehouse import Warehouse
-from warehouse_fleet.robots.message_enums import EventKind as Kind
-from warehouse_fleet.robots.message_enums import FailureKind, Mode
+from warehouse_client.warehouse import WarehouseClient
+from warehouse_layout.message_enums import EventKind as Kind
+from warehouse_layout.message_enums import FailureKind
+from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
@@ -26,7 +27,7 @@ from warehouse_vda5050.master.fleet import RemoteFleet
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow
-from warehouse_vda5050.model import Connection, InstantActions, Order, State
+from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.telling import BrokerTopic, masters_message
@@ -34,7 +35,7 @@ from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
 PERIOD = 0.1  # of shadows [s, wall]
-Send = Callable[[Identity, Order | InstantActions], None]
+Send = Callable[[Identity, VehicleOrder | InstantActions], None]
 MODES = {True: Mode.AUTOMATIC, False: Mode.MANUAL}  # by whether the vehicle takes orders
 
 
@@ -47,7 +48,7 @@ class Master:
     """
 
     def __init__(
-        self, robots: Iterable[RemoteRobot], warehouse: Warehouse, run: str, broker: str
+        self, robots: Iterable[RemoteRobot], warehouse: WarehouseClient, run: str, broker: str
     ) -> None:
         self._robots, self._run, self._broker = list(robots), run, broker
         self._warehouse = warehouse
@@ -64,7 +65,7 @@ class Master:
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
 
-    def take(self, identity: Identity, message: State | Connection) -> None:
+    def take(self, identity: Identity, message: VehicleState | Connection) -> None:
         """Takes in what a vehicle tells; called by poll()."""
         if self._fleet is not None:
             self._fleet.take(identity, message, time.monotonic())

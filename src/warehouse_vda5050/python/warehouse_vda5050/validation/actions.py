@@ -5,15 +5,15 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from warehouse_vda5050.errors import ErrorType, Predefined
-from warehouse_vda5050.model import Action, Factsheet, Order, SupportedAction
+from warehouse_vda5050.model import Action, Factsheet, SupportedAction, VehicleOrder
 from warehouse_vda5050.validation import MessageError
 
 Reference = tuple[str, str]
 
 
-def check_actions(order: Order, sheet: Factsheet) -> None:
+def check_actions(order: VehicleOrder, sheet: Factsheet) -> None:
     """Raises MessageError, of type orderError, for actions that the factsheet does not have."""
-    known = {one.type: one for one in sheet.actions if "NODE" in one.scopes}
+    known = {supported.type: supported for supported in sheet.actions if "NODE" in supported.scopes}
     for node in order.nodes:
         refer = (("orderId", order.id[:100]), ("nodeId", node.id[:100]))
         if len(node.actions) > sheet.max_actions:
@@ -31,7 +31,9 @@ def check_actions(order: Order, sheet: Factsheet) -> None:
 def unknown_parameters(actions: Iterable[Action], sheet: Factsheet) -> Iterator[str]:
     """Yields the parameters of instant actions that the factsheet does not have: startPause.x. A
     pause or a cancellation is not refused for them."""
-    known = {one.type: {name for name, *_ in one.parameters} for one in sheet.actions}
+    known = {
+        supported.type: {name for name, *_ in supported.parameters} for supported in sheet.actions
+    }
     for action in actions:
         for name, _ in action.parameters:
             if name not in known.get(action.type, {name}):

@@ -12,7 +12,7 @@ from typing import Any
 
 from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell, Grid
-from warehouse_vda5050.model import Edge, Factsheet, Node, Order
+from warehouse_vda5050.model import Edge, Factsheet, Node, VehicleOrder
 from warehouse_vda5050.validation import MessageError
 
 
@@ -38,7 +38,7 @@ class Stretch:
     demands: dict[str, Any]
 
 
-def check_demands(order: Order, cells: list[Cell], robot: Robot) -> None:
+def check_demands(order: VehicleOrder, cells: list[Cell], robot: Robot) -> None:
     """Raises MessageError, of type orderError, that names the first field which can't be met."""
     if order.zone_set:
         _refuse(order, "zoneSetId", f"{order.zone_set[:60]!r}; no zones are known")
@@ -52,7 +52,7 @@ def check_demands(order: Order, cells: list[Cell], robot: Robot) -> None:
 
 
 def _stretch(
-    order: Order, cells: list[Cell], k: int, heading: float, is_loaded: bool, robot: Robot
+    order: VehicleOrder, cells: list[Cell], k: int, heading: float, is_loaded: bool, robot: Robot
 ) -> Stretch:
     (x, y), (to_x, to_y) = robot.grid.position(cells[k - 1]), robot.grid.position(cells[k])
     length = abs(to_x - x) + abs(to_y - y)
@@ -72,7 +72,7 @@ def _loaded_after(node: Node, is_loaded: bool) -> bool:
 # --- edges
 
 
-def _check_edge(order: Order, index: int, stretch: Stretch) -> None:
+def _check_edge(order: VehicleOrder, index: int, stretch: Stretch) -> None:
     edge = order.edges[index]
     for name, value in stretch.demands.items():
         check = EDGE_CHECKS.get(name)
@@ -97,8 +97,8 @@ def _min_height(value: float, on: Stretch) -> str:
 
 def _orientation(value: float, on: Stretch) -> str:
     is_global = on.demands.get("orientationType", "").upper() == "GLOBAL"
-    wanted = value if is_global else on.heading + value
-    if _apart(wanted, on.heading) <= on.robot.sheet.heading_precision:
+    heading = value if is_global else on.heading + value
+    if _apart(heading, on.heading) <= on.robot.sheet.heading_precision:
         return ""
     return "the robot drives forwards along its edges"
 
@@ -141,7 +141,7 @@ EDGE_CHECKS: dict[str, Callable[[Any, Stretch], str]] = {
 # --- nodes
 
 
-def _check_node(order: Order, node: Node, heading: float | None, robot: Robot) -> None:
+def _check_node(order: VehicleOrder, node: Node, heading: float | None, robot: Robot) -> None:
     demands = dict(node.demands)
     if node.position and node.position.theta is not None and heading is not None:
         allowed = demands.get("allowedDeviationTheta", 0.0)
@@ -187,17 +187,17 @@ def _apart(a: float, b: float) -> float:
 # --- maps
 
 
-def check_maps(order: Order, map_id: str) -> None:
+def check_maps(order: VehicleOrder, map_id: str) -> None:
     """Raises MessageError, of type orderError, for nodes of another map than `map_id`."""
     for node in order.nodes:
-        told = node.position.map_id if node.position else ""
-        if told not in ("", map_id):
-            text = f"{told[:60]!r}; {map_id!r} was expected"
+        node_map = node.position.map_id if node.position else ""
+        if node_map not in ("", map_id):
+            text = f"{node_map[:60]!r}; {map_id!r} was expected"
             _refuse(order, "mapId", text, node, Predefined.UNKNOWN_MAP_ID)
 
 
 def _refuse(
-    order: Order,
+    order: VehicleOrder,
     field: str,
     text: str,
     part: Node | Edge | None = None,

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 
 from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell, Grid, GridError
-from warehouse_vda5050.model import Order
+from warehouse_vda5050.model import VehicleOrder
 from warehouse_vda5050.validation import MessageError
 
 MAX_NODES = 1000
 
 
-def check_form(order: Order) -> None:
+def check_form(order: VehicleOrder) -> None:
     """Raises MessageError if nodes and edges don't take turns, or the base has a gap."""
     refer = (("orderId", order.id[:100]),)
     if not order.id:
@@ -31,7 +31,7 @@ def check_form(order: Order) -> None:
         raise MessageError(fault, references=refer)
 
 
-def _form_faults(order: Order) -> Iterator[str]:
+def _form_faults(order: VehicleOrder) -> Iterator[str]:
     first = order.nodes[0]
     if first.sequence % 2:
         yield f"nodes[0].sequenceId is {first.sequence}; an even number was expected"
@@ -55,7 +55,7 @@ def _form_faults(order: Order) -> Iterator[str]:
         yield "two actions have one actionId"
 
 
-def cells_of(order: Order, grid: Grid) -> list[Cell]:
+def cells_of(order: VehicleOrder, grid: Grid) -> list[Cell]:
     """Returns the cell of each node. Raises MessageError, of type orderError or noRouteError."""
     cells: list[Cell] = []
     for node in order.nodes:

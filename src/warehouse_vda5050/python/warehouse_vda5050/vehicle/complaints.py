@@ -8,8 +8,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType, Predefined
-from warehouse_vda5050.model import ActionState, Order
+from warehouse_vda5050.model import ActionState, VehicleOrder
 from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.vehicle.phase import Phase
 
 if TYPE_CHECKING:
     from warehouse_vda5050.vehicle.progress import OrderProgress
@@ -53,7 +54,7 @@ class Complaints:
         if report and report.silent:
             errors.append(Error(ErrorType.SILENT.value, ErrorLevel.FATAL, report.silent))
         order = vehicle.order
-        if order and not order.cancelled and not vehicle.is_cancelling:
+        if order and not order.cancelled and vehicle.phase is not Phase.CANCELLING:
             if vehicle.wheels.fault and not vehicle.is_free:
                 errors.append(_order_fault(order, vehicle.wheels.fault))
             errors += [_action_fault(order, state) for state in vehicle.actions.failed]
@@ -75,7 +76,7 @@ def _action_fault(order: OrderProgress, state: ActionState) -> Error:
 _STAYS = ", and the robot stays where it is"
 
 
-def references(order: Order | OrderProgress) -> tuple[tuple[str, str], ...]:
+def references(order: VehicleOrder | OrderProgress) -> tuple[tuple[str, str], ...]:
     """Returns what masters find an order's errors by."""
     topic = ("topic", Kind.ORDER.value)
     return topic, ("orderId", order.id[:100]), ("orderUpdateId", str(order.update))

@@ -113,21 +113,21 @@ def _go_on(vehicle: Vehicle, action: Action, now: float) -> str | None:
 
 def _charge(on: bool) -> Begin:
     def begin(vehicle: Vehicle, action: Action, now: float) -> str | None:
-        return _unless(vehicle.driver.charge(on))
+        return _refuse_if(vehicle.driver.charge(on))
 
     return begin
 
 
 def _init_position(vehicle: Vehicle, action: Action, now: float) -> str | None:
     x, y, theta = (_number(action, key) for key in ("x", "y", "theta"))
-    told = str(action.parameter("mapId") or "")
-    if told not in ("", MAP_ID):
-        raise ActionError(f"mapId is {told[:60]!r}; {MAP_ID!r} was expected")
-    return _unless(vehicle.driver.init_position(x, y, theta))
+    map_id = str(action.parameter("mapId") or "")
+    if map_id not in ("", MAP_ID):
+        raise ActionError(f"mapId is {map_id[:60]!r}; {MAP_ID!r} was expected")
+    return _refuse_if(vehicle.driver.init_position(x, y, theta))
 
 
 def _trigger(vehicle: Vehicle, action: Action, now: float) -> str | None:
-    return _unless("" if vehicle.hands.trigger() else "no action waits for a trigger")
+    return _refuse_if("" if vehicle.hands.trigger() else "no action waits for a trigger")
 
 
 def _tell_state(vehicle: Vehicle, action: Action, now: float) -> str | None:
@@ -147,7 +147,7 @@ def _report_log(vehicle: Vehicle, action: Action, now: float) -> str | None:
         raise ActionError(f"the report is not stored: {error}") from None
 
 
-def _unless(reason: str) -> str:
+def _refuse_if(reason: str) -> str:
     if reason:
         raise ActionError(reason)
     return ""

@@ -7,7 +7,7 @@ one on, and replaces the horizon alone.
 
 from warehouse_vda5050.errors import ErrorType, Predefined
 from warehouse_vda5050.grid import Cell
-from warehouse_vda5050.model import Edge, EdgeState, Node, NodeState, Order
+from warehouse_vda5050.model import Edge, EdgeState, Node, NodeState, VehicleOrder
 from warehouse_vda5050.validation import MessageError
 
 
@@ -17,7 +17,7 @@ class OrderProgress:
     nodes[0] is the last passed node; edges[k] leads from nodes[k] to nodes[k + 1].
     """
 
-    def __init__(self, order: Order, cells: list[Cell]) -> None:
+    def __init__(self, order: VehicleOrder, cells: list[Cell]) -> None:
         self.id, self.update = order.id, order.update
         self.nodes, self.edges, self.cells = list(order.nodes), list(order.edges), list(cells)
         self.cancelled = False
@@ -43,7 +43,7 @@ class OrderProgress:
         """Whether all nodes are passed, or the order was cancelled."""
         return self.cancelled or len(self.nodes) == 1
 
-    def is_repeated(self, order: Order) -> bool:
+    def is_repeated(self, order: VehicleOrder) -> bool:
         """Returns whether an order is the last accepted message once more. Raises MessageError if
         it is another one under the same number."""
         if (order.id, order.update) != (self.id, self.update):
@@ -53,7 +53,7 @@ class OrderProgress:
             self._refuse(order, text, Predefined.SAME_ORDER_UPDATE_ID)
         return True
 
-    def stitch(self, order: Order, cells: list[Cell]) -> tuple[Node, ...]:
+    def stitch(self, order: VehicleOrder, cells: list[Cell]) -> tuple[Node, ...]:
         """Takes over an update of this order. Returns the nodes it brings. Raises MessageError."""
         if order.update < self.update:
             text = f"update {order.update} is older than {self.update}"
@@ -70,7 +70,7 @@ class OrderProgress:
         self.update, self._content = order.update, _content(order)
         return order.nodes[overlap:]
 
-    def _shared(self, order: Order, cells: list[Cell]) -> range:
+    def _shared(self, order: VehicleOrder, cells: list[Cell]) -> range:
         """Returns the indices of the released nodes that an update repeats. Raises MessageError."""
         first = order.nodes[0]
         begin = (first.sequence - self.last.sequence) // 2
@@ -89,7 +89,7 @@ class OrderProgress:
                 self._refuse(order, f"the update changes {self.nodes[ours].id}, which is released")
         return shared
 
-    def _same(self, order: Order, cells: list[Cell], theirs: int, ours: int) -> bool:
+    def _same(self, order: VehicleOrder, cells: list[Cell], theirs: int, ours: int) -> bool:
         a, b = order.nodes[theirs], self.nodes[ours]
         actions = {action.id for action in a.actions}
         same = a.released and a.id == b.id and cells[theirs] == self.cells[ours]
@@ -97,7 +97,7 @@ class OrderProgress:
         return same and (not actions or actions == {action.id for action in b.actions})
 
     def _refuse(
-        self, order: Order, text: str, precise: Predefined = Predefined.VALIDATION_FAILURE
+        self, order: VehicleOrder, text: str, precise: Predefined = Predefined.VALIDATION_FAILURE
     ) -> None:
         refer = (("orderId", order.id[:100]), ("orderUpdateId", str(order.update)))
         raise MessageError(text, ErrorType.ORDER_UPDATE.value, refer, precise)
@@ -123,5 +123,5 @@ class OrderProgress:
         return tuple(EdgeState(e.id, e.sequence, e.released) for e in self.edges)
 
 
-def _content(order: Order) -> tuple[tuple[Node, ...], tuple[Edge, ...]]:
+def _content(order: VehicleOrder) -> tuple[tuple[Node, ...], tuple[Edge, ...]]:
     return order.nodes, order.edges

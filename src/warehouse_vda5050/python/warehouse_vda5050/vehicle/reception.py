@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 
 from warehouse_vda5050.errors import Error, ErrorType, Predefined
 from warehouse_vda5050.grid import Cell
-from warehouse_vda5050.model import MAP_ID, OperatingMode, Order
+from warehouse_vda5050.model import MAP_ID, OperatingMode, VehicleOrder
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.actions import check_actions
 from warehouse_vda5050.validation.demands import Robot, check_demands, check_maps, radius
 from warehouse_vda5050.validation.orders import cells_of, check_form
 from warehouse_vda5050.vehicle.complaints import references
+from warehouse_vda5050.vehicle.phase import Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class Reception:
         self._vehicle = vehicle
         self._done: deque[str] = deque(maxlen=REMEMBERED)
 
-    def accept(self, order: Order) -> bool:
+    def accept(self, order: VehicleOrder) -> bool:
         """Takes an order or an update over. Returns False for a copy of what was accepted. Raises
         MessageError, with nothing changed."""
         try:
@@ -42,7 +43,7 @@ class Reception:
             invalid.error = _referring(invalid.error, order)
             raise
 
-    def _accept(self, order: Order) -> bool:
+    def _accept(self, order: VehicleOrder) -> bool:
         check_form(order)
         current = self._vehicle.order
         if current and current.is_repeated(order):
@@ -56,7 +57,7 @@ class Reception:
             self._begin(order, cells, report)
         return True
 
-    def _check_robot(self, order: Order) -> Report:
+    def _check_robot(self, order: VehicleOrder) -> Report:
         vehicle, report = self._vehicle, self._vehicle.report
         away = Predefined.MOBILE_ROBOT_NOT_AVAILABLE
         if report is None:
@@ -66,12 +67,13 @@ class Reception:
             _refuse(order, "the robot does not know where it is", precise=away)
         if report.mode not in TAKING_ORDERS:
             _refuse(order, f"the operating mode is {report.mode.value}", precise=away)
-        if vehicle.is_cancelling and vehicle.order and order.id == vehicle.order.id:
+        cancelling = vehicle.phase is Phase.CANCELLING
+        if cancelling and vehicle.order and order.id == vehicle.order.id:
             following = Predefined.ORDER_UPDATE_FOLLOWING_CANCEL
             _refuse(order, "the order is being cancelled", ErrorType.ORDER_UPDATE, following)
         return report
 
-    def _check_content(self, order: Order, report: Report, is_update: bool) -> list[Cell]:
+    def _check_content(self, order: VehicleOrder, report: Report, is_update: bool) -> list[Cell]:
         vehicle = self._vehicle
         check_actions(order, vehicle.sheet)
         check_maps(order, MAP_ID)
@@ -82,7 +84,7 @@ class Reception:
 
     # A new order.
 
-    def _begin(self, order: Order, cells: list[Cell], report: Report) -> None:
+    def _begin(self, order: VehicleOrder, cells: list[Cell], report: Report) -> None:
         vehicle = self._vehicle
         self._check_free(order)
         if vehicle.settings.begins_at_zero and order.update:
@@ -104,7 +106,7 @@ class Reception:
             self._done.append(vehicle.order.id)
         vehicle.start(OrderProgress(order, cells), order)
 
-    def _check_free(self, order: Order) -> None:
+    def _check_free(self, order: VehicleOrder) -> None:
         vehicle, current = self._vehicle, self._vehicle.order
         if current and not vehicle.is_free:
             text = f"order {current.id} is under way"
@@ -115,14 +117,14 @@ class Reception:
             text = f"order {order.id} was carried out already"
             _refuse(order, text, precise=Predefined.OUTDATED_ORDER_UPDATE)
 
-    def _take(self, order: Order) -> None:
+    def _take(self, order: VehicleOrder) -> None:
         reason = self._vehicle.take()
         if reason:
             _refuse(order, reason, precise=Predefined.MOBILE_ROBOT_NOT_AVAILABLE)
 
     # An update.
 
-    def _update(self, current: OrderProgress, order: Order, cells: list[Cell]) -> None:
+    def _update(self, current: OrderProgress, order: VehicleOrder, cells: list[Cell]) -> None:
         vehicle = self._vehicle
         assert vehicle.report
         if vehicle.is_free and order.update > current.update:
@@ -131,7 +133,7 @@ class Reception:
                 self._take(order)
         vehicle.extend(current.stitch(order, cells))
 
-    def _check_start(self, order: Order, cell: Cell, report: Report) -> None:
+    def _check_start(self, order: VehicleOrder, cell: Cell, report: Report) -> None:
         """Refuses an order that does not begin where the robot stands."""
         grid = self._vehicle.grid
         here = grid.cell_at(report.x, report.y)
@@ -150,7 +152,7 @@ class Reception:
 
 
 def _refuse(
-    order: Order,
+    order: VehicleOrder,
     text: str,
     type: ErrorType = ErrorType.ORDER,
     precise: Predefined | None = None,
@@ -158,7 +160,7 @@ def _refuse(
     raise MessageError(text, type.value, references(order), precise)
 
 
-def _referring(error: Error, order: Order) -> Error:
+def _referring(error: Error, order: VehicleOrder) -> Error:
     """Returns the error of an order with all that masters find it by."""
     known = ("topic", "orderId", "orderUpdateId")
     further = [pair for pair in error.references if pair[0] not in known]

@@ -12,8 +12,9 @@ from warehouse_vda5050.model import (
     MAP_ID,
     AgvPosition,
     Battery,
+    Factsheet,
     Load,
-    State,
+    VehicleState,
     Velocity,
     Visualization,
 )
@@ -29,9 +30,10 @@ class Teller:
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
-        self._told: State | None = None  # without what changes all the time
+        self._published: VehicleState | None = None  # without what changes all the time
         self.due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
+        self._factsheet_due = True
         self._shown: Visualization | None = None
         self._shown_at = -math.inf
         self._deceleration = max(0.1, vehicle.sheet.max_deceleration)
@@ -41,20 +43,29 @@ class Teller:
         """Lets the next take() return a state in any case."""
         self._requested = True
 
-    def take(self, now: float) -> State | None:
+    def request_factsheet(self) -> None:
+        """Lets the next take_factsheet() return the factsheet."""
+        self._factsheet_due = True
+
+    def take_factsheet(self) -> Factsheet | None:
+        """Returns the factsheet if it is to be sent."""
+        due, self._factsheet_due = self._factsheet_due, False
+        return self._vehicle.sheet if due else None
+
+    def take(self, now: float) -> VehicleState | None:
         """Returns the state if something happened, it is time, or it was asked for."""
         if self._vehicle.report is None:
             return None
         state = self.state()
         lasting = _lasting(state)
         due = now >= self.due
-        if lasting == self._told and not due and not self._requested:
+        if lasting == self._published and not due and not self._requested:
             return None
         settings = self._vehicle.settings
         interval = min(settings.moving, settings.interval) if state.driving else settings.interval
         # A state that comes a little late does not delay the next.
         self.due = interval + (self.due if due and now < self.due + interval else now)
-        self._told, self._requested = lasting, False
+        self._published, self._requested = lasting, False
         return state
 
     def take_visualization(self, now: float) -> Visualization | None:
@@ -62,16 +73,16 @@ class Teller:
         report, interval = self._vehicle.report, self._vehicle.settings.visualization
         if report is None or not interval or now - self._shown_at < interval:
             return None
-        seen = Visualization(_position(report), _velocity(report))
-        if seen == self._shown:
+        visualization = Visualization(_position(report), _velocity(report))
+        if visualization == self._shown:
             return None
-        self._shown, self._shown_at = seen, now
-        return seen
+        self._shown, self._shown_at = visualization, now
+        return visualization
 
-    def state(self) -> State:
+    def state(self) -> VehicleState:
         """Returns the state as it is now."""
         vehicle, report = self._vehicle, self._vehicle.report
-        state = State(
+        state = VehicleState(
             actions=(*vehicle.actions.states(vehicle.paused), *vehicle.instant.states()),
             paused=vehicle.paused,
             errors=vehicle.complaints.all(),
@@ -81,7 +92,7 @@ class Teller:
             return state
         return self._with_order(_with_report(state, report), report)
 
-    def _with_order(self, state: State, report: Report) -> State:
+    def _with_order(self, state: VehicleState, report: Report) -> VehicleState:
         grid, order = self._vehicle.grid, self._vehicle.order
         here = grid.cell_at(report.x, report.y)
         if order is None:
@@ -118,7 +129,7 @@ class Teller:
         return True
 
 
-def _with_report(state: State, report: Report) -> State:
+def _with_report(state: VehicleState, report: Report) -> VehicleState:
     charge = round(min(100.0, max(0.0, report.battery.charge)), 2)
     return replace(
         state,
@@ -145,7 +156,7 @@ def _velocity(report: Report) -> Velocity:
     return Velocity(round(ahead, 3), round(aside, 3), round(report.omega, 3))
 
 
-def _lasting(state: State) -> State:
+def _lasting(state: VehicleState) -> VehicleState:
     """Returns a state without what changes all the time and is not an event."""
     position = state.position
     known = position and replace(position, x=0.0, y=0.0, theta=0.0)

@@ -17,8 +17,8 @@ from warehouse_vda5050.model import (
     Factsheet,
     InstantActions,
     Node,
-    Order,
-    State,
+    VehicleOrder,
+    VehicleState,
     Visualization,
 )
 from warehouse_vda5050.topics import Kind
@@ -30,6 +30,7 @@ from warehouse_vda5050.vehicle.complaints import Complaints
 from warehouse_vda5050.vehicle.hands import Hands
 from warehouse_vda5050.vehicle.instant import InstantDesk
 from warehouse_vda5050.vehicle.journal import Journal
+from warehouse_vda5050.vehicle.phase import FOLLOWS, Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
 from warehouse_vda5050.vehicle.telling import Teller
@@ -55,9 +56,10 @@ class VehicleSettings:
 
 
 class Vehicle:
-    """The state machine of one vehicle. Not for more than one thread at a time.
+    """The state machine of one vehicle: `phase` says where it is with its order, and whatever its
+    phase it may be `paused`. Not for more than one thread at a time.
 
-    `report` is what the robot told last; `order` is the order under way or the last one.
+    `report` is the last report of the robot; `order` is the order under way or the last one.
     """
 
     def __init__(self, driver: Driver, grid: Grid, settings: VehicleSettings | None = None) -> None:
@@ -70,19 +72,17 @@ class Vehicle:
         self.hands = Hands(driver, self.actions)
         self.wheels = Wheels(driver, grid, self.settings.first_path)
         self.instant = InstantDesk(self)
+        self.phase = Phase.HELD if driver.is_taken() else Phase.AVAILABLE
         self.paused = False
-        self.is_cancelling = False
         self.journal = Journal(self.settings.name, self.settings.logs)
         self.complaints = Complaints(self)
         self._reception = Reception(self)
         self._teller = Teller(self)
-        self._taken = driver.is_taken()
-        self._over_since: float | None = None
-        self._factsheet_due = True
+        self._free_since: float | None = None
 
     # What comes in; a state answers each message.
 
-    def on_order(self, order: Order, now: float, unknown: tuple[str, ...] = ()) -> bool:
+    def on_order(self, order: VehicleOrder, now: float, unknown: tuple[str, ...] = ()) -> bool:
         """Takes an order or an update; `unknown` are fields of it that no version has. Returns
         whether it was accepted; if not, and it is no copy of what was, the state says why."""
         self.request_state()
@@ -95,6 +95,7 @@ class Vehicle:
             self.complaints.clear()
             self.journal.write(f"order {order.id} update {order.update} is accepted")
         self.complaints.note_unknown(Kind.ORDER, unknown)
+        self._settle()
         return accepted
 
     def on_instant_actions(
@@ -111,6 +112,7 @@ class Vehicle:
         for action in message.actions:
             self.journal.write(f"{action.type} {action.id}")
             self.instant.begin(action, now)
+            self._settle()
         unknown = (*unknown, *unknown_parameters(message.actions, self.sheet))
         self.complaints.note_unknown(Kind.INSTANT_ACTIONS, unknown)
 
@@ -150,18 +152,32 @@ class Vehicle:
     def _drive(self, report: Report, now: float) -> None:
         order = self.order
         stays = self.actions.holds_driving or self.actions.failed
-        if order and not order.is_driven and not stays and not self.is_cancelling:
+        if order and not order.is_driven and not stays and self.phase is Phase.WORKING:
             self.wheels.drive(order, report, now)
 
     def _end_order(self, report: Report, now: float) -> None:
-        order = self.order
-        if order and report.mode not in TAKING_ORDERS and not self.is_free:
+        self._settle()
+        if report.mode not in TAKING_ORDERS:
             self.begin_cancel(now)
-        if self.is_cancelling or (order and order.cancelled):
+        if self.phase in (Phase.CANCELLING, Phase.HALTED):
             self.wheels.cancel(now)
-        if self.is_cancelling and self.actions.is_over and self._has_halted(report):
+        if self.phase is Phase.CANCELLING and self.actions.is_over and self._has_halted(report):
             self._end_cancel()
         self._give_back(report, now)
+
+    def _go_to(self, phase: Phase) -> None:
+        """Enters a phase. Raises ValueError where it does not follow."""
+        if phase not in FOLLOWS[self.phase]:
+            raise ValueError(f"{phase.name} can't follow {self.phase.name}")
+        self.phase = phase
+
+    def _settle(self) -> None:
+        """Ends the order whose nodes and actions are over."""
+        order = self.order
+        if self.phase not in (Phase.WORKING, Phase.HALTED) or order is None:
+            return
+        if order.is_driven and self.actions.is_over and self.wheels.rest:
+            self._go_to(Phase.HELD)
 
     def _has_halted(self, report: Report) -> bool:
         """Returns whether the robot has ended its path, or stands on it and is paused."""
@@ -172,30 +188,34 @@ class Vehicle:
     def _end_cancel(self) -> None:
         assert self.order
         self.order.cancel()
-        self.is_cancelling = False
+        self._go_to(Phase.HELD if self.wheels.rest else Phase.HALTED)
         self.instant.end("cancelOrder")
         self.journal.write(f"order {self.order.id} is cancelled")
 
     def _give_back(self, report: Report, now: float) -> None:
         """Gives the robot back some time after its order is over, unless it carries a unit."""
         if not self.is_free or report.load or report.busy:
-            self._over_since = None
-        elif self._over_since is None:
-            self._over_since = now
-        elif self._taken and now - self._over_since >= self.settings.linger:
-            self._taken = False
+            self._free_since = None
+        elif self._free_since is None:
+            self._free_since = now
+        elif self.is_taken and now - self._free_since >= self.settings.linger:
+            self._go_to(Phase.AVAILABLE)
             self.driver.give_back()
 
     # What the reception asks for.
 
     def take(self) -> str:
         """Takes the robot for an order, from whom commands it else. Returns why not, or ''."""
-        reason = "" if self._taken else self.driver.take()
-        self._taken |= not reason
+        if self.is_taken:
+            return ""
+        reason = self.driver.take()
+        if not reason:
+            self._go_to(Phase.HELD)
         return reason
 
-    def start(self, progress: OrderProgress, order: Order) -> None:
+    def start(self, progress: OrderProgress, order: VehicleOrder) -> None:
         """Begins an order that was accepted."""
+        self._go_to(Phase.WORKING)
         self.order = progress
         self.actions = self.hands.actions = ActionQueue()
         self.wheels.begin()
@@ -205,31 +225,29 @@ class Vehicle:
     def extend(self, nodes: tuple[Node, ...]) -> None:
         """Goes on with an order that an update brought more nodes of."""
         assert self.order
+        if self.is_free:
+            self._go_to(Phase.WORKING)
         self.actions.tell(nodes)
         self.actions.keep_only(self.order.nodes)
 
     @property
     def is_taken(self) -> bool:
         """Whether an order has the robot, or had it just now."""
-        return self._taken
+        return self.phase is not Phase.AVAILABLE
 
     @property
     def is_free(self) -> bool:
         """Whether no order is under way: nodes and actions are over, or there never was one."""
-        return self.order is None or (
-            self.order.is_driven
-            and self.actions.is_over
-            and self.wheels.rest
-            and not self.is_cancelling
-        )
+        return self.phase in (Phase.AVAILABLE, Phase.HELD)
 
     # What instant actions ask for.
 
     def begin_cancel(self, now: float) -> bool:
         """Begins to cancel the order. Returns False if there is none."""
-        if self.is_free or (self.order and self.order.cancelled):
+        if self.phase not in (Phase.WORKING, Phase.CANCELLING):
             return False
-        self.is_cancelling = True
+        if self.phase is Phase.WORKING:
+            self._go_to(Phase.CANCELLING)
         self.actions.fail_waiting("the order was cancelled")
         self.hands.give_up()
         self.wheels.cancel(now)
@@ -256,7 +274,7 @@ class Vehicle:
 
     def request_factsheet(self) -> None:
         """Lets the next take_factsheet() return the factsheet."""
-        self._factsheet_due = True
+        self._teller.request_factsheet()
 
     # What goes out.
 
@@ -265,7 +283,7 @@ class Vehicle:
         """When the next state is due, if nothing happens before [s, as `now`]."""
         return self._teller.due
 
-    def take_state(self, now: float) -> State | None:
+    def take_state(self, now: float) -> VehicleState | None:
         """Returns the state if something happened or it is time for one."""
         return self._teller.take(now)
 
@@ -273,11 +291,10 @@ class Vehicle:
         """Returns position and speed if the robot moved and it is time to tell them."""
         return self._teller.take_visualization(now)
 
-    def state(self) -> State:
+    def state(self) -> VehicleState:
         """Returns the state as it is now."""
         return self._teller.state()
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is to be sent: at first, and when it was asked for."""
-        due, self._factsheet_due = self._factsheet_due, False
-        return self.sheet if due else None
+        return self._teller.take_factsheet()

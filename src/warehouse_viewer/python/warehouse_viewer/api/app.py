@@ -4,6 +4,7 @@
 import asyncio
 from contextlib import suppress
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from fastapi import FastAPI, HTTPException, Request
@@ -50,7 +51,7 @@ class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
     `history` seconds (simulated) are kept, to be looked at again; 0: none."""
 
-    def __init__(self, ros: Any, web: Path, history: float = SECONDS) -> None:
+    def __init__(self, ros: ModuleType, web: Path, history: float = SECONDS) -> None:
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
@@ -89,7 +90,7 @@ class Viewer:
             if self._loop:
                 self._loop.call_soon_threadsafe(self._note, entry)
 
-    def _note(self, entry):
+    def _note(self, entry: dict[str, Any]) -> None:
         self.commander.note(entry)
         self.hub.notify()
 
@@ -129,7 +130,7 @@ class Viewer:
         self._hub_task.start()
         self._watching = asyncio.create_task(self.monitor.run())
 
-    def _add_files(self, app):
+    def _add_files(self, app: FastAPI) -> None:
         operations = OPERATIONS._replace(counted="/api/v1/alarms")
         pages = Site(FLOOR, operations, LAYOUT, WHATIF, API, DOCS, folder=self._web)
         history = self.history.routes() if self.history else []
@@ -141,7 +142,7 @@ class Viewer:
 
     async def _totes(self, name: str) -> int | None:
         stations = (await self.backend.call(self.backend.operations.latest, "stations")).stations
-        return next((one.slots for one in stations if one.name == name), None)
+        return next((station.slots for station in stations if station.name == name), None)
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:

@@ -5,7 +5,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
 from fastapi import Depends, HTTPException
 from fastapi.requests import HTTPConnection
@@ -82,23 +82,23 @@ class ApiBackend:
 
     async def robot(self, number: int) -> Robot:
         """Returns the robot of that number; 404 if there is none."""
-        found = [r for r in await self.robots() if r.id == number]
-        if not found:
+        robots = [r for r in await self.robots() if r.id == number]
+        if not robots:
             raise HTTPException(404, f"no robot kiva{number}")
-        return found[0]
+        return robots[0]
 
     async def things(self, kind: str) -> Tracked:
         """Returns where all "storage_units" or "items" are."""
         await self.wait_for_positions()
         return catalogue.things(kind, *(self.feed.objects_and_states or self._no_things()))
 
-    def _no_things(self):
+    def _no_things(self) -> NoReturn:
         raise HTTPException(503, "the world is being rebuilt; ask again")
 
     def stations(self, message: StationStates) -> list[dict[str, Any]]:
         """Returns the stations of a message as JSON has them."""
-        told = operations_json.stations(message)
-        return [one | self.monitor.station(station) for one, station in zip(told, message.stations)]
+        rows = operations_json.stations(message)
+        return [row | self.monitor.station(station) for row, station in zip(rows, message.stations)]
 
     async def simulate(self, action: str, *args: Any) -> Any:
         """Calls a method of Simulation."""
@@ -126,7 +126,7 @@ class ApiBackend:
             raise HTTPException(503, str(error)) from error
 
 
-async def _until(condition):
+async def _until(condition: Callable[[], object]) -> bool:
     """Returns whether the condition comes true within PATIENCE."""
     for _ in range(int(PATIENCE / 0.05)):
         if condition():

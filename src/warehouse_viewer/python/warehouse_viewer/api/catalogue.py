@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Robots, storage units, items and the warehouse, as the HTTP API tells them."""
+"""Robots, storage units, items and the warehouse, as the HTTP API shows them."""
 
 import json
 from collections.abc import Collection
@@ -84,26 +84,26 @@ def coordinator(state: CoordinatorState, fleet: FleetState | None = None) -> Coo
 def activities(fleet: FleetState, waiting: Collection[int] = ()) -> RobotsByActivity:
     """Returns how many robots do what at a glance; `waiting` as for robots()."""
     counts = np.bincount(activity(fleet, waiting), minlength=len(Activity)).tolist()
-    return RobotsByActivity(**{one.name.lower(): counts[one] for one in Activity})
+    return RobotsByActivity(**{does.name.lower(): counts[does] for does in Activity})
 
 
-def at_broker(told: Vda5050) -> list[Vda5050Robot]:
+def at_broker(message: Vda5050) -> list[Vda5050Robot]:
     """Returns the robots of a Vda5050 message as the API describes them."""
-    by = ("OUTSIDE_MASTER", "COORDINATOR")[told.direction]
+    by = ("OUTSIDE_MASTER", "COORDINATOR")[message.direction]
     states = ("ONLINE", "OFFLINE", "CONNECTIONBROKEN")
     return [
         Vda5050Robot(
             id=number,
             driven_by=by,
-            manufacturer=told.manufacturer[i],
-            serial=told.serial[i],
-            broker=told.broker,
-            connection=states[bytes(told.connection)[i]],
-            driven=told.driven[i],
-            order=told.order[i],
-            errors=told.errors[i].splitlines(),
+            manufacturer=message.manufacturer[i],
+            serial=message.serial[i],
+            broker=message.broker,
+            connection=states[bytes(message.connection)[i]],
+            driven=message.driven[i],
+            order=message.order[i],
+            errors=message.errors[i].splitlines(),
         )
-        for i, number in enumerate(told.kiva_id)
+        for i, number in enumerate(message.kiva_id)
     ]
 
 

@@ -20,7 +20,7 @@ class ChangeBook:
         self._rows: dict[str, dict[Hashable, Any]] = defaultdict(dict)
         self._forgotten: dict[str, int] = defaultdict(int)
 
-    def note(self, topic: str, key: Hashable, row: Any) -> None:
+    def note(self, topic: str, key: Hashable, row: object) -> None:
         """Notes that a row is new, or differs from before."""
         with self._lock:
             self.last += 1

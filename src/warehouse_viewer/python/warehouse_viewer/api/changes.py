@@ -10,8 +10,8 @@ often as they change.
     {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
     {"type": "kpis", "kpis": {"items_picked": 123, …}}
 
-Of orders, stock and transports come the rows that have changed, as the requests of those names tell
-them. Who opens the WebSocket before asking for a list misses nothing in between.
+Messages of orders, stock and transports hold the rows that have changed, as the requests of those
+names return them. Who opens the WebSocket before asking for a list misses nothing in between.
 
     {"type": "orders", "orders": [{"order_id": 7, "state": "COMPLETED", …}, …], "missed": false}
 
@@ -19,8 +19,10 @@ A slow reader misses states in between, never the newest. `missed`: there were m
 list again.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, Field
 from starlette.websockets import WebSocket
@@ -32,6 +34,9 @@ from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station,
 from warehouse_viewer.api.schemas.watch import Alarm, LeadingFigures
 from warehouse_viewer.api.stream import until_gone
 from warehouse_viewer.json_text import dumps
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState
 
 ROWS = {
     "orders": operations_json.order,
@@ -45,7 +50,7 @@ TOPICS = (*ROWS, *WHOLE)
 
 
 class Shift(BaseModel):
-    """Tells whether a shift runs: the first message, and one at each change."""
+    """Whether a shift runs: the first message, and one at each change."""
 
     type: Literal["shift"]
     runs: bool
@@ -152,32 +157,33 @@ def topics(text: str) -> list[str]:
 
     Raises ValueError for one that does not exist.
     """
-    wanted = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
-    unknown = sorted(set(wanted) - set(TOPICS))
+    names = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
+    unknown = sorted(set(names) - set(TOPICS))
     if unknown:
         raise ValueError(f"no {', '.join(unknown)} to follow; there are {', '.join(TOPICS)}")
-    return wanted
+    return names
 
 
-async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], rate: float) -> None:
+async def serve(socket: WebSocket, backend: ApiBackend, topics: Sequence[str], rate: float) -> None:
     """Serves one client until it disconnects: the TOPICS `wanted`, each at most `rate` times a
     second. The socket is accepted already."""
-    await until_gone(socket, _Reader(socket, backend, wanted).send_news, rate)
+    await until_gone(socket, _Reader(socket, backend, topics).send_news, rate)
 
 
 class _Reader:
-    def __init__(self, socket, backend, wanted):
-        self._socket, self._backend, self._wanted = socket, backend, wanted
+    def __init__(self, socket: WebSocket, backend: ApiBackend, topics: Sequence[str]) -> None:
+        self._socket, self._backend, self._topics = socket, backend, topics
         self._feed, self._book = backend.operations.feed, backend.changes
-        self._read = {topic: self._book.last if topic in ROWS else 0 for topic in wanted}
-        self._runs, self._coordinator = None, ()
+        self._read = {topic: self._book.last if topic in ROWS else 0 for topic in topics}
+        self._runs: bool | None = None
+        self._coordinator: CoordinatorState | tuple[()] | None = ()
 
-    async def send_news(self):
+    async def send_news(self) -> None:
         runs = self._feed.runs
         if runs != self._runs:
             self._runs = runs
             await self._send("shift", runs=runs)
-        for topic in self._wanted:
+        for topic in self._topics:
             if topic == "coordinator":
                 await self._send_coordinator()
             elif topic in ROWS:
@@ -185,7 +191,7 @@ class _Reader:
             elif runs or topic in WITHOUT_SHIFT:
                 await self._send_whole(topic)
 
-    async def _send_rows(self, topic):
+    async def _send_rows(self, topic: str) -> None:
         now = self._book.last
         rows, missed = self._book.since(topic, self._read[topic])
         self._read[topic] = now
@@ -193,28 +199,28 @@ class _Reader:
             shown = [ROWS[topic](row) for row in rows]
             await self._send(topic, **{topic: shown}, missed=missed)
 
-    async def _send_whole(self, topic):
+    async def _send_whole(self, topic: str) -> None:
         now = self._book.last
         rows, _ = self._book.since(topic, self._read[topic])
         if rows:
             self._read[topic] = now
             await self._send(topic, **{topic: self._shown(topic, rows[-1])})
 
-    def _shown(self, topic, row):
+    def _shown(self, topic: str, row: Any) -> object:
         """A row of the book as JSON has it."""
         if topic in OF_MONITOR:
             return row
-        told = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
-        return told(row)
+        describe = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]
+        return describe(row)
 
-    async def _send_coordinator(self):
+    async def _send_coordinator(self) -> None:
         self._backend.feed.subscribe(("coordinator", "fleet"))
         state = self._backend.feed.coordinator
         if state is not self._coordinator:
             self._coordinator = state
             fleet = self._backend.feed["fleet"]
-            told = catalogue.plain_coordinator(state, fleet) if state else None
-            await self._send("coordinator", coordinator=told)
+            shown = catalogue.plain_coordinator(state, fleet) if state else None
+            await self._send("coordinator", coordinator=shown)
 
-    async def _send(self, kind, **fields):
+    async def _send(self, kind: str, **fields: Any) -> None:
         await self._socket.send_text(dumps({"type": kind, **fields}))

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse in figures for Prometheus, at /metrics. Times and rates are simulated ones."""
 
-from collections.abc import Iterator
-from typing import Any
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 from prometheus_client import CollectorRegistry
-from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from prometheus_client.exposition import choose_encoder
 from prometheus_client.registry import Collector
 
@@ -16,7 +18,10 @@ from warehouse_viewer.page.source import AwayError
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 
-# Of the Kpis: name, what it is, field.
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, StationState
+
+# Figures of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (
     ("items_picked", "Pieces that were picked.", "items_picked"),
     ("lines_picked", "Order lines that were picked.", "lines_picked"),
@@ -37,7 +42,7 @@ SHIFT_GAUGES = (
     ("stock_ratio", "Pieces over room for pieces.", "stock_level"),
 )
 PERCENTILES = {"p25": "25", "median": "50", "p75": "75", "p95": "95"}
-# Of the CoordinatorState.
+# Figures of the CoordinatorState.
 FLEET_COUNTERS = (
     ("transports_delivered", "Storage units brought to where they should go.", "delivered"),
     ("transports_stored", "Storage units brought back.", "stored"),
@@ -79,14 +84,14 @@ class Metrics(Collector):
             yield from _fleet(state)
         yield from self._of_shift()
 
-    def _world(self):
+    def _world(self) -> Iterator[Metric]:
         if performance := self._feed["performance"]:
             text = "Simulated seconds a wall second."
             yield _gauge("real_time_factor", text, performance.real_time_factor)
         if fleet := self._feed["fleet"]:
             yield _gauge("simulated_time_seconds", "Time in the world.", fleet.stamp.to_sec())
 
-    def _of_shift(self):
+    def _of_shift(self) -> Iterator[Metric]:
         yield _by_label("orders", "Orders that are kept.", "state", self._orders())
         if kpis := self._shift["kpis"]:
             yield from (_counter(name, text, getattr(kpis, f)) for name, text, f in SHIFT_COUNTERS)
@@ -94,10 +99,10 @@ class Metrics(Collector):
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
-        if told := self._shift["stations"]:
-            yield from _stations(told.stations)
+        if message := self._shift["stations"]:
+            yield from _stations(message.stations)
 
-    def _orders(self):
+    def _orders(self) -> dict[str, int]:
         """{state: how many}."""
         if not self._shift.runs:
             return {}
@@ -110,7 +115,7 @@ class Metrics(Collector):
             return {}
 
 
-def _fleet(state):
+def _fleet(state: CoordinatorState) -> Iterator[Metric]:
     names = [*names_of(RobotsByWork), "manual", "out_of_service"]
     robots = {name: getattr(state, name) for name in names}
     yield _by_label("robots", "Robots by what they do.", "state", robots)
@@ -124,37 +129,37 @@ def _fleet(state):
     yield from (_gauge(name, text, getattr(state, field)) for name, text, field in FLEET_GAUGES)
 
 
-def _stations(stations):
+def _stations(stations: Iterable[StationState]) -> Iterator[Metric]:
     for name, text, kind, value in (
         ("queue", "Units at a station or on their way to it.", GaugeMetricFamily, _queue),
         ("busy_ratio", "Of the time since the shift began.", GaugeMetricFamily, _busy),
-        ("open", "Whether it is open.", GaugeMetricFamily, lambda one: float(one.open)),
-        ("orders", "Orders it works at.", GaugeMetricFamily, lambda one: len(one.orders)),
-        ("pieces", "Picked there, or put in.", CounterMetricFamily, lambda one: one.pieces),
+        ("open", "Whether it is open.", GaugeMetricFamily, lambda s: float(s.open)),
+        ("orders", "Orders it works at.", GaugeMetricFamily, lambda s: len(s.orders)),
+        ("pieces", "Picked there, or put in.", CounterMetricFamily, lambda s: s.pieces),
     ):
         family = kind(f"warehouse_station_{name}", text, labels=["station", "kind"])
-        for one in stations:
-            family.add_metric([one.name, one.kind], value(one))
+        for station in stations:
+            family.add_metric([station.name, station.kind], value(station))
         yield family
 
 
-def _queue(station):
+def _queue(station: StationState) -> int:
     return len(station.inbound) + bool(station.shelf_id)
 
 
-def _busy(station):
+def _busy(station: StationState) -> float:
     return station.busy_fraction
 
 
-def _gauge(name, text, value):
+def _gauge(name: str, text: str, value: float) -> Metric:
     return GaugeMetricFamily(f"warehouse_{name}", text, value)
 
 
-def _counter(name, text, value):
+def _counter(name: str, text: str, value: float) -> Metric:
     return CounterMetricFamily(f"warehouse_{name}", text, value)
 
 
-def _by_label(name, text, label, values):
+def _by_label(name: str, text: str, label: str, values: Mapping[str, float]) -> Metric:
     family = GaugeMetricFamily(f"warehouse_{name}", text, labels=[label])
     for key, value in values.items():
         family.add_metric([key], value)

@@ -15,24 +15,24 @@ def plain(message: Any) -> Any:
     if isinstance(message, genpy.Message):
         return {n: plain(getattr(message, n)) for n in message.__slots__ if n != "header"}
     if isinstance(message, list | tuple):
-        return [plain(one) for one in message]
+        return [plain(part) for part in message]
     return message
 
 
-def order(one: msg.OrderStatus) -> dict[str, Any]:
+def order(status: msg.OrderStatus) -> dict[str, Any]:
     """Returns an OrderStatus as JSON has it."""
-    lines = zip(one.lines, one.picked)
-    out = plain(one)
+    lines = zip(status.lines, status.picked)
+    out = plain(status)
     del out["picked"]
     return out | {
-        "state": STATES[one.state],
+        "state": STATES[status.state],
         "lines": [plain(line) | {"picked": picked} for line, picked in lines],
     }
 
 
 def stations(message: msg.StationStates) -> list[dict[str, Any]]:
     """Returns the stations of StationStates as JSON has them."""
-    return [plain(one) | {"mode": MODES[one.mode]} for one in message.stations]
+    return [plain(station) | {"mode": MODES[station.mode]} for station in message.stations]
 
 
 def notices(message: msg.Notices) -> list[str]:
@@ -40,7 +40,7 @@ def notices(message: msg.Notices) -> list[str]:
     return list(message.notices)
 
 
-# From each of a shift's topics to what JSON has of it.
+# Functions that turn messages of a shift's topics into JSON.
 SHOWN: dict[str, Callable[[Any], Any]] = {
     "stations": stations,
     "kpis": plain,

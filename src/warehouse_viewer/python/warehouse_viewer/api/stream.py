@@ -12,7 +12,7 @@ A slow reader misses states in between, never the newest; of events at most the 
 """
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
@@ -34,7 +34,7 @@ async def serve(socket: WebSocket, backend: ApiBackend, rate: float) -> None:
     known: dict[int, Any] = {}
     event = backend.journal.last_id
 
-    async def send_news():
+    async def send_news() -> None:
         nonlocal known, event
         known = await _send_robots(socket, backend, known)
         events = backend.journal.since(event)
@@ -56,7 +56,7 @@ async def until_gone(
     sender = asyncio.create_task(_send_forever(send_news, 1 / rate))
     try:
         await asyncio.wait({listener, sender}, return_when=asyncio.FIRST_COMPLETED)
-        # Of a client that has gone, each of uvicorn's libraries tells the sender by another error.
+        # Each of uvicorn's libraries raises another error for a client that has gone.
         await asyncio.wait({listener}, timeout=FAREWELL)
         if not listener.done():
             sender.result()
@@ -66,20 +66,22 @@ async def until_gone(
         await asyncio.gather(listener, sender, return_exceptions=True)
 
 
-async def _send_forever(send_news, gap):
+async def _send_forever(send_news: Callable[[], Awaitable[None]], gap: float) -> None:
     while True:
         await send_news()
         await asyncio.sleep(gap)
 
 
-async def _listen(socket):
+async def _listen(socket: WebSocket) -> None:
     """Reads and drops what a client sends until it disconnects."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:
             await socket.receive_text()
 
 
-async def _send_robots(socket, backend, known):
+async def _send_robots(
+    socket: WebSocket, backend: ApiBackend, known: dict[int, Any]
+) -> dict[int, Any]:
     try:
         robots = {r.id: as_dict(r) for r in await backend.robots()}
     except HTTPException:  # the world does not answer now; it may come back
@@ -91,5 +93,5 @@ async def _send_robots(socket, backend, known):
     return robots
 
 
-async def _send(socket, message):
+async def _send(socket: WebSocket, message: Mapping[str, Any]) -> None:
     await socket.send_text(dumps(message))

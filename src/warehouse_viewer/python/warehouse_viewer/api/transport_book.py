@@ -37,8 +37,8 @@ class TransportBook:
     def newest_first(self, state: str | None = None) -> list[dict[str, Any]]:
         """Returns all transports, or those in one state: the name of a kind of TransportEvent."""
         with self._lock:
-            found = [t for t in self._transports.values() if state in (None, t["state"])]
-        return sorted(found, key=lambda transport: -transport["id"])
+            rows = [t for t in self._transports.values() if state in (None, t["state"])]
+        return sorted(rows, key=lambda transport: -transport["id"])
 
 
 def entry_of(event: TransportEvent) -> dict[str, Any]:

@@ -1,19 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse from above, drawn by matplotlib without a screen."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from numpy.typing import ArrayLike
 
 from warehouse_client import tracking
 from warehouse_layout.floor import floor_markings, painted, poses
+from warehouse_layout.floor.floor_markings import Mark
+from warehouse_msgs.msg import FleetState, UnitStates, WarehouseObjects
 from warehouse_viewer.drawing import looks, markers
+from warehouse_viewer.drawing.looks import Part
 from warehouse_viewer.page.activities import Activity, activity
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import Scenery
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour where there is no look
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
@@ -26,10 +37,10 @@ MOST_NAMES = 60  # robots with their number beside them
 class Moment:
     """The messages that describe the warehouse at one time; `scenery` may be None."""
 
-    objects: Any = None  # WarehouseObjects
-    states: Any = None  # UnitStates of the same revision
-    fleet: Any = None  # FleetState
-    scenery: Any = None  # Scenery
+    objects: WarehouseObjects = None
+    states: UnitStates = None  # of the same revision
+    fleet: FleetState = None
+    scenery: Scenery | None = None
 
     @property
     def complete(self) -> bool:
@@ -77,14 +88,14 @@ class Drawing:
         """Writes the picture in the format of the path's suffix."""
         self.figure.savefig(path, facecolor="white")
 
-    def _floor(self):
+    def _floor(self) -> None:
         x0, x1, y0, y1 = self.bounds
         self._axes.fill((x0, x1, x1, x0), (y0, y0, y1, y1), color=markers.FLOOR, zorder=0)
         xs, ys = np.arange(np.ceil(x0 - 0.5) + 0.5, x1), np.arange(np.ceil(y0 - 0.5) + 0.5, y1)
         lines = [[(x, y0), (x, y1)] for x in xs] + [[(x0, y), (x1, y)] for y in ys]
         self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
 
-    def _heading(self, moment):
+    def _heading(self, moment: Moment) -> None:
         counts = np.bincount(activity(moment.fleet), minlength=len(Activity))
         keys = [
             Patch(color=markers.COLOURS[does], label=f"{_word(does)} {counts[does]}")
@@ -96,7 +107,7 @@ class Drawing:
         self._axes.set_title(text, loc="left", fontsize=12)
 
 
-def _word(does):
+def _word(does: Activity) -> str:
     return does.name.replace("_", " ").lower()
 
 
@@ -105,7 +116,7 @@ def bounds(moment: Moment) -> tuple[float, ...]:
     return looks.floor(moment.scenery, moment.fleet, moment.states)
 
 
-def _look(moment, kind):
+def _look(moment: Moment, kind: str) -> tuple[np.ndarray, np.ndarray]:
     """(length, width) [m] and colour of the robots, storage units or items of a Moment."""
     look = looks.named(moment.scenery, kind)
     if look is None:
@@ -114,7 +125,7 @@ def _look(moment, kind):
     return 2 * np.maximum(-low, high)[:2], looks.parts(look)[0].colour[:3]
 
 
-def _robots(axes, moment):
+def _robots(axes: Axes, moment: Moment) -> None:
     fleet = moment.fleet
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
     colours = markers.COLOURS[activity(moment.fleet)]
@@ -133,7 +144,7 @@ def _robots(axes, moment):
             axes.text(x, y + 0.44, str(number), ha="center", va="bottom", fontsize=7, zorder=6)
 
 
-def _loads(axes, moment):
+def _loads(axes: Axes, moment: Moment) -> None:
     """Units, above their carriers yet letting them show; and items on them."""
     units = tracking.storage_units(moment.objects, moment.states)
     items = tracking.items(moment.objects, moment.states)
@@ -145,7 +156,7 @@ def _loads(axes, moment):
         _add(axes, outlines, facecolors=[(*colour, opacity)], zorder=layer, **look)
 
 
-def _paint(axes, marks):
+def _paint(axes: Axes, marks: Sequence[Mark]) -> None:
     """What is painted on the floor, beneath its grid; the names of stations beside their places."""
     rows = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4))
     corners = _rectangle((1, 1)) * rows[:, None, 2:] + rows[:, None, :2]
@@ -156,7 +167,7 @@ def _paint(axes, marks):
             axes.text(m.x, m.y, m.station, ha="center", va="center", fontsize=6, zorder=6)
 
 
-def _scenery(axes, scenery):
+def _scenery(axes: Axes, scenery: Scenery) -> None:
     """The footprint of every shape of what else stands there, the lower ones first."""
     described = [looks.parts(look, 0) for look in scenery.looks]
     things = zip(scenery.models, scenery.model_look, poses.rows(scenery.pose))
@@ -165,7 +176,7 @@ def _scenery(axes, scenery):
             _stand(axes, described[look], pose)
 
 
-def _stand(axes, parts, pose):
+def _stand(axes: Axes, parts: Sequence[Part], pose: np.ndarray) -> None:
     """The footprints of the parts of one model, but for its floor, which is drawn already."""
     own = np.reshape([part.pose for part in parts], (-1, 7))
     at = poses.compose(np.broadcast_to(pose, own.shape), own)
@@ -178,7 +189,7 @@ def _stand(axes, parts, pose):
     _add(axes, outlines, facecolors=[parts[i].colour for i in chosen], zorder=2)
 
 
-def _axes_of(pose):
+def _axes_of(pose: np.ndarray) -> np.ndarray:
     """Rows: which of a model's axes a shape's own lie along, for shapes in line with them."""
     turned = poses.rotate(np.repeat(pose[None, 3:], 3, axis=0), np.eye(3))
     heading = poses.yaw(pose[None])[0]
@@ -186,15 +197,15 @@ def _axes_of(pose):
     return turned @ np.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
 
 
-def _add(axes, outlines, **look):
+def _add(axes: Axes, outlines: np.ndarray, **look: Any) -> None:
     axes.add_collection(PolyCollection(outlines, **look))
 
 
-def _rectangle(size):
+def _rectangle(size: ArrayLike) -> np.ndarray:
     return np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * np.asarray(size) / 2
 
 
-def _placed(points, at, yaw):
+def _placed(points: np.ndarray, at: ArrayLike, yaw: ArrayLike) -> np.ndarray:
     """(n, m, 2): points (m, 2) on each of the things at (n, 2), turned by yaw (n,) [rad]."""
     c, s = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
     x, y = points.T

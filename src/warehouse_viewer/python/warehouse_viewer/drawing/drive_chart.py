@@ -26,24 +26,24 @@ COLOURS = {
 }
 
 
-def write(path: Path, told: dict[str, Any], curve: list[list[float]]) -> None:
+def write(path: Path, figures: dict[str, Any], curve: list[list[float]]) -> None:
     """Writes the figure of a drive as PNG; `told` and `curve` as drive_report has them."""
     rows = np.array(curve)
-    canvas.write_png(path, lambda figure: _draw(figure, told, rows), *SIZE)
+    canvas.write_png(path, lambda figure: _draw(figure, figures, rows), *SIZE)
 
 
-def _draw(figure: Figure, told: dict[str, Any], rows: np.ndarray) -> None:
+def _draw(figure: Figure, figures: dict[str, Any], rows: np.ndarray) -> None:
     half = (SIZE[0] - KEY) / 2
-    _draw_ticks(canvas.on(figure, (0, 0, half, SIZE[1]), MARGINS), told, rows)
+    _draw_ticks(canvas.on(figure, (0, 0, half, SIZE[1]), MARGINS), figures, rows)
     right = (MARGINS[0], KEY, *MARGINS[2:])
     _draw_causes(canvas.on(figure, (half, 0, half + KEY, SIZE[1]), right), rows)
 
 
-def _draw_ticks(drawn: canvas.Canvas, told: dict[str, Any], rows: np.ndarray) -> None:
+def _draw_ticks(drawn: canvas.Canvas, figures: dict[str, Any], rows: np.ndarray) -> None:
     """Draws the tick that robots have come to over time, and where they would be by the plan."""
-    time, end = rows[:, 0] / 60, told["ticks"]
+    time, end = rows[:, 0] / 60, figures["ticks"]
     drawn.axes.plot(time, rows[:, 1], color=COLOURS[Cause.DRIVING], lw=2)
-    planned = end * told["tick_s"] / 60
+    planned = end * figures["tick_s"] / 60
     drawn.axes.plot([0, planned], [0, end], color="#888888", lw=1.2, ls="--")
     drawn.scale(("minutes", time[-1]), ("tick of the plan, mean of robots", end))
     drawn.say(planned, end, "as planned", xytext=(6, -14))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What models look like, as the world's Scenery tells it: shapes, sizes, triangles."""
+"""The appearance of models by the world's Scenery: shapes, sizes, triangles."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class Part:
         return _moved(self.pose, _SOLIDS.get(self.kind, shapes.box)() * self.size)
 
 
-def _moved(pose, points):
+def _moved(pose: np.ndarray, points: np.ndarray) -> np.ndarray:
     turn = np.broadcast_to(pose[3:], (len(points), 4))
     return poses.rotate(turn, points) + pose[:3]
 
@@ -59,9 +59,9 @@ def parts(look: Look, small: float = SMALL) -> list[Part]:
     colour = np.reshape(look.shape_colour, (-1, 4))
     links = [look.links[i] for i in look.shape_link]
     kinds = bytes(look.shape_kind)  # rospy reads uint8[] as bytes
-    found = [Part(*row) for row in zip(links, kinds, at, size, colour)]
-    found.sort(key=lambda part: -part.volume)
-    return [part for part in found if part.volume >= small * found[0].volume]
+    shapes = [Part(*row) for row in zip(links, kinds, at, size, colour)]
+    shapes.sort(key=lambda part: -part.volume)
+    return [part for part in shapes if part.volume >= small * shapes[0].volume]
 
 
 def extent(look: Look) -> tuple[np.ndarray, np.ndarray]:

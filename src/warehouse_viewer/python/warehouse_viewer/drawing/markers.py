@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse as RViz shows it: markers of the shapes that the world's Looks tell."""
+"""The warehouse as RViz shows it: markers of the shapes in the world's Looks."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_layout.floor import floor_markings, poses
 from warehouse_layout.floor.floor_markings import Mark
 from warehouse_layout.floor.painted import served
 from warehouse_msgs.msg import Look, Scenery
 from warehouse_viewer.drawing import looks, shapes
+from warehouse_viewer.drawing.looks import Part
 from warehouse_viewer.drawing.shapes import Shape, Text
 from warehouse_viewer.page.activities import Activity
 
@@ -54,12 +56,12 @@ def floor(bounds: Sequence[float], spacing: float = 1.0) -> list[Shape]:
     return [_joined("floor", [(slab, FLOOR)]), shapes.lines("grid", along_y + along_x, 0.02, GRID)]
 
 
-def _borders(low, high, spacing):
+def _borders(low: float, high: float, spacing: float) -> np.ndarray:
     """Midway between grid points, of which one is at 0."""
     return np.arange(np.ceil(low / spacing - 0.5) + 0.5, high / spacing + 1e-6) * spacing
 
 
-def _joined(name, parts):
+def _joined(name: str, parts: Sequence[tuple[np.ndarray, ArrayLike]]) -> Shape:
     """One marker from parts: triangles (n, m, 3), and a colour for all or for each of the n."""
     points = [p.reshape(-1, 3) for p, _ in parts] or [np.zeros((0, 3))]
     colours = [np.repeat(np.broadcast_to(c, (len(p), 4)), p.shape[1], axis=0) for p, c in parts]
@@ -74,17 +76,17 @@ def robots(look: Look | None, at: np.ndarray, does: np.ndarray, lift: np.ndarray
     at = np.insert(at, 2, 0.0, axis=1)
     if look is None:
         return [_joined("robots", [])]
-    seen = looks.parts(look)
-    body = seen[0]
-    if len(at) * sum(len(part.triangles()) for part in seen) > MOST_POINTS:
-        seen = [body := looks.hull(look)]
+    parts = looks.parts(look)
+    body = parts[0]
+    if len(at) * sum(len(part.triangles()) for part in parts) > MOST_POINTS:
+        parts = [body := looks.hull(look)]
     lifted = at + np.outer(lift, (0, 0, 1, 0))
     solids = [
         (
             shapes.placed(lifted if part.link == LIFTED else at, part.triangles()),
             COLOURS[does] if part is body else part.colour,
         )
-        for part in seen
+        for part in parts
     ]
     if len(at) * (len(body.triangles()) + len(_frame()) + len(ARROW)) > MOST_POINTS:
         return [_joined("robots", [(shapes.placed(lifted, _top(look)), COLOURS[does])])]
@@ -93,19 +95,19 @@ def robots(look: Look | None, at: np.ndarray, does: np.ndarray, lift: np.ndarray
     return [_joined("robots", [*solids, *marks])]
 
 
-def _arrow(look):
+def _arrow(look: Look) -> np.ndarray:
     """Triangle on top of a robot's front, where it heads."""
     low, high = looks.extent(look)
     return np.column_stack([ARROW * high[:2], np.full(3, high[2] + 0.001)])
 
 
-def _top(look):
+def _top(look: Look) -> np.ndarray:
     """Triangles of the square that a robot is from above."""
     low, high = looks.extent(look)
     return np.insert((low + high)[:2] / 2 + _QUAD * (high - low)[:2] / 2, 2, high[2], axis=1)
 
 
-def _frame():
+def _frame() -> np.ndarray:
     """Triangles of a square frame on the floor, in the colour of what a robot does."""
     square = np.array([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0)])
     inner, outer = (half * square + (0, 0, ABOVE_FLOOR) for half in FRAME)
@@ -117,12 +119,12 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
     """Returns things of one look at (n, 4) x y z [m] yaw [rad]; in line with the axes as boxes."""
     if look is None or not len(at):
         return []
-    seen = [looks.hull(look)] if are_thinned(look, len(at)) else looks.parts(look)
+    parts = [looks.hull(look)] if are_thinned(look, len(at)) else looks.parts(look)
     turned = np.abs(np.sin(2 * at[:, 3])) > 0.01
     across = ~turned & (np.abs(np.sin(at[:, 3])) > 0.7)
     along = ~turned & ~across
-    boxes = [part for part in seen if part.kind == Look.BOX and _is_straight(part)]
-    others = [part for part in seen if not any(part is box for box in boxes)]
+    boxes = [part for part in parts if part.kind == Look.BOX and _is_straight(part)]
+    others = [part for part in parts if not any(part is box for box in boxes)]
     out = []
     for i, alike in enumerate(_alike(boxes)):
         colour, size = alike[0].colour.tolist(), alike[0].size
@@ -131,20 +133,20 @@ def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
             label = f"{name} {i + 1}{suffix}"
             out.append(shapes.cubes(label, middles.reshape(-1, 3), size[list(edges)], colour))
     round_ones = [(shapes.placed(at[~turned], p.triangles()), p.colour) for p in others]
-    slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in seen]
+    slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in parts]
     return [*out, _joined(f"{name} round", round_ones), _joined(f"{name} turned", slanted)]
 
 
 def are_thinned(look: Look | None, count: int) -> bool:
-    """Tells whether so many things of a look are a box each, since they have too many parts."""
+    """Whether `count` things of a look are drawn as a box each, since they have too many parts."""
     return look is not None and count * len(looks.parts(look)) > MOST_CUBES
 
 
-def _is_straight(part):
+def _is_straight(part: Part) -> bool:
     return np.allclose(np.abs(part.pose[6]), 1)
 
 
-def _alike(parts):
+def _alike(parts: Iterable[Part]) -> list[list[Part]]:
     """Parts in groups of one size and colour."""
     groups: dict[tuple[Any, ...], list[Any]] = {}
     for part in parts:
@@ -190,7 +192,7 @@ def scenery(message: Scenery) -> list[Shape]:
     ]
 
 
-def _at_poses(part, at):
+def _at_poses(part: Part, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(triangles, colour) of a Part on each of the models at poses (n, 7)."""
     own = part.triangles()
     turn = np.repeat(at[:, 3:], len(own), axis=0)
@@ -199,11 +201,11 @@ def _at_poses(part, at):
 
 
 def names(
-    look: Look | None, numbers: Sequence[int], at: np.ndarray, wanted: Collection[int]
+    look: Look | None, numbers: Sequence[int], at: np.ndarray, always: Collection[int]
 ) -> list[Text]:
     """Returns names over the robots `numbers` at (n, 3); over many only those in `wanted`."""
     height = looks.extent(look)[1][2] + NAME_ABOVE if look else NAME_HEIGHT
-    shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in wanted]
+    shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in always]
     where = dict(zip(numbers, at))
     return [
         shapes.Text("names", n, (*where[n][:2], height), f"kiva{n}", NAME_HEIGHT, INK)

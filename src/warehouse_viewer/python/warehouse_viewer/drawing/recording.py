@@ -2,7 +2,7 @@
 """A bag of the warehouse's array topics as Moments, and as a film."""
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from matplotlib import animation
@@ -26,8 +26,8 @@ class RecordingError(ValueError):
 def moments(path: str, period: float) -> Iterator[Moment]:
     """Yields Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
     moment, due = Moment(), None
-    for one in bag_reader.messages(path, list(PARTS), RecordingError):
-        setattr(moment, PARTS[one.topic], one.message)
+    for message in bag_reader.messages(path, list(PARTS), RecordingError):
+        setattr(moment, PARTS[message.topic], message.message)
         now = moment.fleet.stamp.to_sec() if moment.complete else None
         if now is None or (due is not None and due - 10 * period < now < due):
             continue
@@ -47,7 +47,7 @@ def film(bag: str, path: str, speed: float, rate: float, **look: Any) -> None:
     (_write_gif if path.endswith(".gif") else _write_mp4)(path, frames, rate)
 
 
-def _frames(bag, period, look):
+def _frames(bag: str, period: float, look: Mapping[str, Any]) -> Iterator[Drawing]:
     drawing = None
     for moment in moments(bag, period):
         drawing = drawing or Drawing(moment, **look)
@@ -55,12 +55,12 @@ def _frames(bag, period, look):
         yield drawing
 
 
-def _write_gif(path, frames, rate):
+def _write_gif(path: str, frames: Iterable[Drawing], rate: float) -> None:
     first, *rest = (Image.fromarray(d.pixels()).quantize(64) for d in frames)
     first.save(path, save_all=True, append_images=rest, duration=round(1000 / rate), loop=0)
 
 
-def _write_mp4(path, frames, rate):
+def _write_mp4(path: str, frames: Iterator[Drawing], rate: float) -> None:
     if not shutil.which("ffmpeg"):
         raise RecordingError(f"{path}: an MP4 needs ffmpeg (apt install ffmpeg); a GIF does not")
     writer = animation.FFMpegWriter(fps=rate)

@@ -6,10 +6,11 @@ Lists of points pass as bytes: making a Python object of each would cost a hundr
 
 from collections.abc import Sequence
 from io import BytesIO
-from typing import Any
+from typing import Self
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+from numpy.typing import ArrayLike
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -33,8 +34,8 @@ class Shape:
         self,
         kind: int,
         name: str,
-        points: Any,
-        colours: Any,
+        points: ArrayLike,
+        colours: ArrayLike,
         scale: Sequence[float] = (1, 1, 1),
     ) -> None:
         self.points = np.ascontiguousarray(points, "<f8")
@@ -51,7 +52,7 @@ class Shape:
         """The marker's namespace."""
         return self._marker.ns
 
-    def same_as(self, other: Any) -> bool:
+    def same_as(self, other: Self | None) -> bool:
         """Whether another Shape of this name, or None, would look the same."""
         return (
             other is not None
@@ -97,7 +98,7 @@ class Text:
         self._marker.scale.z = height
         self._marker.color = ColorRGBA(*colour)
 
-    def same_as(self, other: Any) -> bool:
+    def same_as(self, other: Self | None) -> bool:
         """Whether another Text of this name, or None, would look the same."""
         return other is not None and self._marker == other._marker
 
@@ -122,17 +123,17 @@ class ShapeArray(MarkerArray):
             shape.serialize(buff)
 
 
-def cubes(name: str, centres: Any, size: Sequence[float], colour: Any) -> Shape:
+def cubes(name: str, centres: ArrayLike, size: Sequence[float], colour: ArrayLike) -> Shape:
     """Returns boxes of one size [m] along the axes, at centres (n, 3) [m]."""
     return Shape(Marker.CUBE_LIST, name, centres, colour, size)
 
 
-def triangles(name: str, points: Any, colours: Any) -> Shape:
+def triangles(name: str, points: ArrayLike, colours: ArrayLike) -> Shape:
     """Returns triangles of three points each, (3 n, 3) [m]."""
     return Shape(Marker.TRIANGLE_LIST, name, points, colours)
 
 
-def lines(name: str, points: Any, width: float, colour: Any) -> Shape:
+def lines(name: str, points: ArrayLike, width: float, colour: ArrayLike) -> Shape:
     """Returns lines of two points each, (2 n, 3) [m]."""
     return Shape(Marker.LINE_LIST, name, points, colour, (width, 0, 0))
 
@@ -153,7 +154,7 @@ def ball() -> np.ndarray:
     return _turned(np.column_stack([np.cos(angles), np.sin(angles)]) / 2)
 
 
-def _turned(profile):
+def _turned(profile: Sequence[tuple[float, float]]) -> np.ndarray:
     """Triangles of an outline (n, 2) of distance from and height along z, turned about it."""
     angles = np.linspace(0, 2 * np.pi, ROUND + 1)
     ring = np.array([[(r * np.cos(a), r * np.sin(a), z) for a in angles] for r, z in profile])
@@ -164,7 +165,7 @@ def _turned(profile):
     return out[~flat].reshape(-1, 3)
 
 
-def boxes(poses: np.ndarray, centre: Any, size: Any) -> np.ndarray:
+def boxes(poses: np.ndarray, centre: ArrayLike, size: ArrayLike) -> np.ndarray:
     """Triangles of boxes fixed to things that turn about z: (n, 36, 3).
 
     `poses` is (n, 4): x y z yaw of the things; `centre` and `size` [m] of the box in their frame.

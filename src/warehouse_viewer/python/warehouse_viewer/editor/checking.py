@@ -16,8 +16,8 @@ def checked(text: str) -> dict[str, Any]:
         file = layout_file.parse(text, NAME)
     except LayoutFileError as error:
         return {"faults": [{"text": told(error), "cells": []}], "lanes": {}}
-    found = [{"text": fault.text, "cells": fault.cells} for fault in faults(file)]
-    return {"faults": found, "lanes": _lanes_found(file)}
+    rows = [{"text": fault.text, "cells": fault.cells} for fault in faults(file)]
+    return {"faults": rows, "lanes": _lanes_found(file)}
 
 
 def told(error: LayoutFileError) -> str:

@@ -37,5 +37,5 @@ def _station(station: StationEntry) -> dict[str, Any]:
     }
 
 
-def _places(value: Any) -> Any:
+def _places(value: object) -> object:
     return [list(cell) for cell in value] if isinstance(value, tuple) else value

@@ -15,7 +15,7 @@ COMPANIONS = (".pgm", ".png", ".bmp", ".csv")  # of files that name them; a grid
 
 
 def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
-    """Reads a layout file, or one of another format, of which the sentences tell what could not be
+    """Reads a layout file, or one of another format, with sentences about what could not be
     carried over. Raises LayoutFileError, or a ValueError for other formats."""
     if str(path).endswith(SUFFIX):
         return layout_file.read(path), []
@@ -25,8 +25,8 @@ def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
         raise LayoutFileError(
             f"{PurePath(path).name}: only {SUFFIX} files can be opened here: {error}"
         ) from error
-    found: tuple[LayoutFile, list[str]] = formats.read(Path(path))
-    return found
+    opened_file: tuple[LayoutFile, list[str]] = formats.read(Path(path))
+    return opened_file
 
 
 def opened(files: Mapping[str, str]) -> tuple[LayoutFile, list[str]]:
@@ -36,12 +36,12 @@ def opened(files: Mapping[str, str]) -> tuple[LayoutFile, list[str]]:
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [_put(Path(folder), name, content) for name, content in files.items()]
-        wanted = [path for path in paths if path.suffix.lower() not in COMPANIONS] or paths
-        if len(wanted) != 1:
+        layouts = [path for path in paths if path.suffix.lower() not in COMPANIONS] or paths
+        if len(layouts) != 1:
             names = ", ".join(path.name for path in paths) or "nothing"
             raise LayoutFileError(f"one file to open was expected, not {names}")
         try:
-            return read(wanted[0])
+            return read(layouts[0])
         except (OSError, ValueError) as error:
             raise LayoutFileError(str(error).replace(f"{folder}/", "")) from error
 

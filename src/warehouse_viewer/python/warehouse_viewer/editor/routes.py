@@ -16,6 +16,7 @@ from starlette.routing import Route
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, RequestError, resolve
+from warehouse_layout.file.request import Request as Preset
 from warehouse_layout.generate import generated
 from warehouse_viewer.editor import checking, drawing_json, opening
 from warehouse_viewer.json_text import JSONResponse, dumps
@@ -117,7 +118,7 @@ async def _trial(text: bytes) -> AsyncIterator[bytes]:
             process.kill()
 
 
-def _counts(request: Any) -> Answer:
+def _counts(request: Preset) -> Answer:
     return {
         "robots": request.robots,
         "units": request.shelves,
@@ -134,15 +135,15 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
             fields = _fields(await request.json(), work)
             return JSONResponse(await asyncio.to_thread(work, **fields))
         except (LayoutFileError, RequestError) as error:
-            told = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
-            return JSONResponse({"detail": told}, 409)
+            detail = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
+            return JSONResponse({"detail": detail}, 409)
         except (TypeError, ValueError) as error:
             return JSONResponse({"detail": f"the request is wrong: {error}"}, 422)
 
     return endpoint
 
 
-def _fields(asked: Any, work: Callable[..., Answer]) -> Answer:
+def _fields(asked: object, work: Callable[..., Answer]) -> Answer:
     """Returns the arguments of `work` from a request's body. Raises TypeError."""
     kinds = typing.get_type_hints(work)
     kinds.pop("return")
@@ -160,8 +161,8 @@ def _check(text: str) -> Answer:
 
 def _read(files: dict[str, str]) -> Answer:
     """Returns the drawing of files in base64, by name, and what could not be carried over."""
-    file, told = opening.opened(files)
-    return {"drawing": drawing_json.of_file(file), "told": told}
+    file, notes = opening.opened(files)
+    return {"drawing": drawing_json.of_file(file), "told": notes}
 
 
 def _new(robots: int, units: int, items: int, stations: int) -> Answer:

@@ -38,11 +38,11 @@ def lines(text: str) -> Iterator[dict[str, Any]]:
     _check(file, site)
     policies = layout_site.policies_of(file)
     with Operations(site=site, orders="fill", policies=policies, physics=False) as ops:
-        told = 0.0
+        last = 0.0
         while ops.time < SECONDS:
             ops.run(seconds=min(SLICE, SECONDS - ops.time))
-            if clock.monotonic() - told > PERIOD:
-                told = clock.monotonic()
+            if clock.monotonic() - last > PERIOD:
+                last = clock.monotonic()
                 yield _progress(ops)
         yield {"result": _result(ops)}
 
@@ -57,9 +57,9 @@ def _check(file: LayoutFile, site: Site) -> None:
     missing = [what for what, lacks_it in lacks.items() if lacks_it]
     if missing:
         raise TrialError(f"robots can't work there: the drawing lacks {', '.join(missing)}")
-    found = faults(file)
-    if found:
-        raise TrialError(f"robots can't work there yet: {found[0].text}")
+    wrong = faults(file)
+    if wrong:
+        raise TrialError(f"robots can't work there yet: {wrong[0].text}")
 
 
 def _ideal(ops: Operations) -> IdealFleet:

@@ -2,13 +2,19 @@
 """What robots do at a glance: five activities, each with a colour, the same in list, floor, panels,
 pictures and API. words.js and design.css have them for the page."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from enum import IntEnum
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from warehouse_viewer.message_enums import EventKind, State, Status
+from warehouse_layout.message_enums import EventKind, State, Status
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState
 
 
 class Activity(IntEnum):
@@ -22,9 +28,11 @@ class Activity(IntEnum):
 
 
 TOO_LONG = 30.0  # to wait [s, simulated]
+QUEUED_TOO_LONG = 120.0  # to stand in the queue of a station, while a unit is served [s, simulated]
+IN_QUEUE = "in the queue of "  # how the coordinator's reason begins there
 
 
-def shown_status(fleet: Any) -> np.ndarray:
+def shown_status(fleet: FleetState) -> np.ndarray:
     """Returns the status of each robot in a FleetState, (n,) uint8.
 
     BLOCKED itself lasts only a moment; it shows until the robot's next command is accepted.
@@ -35,16 +43,25 @@ def shown_status(fleet: Any) -> np.ndarray:
     return status
 
 
-def wait_too_long(coordinator: Any) -> list[int]:
-    """Returns the numbers of the robots that wait for TOO_LONG, by a CoordinatorState or None."""
+def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
+    """Returns the numbers of the robots that wait for too long, by a CoordinatorState or None.
+
+    A robot in the queue of a station stands while a unit before it is served: it waits for too
+    long from QUEUED_TOO_LONG on, others from TOO_LONG on.
+    """
     if coordinator is None:
         return []
-    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since)
+    texts = list(coordinator.waiting_text) or [""] * len(coordinator.waiting_kiva)
+    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since, texts)
     now = coordinator.header.stamp.to_sec()
-    return [robot for robot, since in waits if now - since >= TOO_LONG]
+    return [
+        robot
+        for robot, since, text in waits
+        if now - since >= (QUEUED_TOO_LONG if text.startswith(IN_QUEUE) else TOO_LONG)
+    ]
 
 
-def activity(fleet: Any, waiting: Collection[int] = ()) -> np.ndarray:
+def activity(fleet: FleetState, waiting: Collection[int] = ()) -> np.ndarray:
     """Returns the Activity of each robot in a FleetState, (n,) uint8.
 
     `waiting` are the numbers of robots that wait for too long; see wait_too_long().
@@ -59,6 +76,6 @@ def activity(fleet: Any, waiting: Collection[int] = ()) -> np.ndarray:
     return out
 
 
-def _bytes(field: Any) -> np.ndarray:
+def _bytes(field: ArrayLike | bytes) -> np.ndarray:
     """(n,) uint8 of a message's uint8[]."""
     return np.frombuffer(bytes(field), np.uint8)

@@ -4,24 +4,32 @@
 Nothing is queued: a page that is ready gets everything that changed since its last update, once.
 """
 
+from __future__ import annotations
+
 import asyncio
 import json
 import math
 import time
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from contextlib import suppress
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_layout.floor import poses
+from warehouse_msgs.msg import CoordinatorPaths
 from warehouse_viewer.json_text import dumps
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.activities import wait_too_long
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
 from warehouse_viewer.server.access import RateLimit
+
+if TYPE_CHECKING:
+    from tf2_msgs.msg import TFMessage
+
+    from warehouse_msgs.msg import FleetPaths
 
 GAP = 0.08  # least time between two updates [s, wall]
 SCENE_GAP = 1.0  # least time between two scenes: many items make a megabyte [s, wall]
@@ -41,19 +49,20 @@ class Page:
     """
 
     def __init__(self, socket: WebSocket, last_event: int) -> None:
-        self.socket, self.tick, self.revision = socket, -1, None
-        self.event, self.in_flight, self.status = last_event, 0, None
+        self.socket, self.tick, self.event, self.in_flight = socket, -1, last_event, 0
+        self.revision: int | None = None
+        self.status: dict[str, Any] | None = None
         self.gap = 0.0  # that it asks for between two updates [s, wall]
         self.scans: set[int] = set()
         self.sent_scans: dict[int, Any] = {}
-        self.sent_requested: Any = None
+        self.sent_requested: list[int] | None = None
         self.paths: set[int] = set()
         self.sent_paths: dict[int, Any] = {}
         self.ways: set[int] | None = set()  # of these robots, None: of all
-        self.sent_ways: Any = None
+        self.sent_ways: CoordinatorPaths | None = None
         self.coordinator = None  # the CoordinatorState that it was sent
 
-    async def send_json(self, message: Any) -> None:
+    async def send_json(self, message: Mapping[str, Any]) -> None:
         """Sends a message as compact JSON."""
         await self.socket.send_text(dumps(message))
 
@@ -87,7 +96,7 @@ class Hub:
         self._scene_due = 0.0
 
     def notify(self) -> None:
-        """Tells the hub that the Source has something new."""
+        """Wakes the hub: the Source has something new."""
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
                 self._loop.call_soon_threadsafe(self._changed.set)
@@ -115,14 +124,14 @@ class Hub:
             watching.cancel()
 
     @property
-    def _gap(self):
-        """Between two updates [s, wall]."""
+    def _gap(self) -> float:
+        """The duration between two updates [s, wall]."""
         if self._pages or not self._keeper:
             return GAP
         performance = self._feed["performance"]
         return self._keeper.gap(performance.real_time_factor if performance else 1.0)
 
-    def _refresh(self):
+    def _refresh(self) -> None:
         if self._pages or self._keeper:
             self._feed.subscribe()
         elif self._feed.unsubscribe_if_idle():
@@ -132,7 +141,7 @@ class Hub:
             return
         objects, states = together
         scenery = self._feed["scenery"]
-        # While a warehouse is built, what stands there changes ten times a second.
+        # What stands there changes ten times a second while a warehouse is built.
         if not self._model.is_same_scene(objects, scenery):
             if time.monotonic() < self._scene_due:
                 return
@@ -142,14 +151,14 @@ class Hub:
         if self._keeper:
             self._keeper.take()
 
-    async def _watch_simulation(self):
+    async def _watch_simulation(self) -> None:
         while True:
             if self._pages:
                 self._status = await asyncio.to_thread(self._read_status)
                 self._changed.set()
             await asyncio.sleep(STATUS_GAP)
 
-    def _read_status(self):
+    def _read_status(self) -> dict[str, Any]:
         if time.monotonic() >= self._offers_due:
             self._offers = self._simulation.offers()
             self._offers_due = time.monotonic() + OFFERS_GAP
@@ -190,14 +199,14 @@ class Hub:
             self._pages.discard(page)
             self._update_subscriptions()
 
-    async def _listen_forever(self, page):
+    async def _listen_forever(self, page: Page) -> None:
         """Reads requests until the page disconnects, or sends what no page would send."""
         limit = RateLimit(MOST_REQUESTS)
         with suppress(WebSocketDisconnect, *MALFORMED):
             while limit.allows(page):
                 await self._handle(page, json.loads(await page.socket.receive_text()))
 
-    async def _handle(self, page, wish):
+    async def _handle(self, page: Page, wish: Mapping[str, Any]) -> None:
         """Handles a page's request: {"ack": n} acknowledges updates, {"gap": s} sets the least time
         between two, and {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}} chooses whose
         extras to send, "ways": "all" those of every robot."""
@@ -214,12 +223,12 @@ class Hub:
         async with self._turn:
             self._turn.notify_all()
 
-    def _update_subscriptions(self):
+    def _update_subscriptions(self) -> None:
         scans = sorted(set().union(*(p.scans for p in self._pages)))[:MOST_SCANS]
         ways = any(p.ways is None or p.ways for p in self._pages)
         self._feed.subscribe_extras(any(p.paths for p in self._pages), ways, scans)
 
-    async def _send_forever(self, page):
+    async def _send_forever(self, page: Page) -> None:
         with suppress(WebSocketDisconnect, RuntimeError):
             while True:
                 if page.in_flight < IN_FLIGHT:
@@ -228,7 +237,7 @@ class Hub:
                 async with self._turn:
                     await self._turn.wait()
 
-    async def _send_changes(self, page):
+    async def _send_changes(self, page: Page) -> None:
         model = self._model
         if model.revision and page.revision != model.revision:
             page.revision, page.tick = model.revision, -1
@@ -244,13 +253,13 @@ class Hub:
             page.status = self._status
             await page.send_json(self._status)
 
-    async def _send_events(self, page):
+    async def _send_events(self, page: Page) -> None:
         events = self._journal.since(page.event, limit=200)
         if events:
             page.event = events[-1]["id"]
             await page.send_json({"type": "events", "events": events})
 
-    async def _send_fleet(self, page):
+    async def _send_fleet(self, page: Page) -> None:
         state = self._feed.coordinator
         if state is not page.coordinator:
             page.coordinator = state
@@ -262,7 +271,7 @@ class Hub:
             page.sent_ways = ways
             await page.socket.send_bytes(protocol.ways(ways, page.ways))
 
-    async def _send_extras(self, page):
+    async def _send_extras(self, page: Page) -> None:
         for kiva_id in page.scans:
             scan = self._feed[f"scan{kiva_id}"]
             mount = mount_of(self._feed["frames"], f"kiva{kiva_id}/laser")
@@ -280,7 +289,7 @@ class Hub:
             await page.send_json({"type": "paths", "paths": paths})
 
 
-def mount_of(frames: Any, name: str) -> tuple[float, float, float, float] | None:
+def mount_of(frames: TFMessage | None, name: str) -> tuple[float, float, float, float] | None:
     """Returns (x, y, z [m], yaw [rad]) of a frame on its parent in a TFMessage; None if unknown."""
     for stamped in frames.transforms if frames else ():
         if stamped.child_frame_id == name:
@@ -290,14 +299,14 @@ def mount_of(frames: Any, name: str) -> tuple[float, float, float, float] | None
     return None
 
 
-def paths_of(message: Any, wanted: Collection[int]) -> dict[int, list[list[float]]]:
+def paths_of(message: FleetPaths | None, robots: Collection[int]) -> dict[int, list[list[float]]]:
     """Returns {kiva_id: [[x, y], …]} [m] of the wanted robots in a FleetPaths or None."""
     out: dict[int, list[list[float]]] = {}
     at = 0
     if message is None:
         return out
     for kiva_id, points in zip(message.kiva_id, message.points):
-        if kiva_id in wanted:
+        if kiva_id in robots:
             end = at + points
             xy = zip(message.x[at:end], message.y[at:end])
             out[kiva_id] = [[x, y] for x, y in xy if math.isfinite(x) and math.isfinite(y)]

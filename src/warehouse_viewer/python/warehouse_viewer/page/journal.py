@@ -39,12 +39,12 @@ class Journal:
         if number >= self.last_id:
             return []
         with self._lock:
-            found = [
+            entries = [
                 e
                 for e in self._events
                 if e["id"] > number and (model is None or model in (e["model"], e["other"]))
             ]
-        return found[-limit:]
+        return entries[-limit:]
 
     def csv(self) -> str:
         """Returns all entries, oldest first, for a spreadsheet."""
@@ -55,7 +55,7 @@ class Journal:
         return text.getvalue()
 
 
-def cell(value: Any) -> Any:
+def cell(value: object) -> object:
     """Returns what no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
     injection). Numbers stay numbers."""
     is_formula = isinstance(value, str) and value.startswith(FORMULA) and not NUMBER.match(value)

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the page shows, made from the newest messages: a scene that seldom changes, and tables."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable, Collection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,8 +16,11 @@ from warehouse_viewer.page.activities import activity
 from warehouse_viewer.page.paint import short
 from warehouse_viewer.page.table import Table
 
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
+
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
-STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
+STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
 
 
 class Model:
@@ -27,27 +32,30 @@ class Model:
         self.changed_at = 0  # the last tick at which there was something to show
         self.robots, self.units = Table(protocol.ROBOT), Table(protocol.BODY)
         self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
-        self._objects: Any = None  # the newest messages
-        self._states: Any = None
-        self._scenery: Any = None
-        self._fleet: Any = None
+        self._objects: WarehouseObjects = None  # the newest messages, from the first update on
+        self._states: UnitStates = None
+        self._scenery: Scenery = None
+        self._fleet: FleetState = None
         self._kiva_id = np.zeros(0, int)
         self._robot_of: dict[int, int] = {}
         self._solid = np.zeros(0, int)  # indices of models in a Scenery that are not paint
         self._scene_text: str | None = None
-        self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
+        self._sent_stamp, self._sent_at = (
+            0.0,
+            0.0,
+        )  # the time in the last update, and when [s, wall]
 
     # --- messages in
-    def is_same_scene(self, objects: Any, scenery: Any) -> bool:
+    def is_same_scene(self, objects: WarehouseObjects, scenery: Scenery) -> bool:
         """Whether these messages name the same models as those of the last update()."""
         return objects is self._objects and _look_alike(scenery, self._scenery)
 
     def update(
         self,
-        objects: Any,
-        states: Any,
-        fleet: Any,
-        scenery: Any,
+        objects: WarehouseObjects,
+        states: UnitStates,
+        fleet: FleetState,
+        scenery: Scenery,
         waiting: Collection[int] = (),
     ) -> bool:
         """Takes over the newest messages. `objects` and `states` must be of the same revision.
@@ -69,13 +77,13 @@ class Model:
             moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose)[self._solid])
             self._scenery = scenery
         # Time alone is worth an update too, now and then: the page shows it.
-        late = self._clock() - self._told_at >= TIME_GAP
-        if scene or moved or (late and self.stamp != self._told):
+        late = self._clock() - self._sent_at >= TIME_GAP
+        if scene or moved or (late and self.stamp != self._sent_stamp):
             self.changed_at = self.tick
-            self._told, self._told_at = self.stamp, self._clock()
+            self._sent_stamp, self._sent_at = self.stamp, self._clock()
         return self.changed_at == self.tick
 
-    def _take_scene(self, objects, fleet, scenery):
+    def _take_scene(self, objects: WarehouseObjects, fleet: FleetState, scenery: Scenery) -> bool:
         """True if things came or went, so that indices mean others."""
         ids = np.array(fleet.kiva_id, int)
         if self.is_same_scene(objects, scenery) and np.array_equal(ids, self._kiva_id):
@@ -92,7 +100,7 @@ class Model:
         self._scenery, self._scene_text = scenery, None
         return True
 
-    def _take_fleet(self, fleet, waiting):
+    def _take_fleet(self, fleet: FleetState, waiting: Collection[int]) -> bool:
         self.stamp = fleet.stamp.to_sec()
         return self.robots.set(
             self.tick,
@@ -107,7 +115,7 @@ class Model:
             load_limit=_limits(fleet),
         )
 
-    def _take_units(self, states):
+    def _take_units(self, states: UnitStates) -> bool:
         self.stamp = max(self.stamp, states.header.stamp.to_sec())
         pose, carrier = poses.rows(states.pose).copy(), np.array(states.carrier, int)
         robot = np.array([self._robot_of.get(n, -1) for n in carrier.tolist()], int)
@@ -120,7 +128,7 @@ class Model:
         loose[list(states.loose_item)] = poses.rows(states.loose_pose)
         return self.loose.set(self.tick, pose=loose) or moved
 
-    def _on_carriers(self, units, robots, pose):
+    def _on_carriers(self, units: np.ndarray, robots: np.ndarray, pose: np.ndarray) -> np.ndarray:
         """Poses of carried units on their robots; they change only while the robot stands.
 
         So a unit costs nothing to send while it is driven about, and never lags behind its robot.
@@ -133,7 +141,7 @@ class Model:
         inner[drives & known] = self.units.rows["pose"][units[drives & known]]
         return inner
 
-    def _stands(self, robots):
+    def _stands(self, robots: np.ndarray) -> np.ndarray:
         speeds = np.abs([self._fleet.vx, self._fleet.vy, self._fleet.yaw_rate])
         return speeds[:, robots].max(axis=0, initial=0) < STANDS
 
@@ -179,28 +187,28 @@ class Model:
             "scenery_look": [int(scenery.model_look[i]) for i in self._solid],
         }
 
-    def _looks(self):
-        """Of all but paint, which the page draws as it likes."""
+    def _looks(self) -> list[Any]:
+        """The looks of all but paint, which the page draws in its own colours."""
         scenery = self._scenery
         solid = {scenery.model_look[i] for i in self._solid}
         unseen = {*scenery.model_look} - solid
         return [[] if i in unseen else _look(look) for i, look in enumerate(scenery.looks)]
 
 
-def _limits(fleet):
+def _limits(fleet: FleetState) -> np.ndarray:
     """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
     limits = np.asarray(fleet.load_limit, np.float32)
     return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
 
 
-def _look_alike(a, b):
+def _look_alike(a: Scenery | None, b: Scenery | None) -> bool:
     """Whether two sceneries differ in no more than poses."""
     if a is b or a is None or b is None:
         return a is b
     return a.models == b.models and a.model_look == b.model_look and a.looks == b.looks
 
 
-def _planar(x, y, yaw):
+def _planar(x: np.ndarray, y: np.ndarray, yaw: np.ndarray) -> np.ndarray:
     """(n, 7) of robots on the floor."""
     out = np.zeros((len(x), 7))
     out[:, 0], out[:, 1] = x, y
@@ -208,8 +216,8 @@ def _planar(x, y, yaw):
     return out
 
 
-def _centred(inner):
-    """Of a unit first seen under way, whose pose and its robot's may be of different moments.
+def _centred(inner: np.ndarray) -> np.ndarray:
+    """Corrects the pose of a unit first met under way: it may be older than its robot's.
 
     It sits over the robot's centre, turned by whole quarters.
     """
@@ -219,7 +227,7 @@ def _centred(inner):
     return out
 
 
-def _look(look):
+def _look(look: Look) -> list[dict[str, Any]]:
     """A Look as a list of links, each with its shapes."""
     links = [
         {"name": name, "pose": pose, "shapes": []}

@@ -48,7 +48,7 @@ class Pace:
         self._set(factor=factor)
 
     def step(self, seconds: float) -> None:
-        """Lets a paused world go on for so long [s, simulated]."""
+        """Steps a paused world by a duration [s, simulated]."""
         self._set(_allowed=self.reached + seconds - 1e-9)
 
     def end(self) -> None:

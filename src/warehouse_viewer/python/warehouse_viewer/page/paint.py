@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is painted on the floor, as a page draws it: rectangles, arrows and stations."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_layout.floor import floor_markings, painted
 from warehouse_layout.floor.floor_markings import HEADINGS, QUEUE, Mark
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import Scenery
 
 YAWS = dict(zip(HEADINGS, np.arange(4) * np.pi / 2, strict=True))
 APART = 3  # from one arrow of a street to the next [cells]
 
 
-def of_scenery(scenery: Any) -> dict[str, Any]:
+def of_scenery(scenery: Scenery) -> dict[str, Any]:
     """Returns `paint`, the rectangles of each kind as x y and full extents in a row [m]; `arrows`,
     x y yaw in a row [m, rad], along one-way streets and lanes; and `stations`."""
     marks = painted.marks(scenery)
@@ -54,6 +60,6 @@ def _along_lanes(marks: Iterable[Mark]) -> Iterator[float]:
             yield from ((a.x + b.x) / 2, (a.y + b.y) / 2, np.arctan2(b.y - a.y, b.x - a.x))
 
 
-def short(numbers: Any) -> list[Any]:
+def short(numbers: ArrayLike) -> list[Any]:
     """Returns numbers rounded to 0.1 mm: half the bytes."""
     return np.round(np.asarray(numbers, float), 4).tolist()

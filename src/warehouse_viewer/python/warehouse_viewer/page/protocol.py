@@ -21,11 +21,16 @@
 web/js/base/protocol.js reads it.
 """
 
+from __future__ import annotations
+
 import struct
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorPaths
 
 VERSION = 4
 UPDATE, SCAN, WAYS = 1, 2, 3
@@ -49,7 +54,7 @@ ROBOT = np.dtype(
 )
 # x y z [m] qx qy qz qw in world; or, where a robot carries it, in that robot's frame.
 BODY = np.dtype([("index", "<u4"), ("pose", "<f4", 7), ("carrier", "<i4")])
-# As in CoordinatorPaths; the goal is NaN where there is none.
+# Rows as in CoordinatorPaths; the goal is NaN where there is none.
 WAY = np.dtype(
     [
         ("kiva_id", "<i4"),
@@ -83,10 +88,10 @@ def scan(
     return head + np.asarray(ranges, "<f4").tobytes()
 
 
-def ways(message: Any, wanted: Collection[int] | None = None) -> bytes:
+def ways(message: CoordinatorPaths, robots: Collection[int] | None = None) -> bytes:
     """Encodes a CoordinatorPaths of numpy arrays: all its robots, or those of the ids `wanted`."""
     ids = message.kiva_id
-    kept = np.ones(len(ids), bool) if wanted is None else np.isin(ids, list(wanted))
+    kept = np.ones(len(ids), bool) if robots is None else np.isin(ids, list(robots))
     rows = np.zeros(np.count_nonzero(kept), WAY)
     for name in ("kiva_id", "waits_for", "released", "planned"):
         rows[name] = getattr(message, name)[kept]

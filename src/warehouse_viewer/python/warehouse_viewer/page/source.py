@@ -5,11 +5,16 @@ The server knows no more of a warehouse than a Source. Behind ROS `ros.feed.Feed
 `ros.simulation.Simulation` fill it; `world_source.source_of` makes one for a world of this process.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from warehouse_viewer.page.journal import Journal
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState
 
 
 class RefusedError(RuntimeError):
@@ -50,7 +55,7 @@ class Feed(Protocol):
         """(WarehouseObjects, UnitStates) of the same revision; None if there are none yet."""
 
     @property
-    def coordinator(self) -> Any:
+    def coordinator(self) -> CoordinatorState | None:
         """The newest warehouse_msgs/CoordinatorState; None if no coordinator runs."""
 
     def subscribe(self) -> None:
@@ -86,7 +91,7 @@ class Simulation(Protocol):
         """Lets simulated time go on."""
 
     def step(self, steps: int) -> str:
-        """Advances a paused simulation by so many physics steps."""
+        """Advances a paused simulation by a number of physics steps."""
 
     def speed(self, factor: float) -> str:
         """Sets the target: simulated seconds per wall second, 0 for as fast as possible."""

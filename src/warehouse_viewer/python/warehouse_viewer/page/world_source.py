@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world of this process as a Source, without ROS."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +13,9 @@ from warehouse_layout.models.models import FLOOR, kind_and_number
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.pace import Pace
 from warehouse_viewer.page.source import Source
+
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
 
 PLACES = ("x", "y", "yaw", "vx", "vy", "yaw_rate")
 COLUMNS = (*PLACES, "kiva_id", "shelf_id", "status", "state", "last_end", "failures", "charge")
@@ -36,7 +41,7 @@ class WorldFeed:
     coordinator = None
     is_complete = True
 
-    def __init__(self, world: Any, pace: Pace) -> None:
+    def __init__(self, world: World, pace: Pace) -> None:
         self._world = world
         self._units = [f"storage_unit{n}" for n in world.storage_units["shelf_id"]]
         self._scanned: Sequence[int] = ()
@@ -52,7 +57,7 @@ class WorldFeed:
         self.update()
 
     def request(self, units: Iterable[int]) -> None:
-        """Tells which storage units are requested, by number."""
+        """Sets which storage units are requested, by number."""
         self._now = self._now | {"requested": sorted(units)}
 
     def update(self) -> None:
@@ -72,7 +77,7 @@ class WorldFeed:
         states = {name: SimpleNamespace(**of) for name, of in new.items()}
         self._now = self._now | states | self._scans_now()
 
-    def _scans_now(self):
+    def _scans_now(self) -> dict[str, SimpleNamespace]:
         """Scans of the robots whose lasers a page shows."""
         if not self._scanned:
             return {}
@@ -117,7 +122,7 @@ class WorldFeed:
         return scenery_of(self._world, Looks(self._world), self._units, [])
 
 
-def _scan(laser, ranges):
+def _scan(laser: np.void, ranges: np.ndarray) -> SimpleNamespace:
     """Laid out as a LaserScan; `ranges` may be longer than the laser has rays."""
     step = (laser["max_angle"] - laser["min_angle"]) / max(1, laser["rays"] - 1)
     return SimpleNamespace(
@@ -125,7 +130,7 @@ def _scan(laser, ranges):
     )
 
 
-def _mount(kiva_id, laser):
+def _mount(kiva_id: int, laser: np.void) -> SimpleNamespace:
     """Where the laser is on its robot, laid out as a transform of a TFMessage."""
     place = SimpleNamespace(
         translation=SimpleNamespace(x=laser["x"], y=0.0, z=laser["z"]),
@@ -135,7 +140,7 @@ def _mount(kiva_id, laser):
 
 
 def scenery_of(
-    world: Any, looks: "Looks", units: Sequence[str], items: Sequence[str]
+    world: World, looks: Looks, units: Sequence[str], items: Sequence[str]
 ) -> SimpleNamespace:
     """Returns what stands in a kiva_plugin_cpp.World, laid out as warehouse_msgs/Scenery.
 
@@ -161,7 +166,7 @@ def scenery_of(
 class WorldSimulation:
     """The control bar of a world of this process: it sets a Pace, the program does the rest."""
 
-    def __init__(self, world: Any, name: str, pace: Pace) -> None:
+    def __init__(self, world: World, name: str, pace: Pace) -> None:
         self._step_size, self._name, self._pace = world.step_size, name, pace
 
     def offers(self) -> dict[str, str | None]:
@@ -189,7 +194,7 @@ class WorldSimulation:
         return ""
 
     def step(self, steps: int) -> str:
-        """Advances a paused world by so many physics steps."""
+        """Advances a paused world by a number of physics steps."""
         self._pace.step(steps * self._step_size)
         return ""
 
@@ -199,7 +204,7 @@ class WorldSimulation:
         return ""
 
 
-def source_of(world: Any, name: str, pace: Pace) -> tuple[Source, WorldFeed]:
+def source_of(world: World, name: str, pace: Pace) -> tuple[Source, WorldFeed]:
     """Returns a Source for a kiva_plugin_cpp.World, and its feed to update as the world goes on."""
     feed = WorldFeed(world, pace)
     return Source(feed, WorldSimulation(world, name, pace), Journal()), feed
@@ -208,7 +213,7 @@ def source_of(world: Any, name: str, pace: Pace) -> tuple[Source, WorldFeed]:
 class Looks:
     """World.look() of models, each different one once."""
 
-    def __init__(self, world: Any) -> None:
+    def __init__(self, world: World) -> None:
         self._world = world
         self._known: dict[str, int] = {}
         self.all: list[SimpleNamespace] = []

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A bag of the warehouse's topics as a recording."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_viewer import bag_reader
 from warehouse_viewer.api import catalogue
@@ -15,6 +17,9 @@ from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.file import FileWriter
 from warehouse_viewer.replay.recorder import Recorder
 from warehouse_viewer.replay.told import shown
+
+if TYPE_CHECKING:
+    from genpy import Message
 
 EVENTS = "/warehouse/events"
 FIGURES = {
@@ -31,9 +36,9 @@ def convert(bag: Path, path: Path, progress: Callable[[float], None]) -> None:
     """
     writer = FileWriter(path, {"name": bag.stem, "from": "bag"})
     conversion = _Conversion(writer)
-    for one in bag_reader.messages(bag, [*PARTS, EVENTS, *FIGURES], RecordingError):
-        conversion.take(one.topic, one.message, one.time)
-        progress(one.part)
+    for message in bag_reader.messages(bag, [*PARTS, EVENTS, *FIGURES], RecordingError):
+        conversion.take(message.topic, message.message, message.time)
+        progress(message.part)
     if not conversion.count:
         needed = ", ".join(PARTS)
         raise RecordingError(f"{bag}: nothing to play; at least {needed} were expected in it")
@@ -51,7 +56,7 @@ class _Conversion:
         self.recorder = Recorder(writer, self._model, self._journal, self._told, lambda: self._wall)
         self.count = 0  # of states
 
-    def take(self, topic: str, message: Any, wall: float) -> None:
+    def take(self, topic: str, message: Message, wall: float) -> None:
         """Takes a message that was recorded then [s since 1970, or simulated]."""
         # rosbag writes simulated time where the clock of the warehouse ran: that is not a date.
         self._wall = wall if wall > 1e9 else None

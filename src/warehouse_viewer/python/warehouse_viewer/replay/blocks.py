@@ -7,7 +7,7 @@
                    u32 length of the JSON in it, u64 length of the data after that [bytes]
                    …   JSON in UTF-8, then data compressed by zlib
 
-HEAD comes first and tells of the whole; SCEN is a scene as JSON, CHNK a stretch as in chunk.py.
+HEAD comes first and describes the whole; SCEN is a scene as JSON, CHNK a stretch as in chunk.py.
 DONE ends a recording that is whole: one without it was cut off, and is played up to there.
 """
 
@@ -28,7 +28,7 @@ class RecordingError(ValueError):
 
 
 class Block(NamedTuple):
-    """What a block is, what it tells of itself, and where its JSON and data lie [bytes]."""
+    """A block: its kind, its description, and where its JSON and data lie [bytes]."""
 
     what: bytes
     about: Any
@@ -38,15 +38,15 @@ class Block(NamedTuple):
     length: int
 
 
-def write_block(file: BinaryIO, what: bytes, about: Any, data: bytes = b"") -> Block:
+def write_block(file: BinaryIO, what: bytes, about: object, data: bytes = b"") -> Block:
     """Appends a block to a file; returns it. Raises OSError."""
-    told = json.dumps(about, separators=(",", ":")).encode()
-    crc = zlib.crc32(data, zlib.crc32(told))
-    file.write(_BLOCK.pack(what, crc, len(told), len(data)))
+    text = json.dumps(about, separators=(",", ":")).encode()
+    crc = zlib.crc32(data, zlib.crc32(text))
+    file.write(_BLOCK.pack(what, crc, len(text), len(data)))
     at = file.tell()
-    file.write(told)
+    file.write(text)
     file.write(data)
-    return Block(what, about, at, crc, len(told), len(data))
+    return Block(what, about, at, crc, len(text), len(data))
 
 
 def read_blocks(file: BinaryIO, name: str) -> tuple[list[Block], str]:
@@ -67,8 +67,8 @@ def read_blocks(file: BinaryIO, name: str) -> tuple[list[Block], str]:
 def read_data(file: BinaryIO, block: Block) -> bytes:
     """Returns a block's data, compressed. Raises ValueError if they are damaged."""
     file.seek(block.at)
-    told, data = file.read(block.json_length), file.read(block.length)
-    if zlib.crc32(data, zlib.crc32(told)) != block.crc:
+    text, data = file.read(block.json_length), file.read(block.length)
+    if zlib.crc32(data, zlib.crc32(text)) != block.crc:
         raise ValueError(f"byte {block.at}: the block is damaged (its CRC-32 is another)")
     return data
 
@@ -89,8 +89,8 @@ def _next_block(file: BinaryIO, size: int) -> Block:
     return Block(what, about, at, crc, json_length, length)
 
 
-def _parsed(told: bytes, at: int) -> Any:
+def _parsed(text: bytes, at: int) -> Any:
     try:
-        return json.loads(told)
+        return json.loads(text)
     except (ValueError, RecursionError) as error:
         raise ValueError(f"byte {at}: JSON was expected: {error}") from error

@@ -8,7 +8,8 @@ Decompressed, it is messages in a row, little-endian, each at a multiple of 8 by
     f64 stamp      simulated time [s]
     …              the message, and zeros up to a multiple of 8 bytes
 
-The first update tells everything, each other one what has changed. web/js/replay/chunk.js reads it.
+The first update holds everything, each later update what has changed. web/js/replay/chunk.js
+reads it.
 """
 
 import struct
@@ -38,7 +39,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Chunk:
-    """What a recording tells of a chunk: its number, that of its scene, when it begins and ends
+    """The description of a chunk: its number, that of its scene, when it begins and ends
     (simulated [s]), when it began on the clock on the wall (seconds since 1970; None: unknown),
     its marks, and its data, compressed."""
 
@@ -76,7 +77,7 @@ class OpenChunk:
         self.end = max(self.end, stamp)
 
     def packed(self, number: int, level: int = LEVEL) -> Chunk:
-        """Returns the Chunk so far."""
+        """Returns the Chunk as it is now."""
         data = zlib.compress(b"".join(self._parts), level)
         return Chunk(number, self.scene, self.begin, self.end, self.wall, tuple(self._marks), data)
 

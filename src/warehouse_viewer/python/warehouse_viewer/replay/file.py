@@ -62,7 +62,7 @@ class FileWriter:
             self._write(blocks.DONE, {})
             self._file.close()
 
-    def _write(self, what: bytes, about: Any, data: bytes = b"") -> None:
+    def _write(self, what: bytes, about: object, data: bytes = b"") -> None:
         try:
             blocks.write_block(self._file, what, about, data)
             self._file.flush()
@@ -91,10 +91,10 @@ class FileRecording:
         self.about: dict[str, Any] = {}
         try:
             self._file = user_file.opened(path, None)
-            found, self.cut = blocks.read_blocks(self._file, str(path))
+            read, self.cut = blocks.read_blocks(self._file, str(path))
         except OSError as error:
             raise RecordingError(f"{path}: {error.strerror}") from error
-        for block in found:
+        for block in read:
             self._take(block)
         if not self._chunks:
             raise RecordingError(f"{path}: nothing is recorded in it{self._and_why()}")
@@ -131,10 +131,10 @@ class FileRecording:
         try:
             self._take_checked(block)
         except (KeyError, TypeError, ValueError) as error:
-            told = error if isinstance(error, RecordingError) else f"{error!r}"
+            reason = error if isinstance(error, RecordingError) else f"{error!r}"
             raise RecordingError(
                 f"{self.path}: byte {block.at}: the head of a {block.what.decode()} block was"
-                f" expected: {told}"
+                f" expected: {reason}"
             ) from error
 
     def _take_checked(self, block: Block) -> None:
@@ -164,9 +164,9 @@ class FileRecording:
         self.about = dict(about["about"])
 
     def _forget_after(self, time: float) -> None:
-        kept = [(one, block) for one, block in self._chunks.values() if one.begin < time]
+        kept = [(chunk, block) for chunk, block in self._chunks.values() if chunk.begin < time]
         self._chunks = {
-            one.number: (replace(one, end=min(one.end, time)), block) for one, block in kept
+            chunk.number: (replace(chunk, end=min(chunk.end, time)), block) for chunk, block in kept
         }
 
 
@@ -175,8 +175,8 @@ def _chunk(about: dict[str, Any]) -> Chunk:
     number, scene, begin, end, wall, marks = (about[name] for name in FIELDS)
     begin, end = _finite(begin), _finite(end)
     wall = None if wall is None else _finite(wall)
-    told = tuple(_mark(mark) for mark in marks[:MOST_MARKS])
-    return Chunk(int(number), int(scene), begin, end, wall, told, b"")
+    shown = tuple(_mark(mark) for mark in marks[:MOST_MARKS])
+    return Chunk(int(number), int(scene), begin, end, wall, shown, b"")
 
 
 def _mark(about: dict[str, Any]) -> Mark:
@@ -184,8 +184,8 @@ def _mark(about: dict[str, Any]) -> Mark:
     return Mark(_finite(about["time"]), *texts)
 
 
-def _finite(number: Any) -> float:
-    """Returns a number as a float. Raises ValueError if it is none, or not finite."""
+def _finite(number: float | None) -> float:
+    """Returns a number as a float. Raises ValueError if it is no number, or not finite."""
     if isinstance(number, bool) or not isinstance(number, int | float) or not math.isfinite(number):
         raise ValueError(f"a number was expected, not {number!r}")
     return float(number)

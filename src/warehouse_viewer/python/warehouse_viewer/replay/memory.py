@@ -50,8 +50,8 @@ class MemoryStore:
 
     def forget_after(self, time: float) -> None:
         """Drops what comes after a simulated time [s]: the world went back to it."""
-        kept = [one for one in self._chunks.values() if one.begin < time]
-        self._chunks = {one.number: replace(one, end=min(one.end, time)) for one in kept}
+        kept = [chunk for chunk in self._chunks.values() if chunk.begin < time]
+        self._chunks = {c.number: replace(c, end=min(c.end, time)) for c in kept}
 
     def close(self) -> None:
         """Does nothing: memory needs no end."""
@@ -65,14 +65,14 @@ class MemoryStore:
         return end - oldest.end > self._seconds or self.size > self._most_bytes
 
     def _drop_scenes(self, newest: int) -> None:
-        used = {one.scene for one in self._chunks.values()} | {newest}
+        used = {chunk.scene for chunk in self._chunks.values()} | {newest}
         self._scenes = {n: data for n, data in self._scenes.items() if n in used}
 
     # --- reading
     @property
     def size(self) -> int:
         """How much memory chunks and scenes take [bytes]."""
-        chunks = sum(len(one.data) for one in self._chunks.values())
+        chunks = sum(len(chunk.data) for chunk in self._chunks.values())
         return chunks + sum(map(len, self._scenes.values()))
 
     @property

@@ -42,7 +42,7 @@ def _converted(bag: Path, made: Path, progress: "Progress") -> Path:
 
 
 class Progress:
-    """Tells on a terminal how much of a bag is read; elsewhere nothing."""
+    """Prints on a terminal how much of a bag is read; elsewhere nothing."""
 
     PERIOD = 0.2  # [s, wall]
 

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
@@ -33,7 +33,7 @@ TROUBLES = {
     )
 }
 ALARM = "ALARM"
-LASTS = re.compile(r" for \d.*")  # how long an alarm holds so far: no other alarm
+LASTS = re.compile(r" for \d.*")  # how long an alarm has held: no other alarm
 
 
 class Store(Protocol):
@@ -74,7 +74,7 @@ class Recorder:
         self._figures, self._clock = figures, clock
         self._open: OpenChunk | None = None
         self._revision, self._scene, self._tick, self._event = 0, 0, -1, 0
-        self._stamp = self._told = -math.inf  # of the last update, of the last figures [s]
+        self._stamp = self._figures_stamp = -math.inf  # of the last update, of the last figures [s]
         self._newest: dict[str, Any] | None = None  # the last figures
         self._alarms: set[str] = set()
 
@@ -104,7 +104,7 @@ class Recorder:
         self._take_figures(chunk)
 
     def open_chunk(self) -> Chunk | None:
-        """Returns the chunk to which is still added, as it is now; None if there is none."""
+        """Returns the chunk that still grows, as it is now; None if there is none."""
         return self._open.packed(self._store.next_number(), 1) if self._open else None
 
     def close(self) -> None:
@@ -115,9 +115,9 @@ class Recorder:
     # --- chunks
     def _begin(self, stamp: float) -> OpenChunk:
         self._open = OpenChunk(self._scene, stamp, self._clock())
-        self._tick, self._told = -1, -math.inf
-        past = [one for one in self._journal.since(0) if one["id"] <= self._event]
-        past = [one for one in past if one["time"] <= stamp][-PAST:]
+        self._tick, self._figures_stamp = -1, -math.inf
+        past = [entry for entry in self._journal.since(0) if entry["id"] <= self._event]
+        past = [entry for entry in past if entry["time"] <= stamp][-PAST:]
         self._open.add_text(stamp, {"type": "past", "events": past})
         return self._open
 
@@ -153,9 +153,9 @@ class Recorder:
             chunk.add_marks(_marks(events))
 
     def _take_figures(self, chunk: OpenChunk) -> None:
-        if self._stamp - self._told < FIGURES_GAP:
+        if self._stamp - self._figures_stamp < FIGURES_GAP:
             return
-        self._told = self._stamp
+        self._figures_stamp = self._stamp
         figures = self._figures()
         if figures:
             chunk.add_text(self._stamp, {"type": "figures", **figures})
@@ -163,8 +163,8 @@ class Recorder:
 
     def _new_alarms(self, figures: dict[str, Any]) -> list[Mark]:
         """Returns a Mark for each alarm that was not there before."""
-        told = (figures.get("fleet") or {}).get("alarms", ())
-        alarms = {LASTS.sub("", text): text for text in told}
+        texts = (figures.get("fleet") or {}).get("alarms", ())
+        alarms = {LASTS.sub("", text): text for text in texts}
         new, self._alarms = sorted(alarms.keys() - self._alarms), set(alarms)
         return [Mark(self._stamp, ALARM, "", alarms[name]) for name in new]
 

@@ -86,14 +86,14 @@ class RecordingRoutes:
 
 
 def _times(chunks: Sequence[Chunk]) -> dict[str, Any]:
-    rows = [[one.number, one.scene, one.begin, one.end, one.wall] for one in chunks]
+    rows = [[chunk.number, chunk.scene, chunk.begin, chunk.end, chunk.wall] for chunk in chunks]
     ends = {"begin": chunks[0].begin, "end": chunks[-1].end} if chunks else {}
     return {"begin": 0.0, "end": 0.0, "chunks": rows} | ends
 
 
 def _marks(chunks: Sequence[Chunk]) -> list[list[Any]]:
     """Returns [time, kind, model, text] of marks, the later ones if there are too many."""
-    marks = [astuple(mark) for one in chunks for mark in one.marks if mark.time <= one.end]
+    marks = [astuple(mark) for chunk in chunks for mark in chunk.marks if mark.time <= chunk.end]
     return [list(mark) for mark in marks[-MOST_MARKS:]]
 
 

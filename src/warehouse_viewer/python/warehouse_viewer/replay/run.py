@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Records what happens in a world of this process."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.replay.file import NAME, FileWriter
 from warehouse_viewer.replay.recorder import INTERVAL, Recorder
 from warehouse_viewer.replay.run_feed import RunFeed
+
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
 
 EVENTS_KEPT = 10_000  # more than come between two updates
 
@@ -27,7 +33,7 @@ class RunRecorder:
         self,
         folder: Path,
         about: dict[str, Any],
-        world: Any,
+        world: World,
         figures: Callable[[], dict[str, Any] | None] = lambda: None,
     ) -> None:
         self._writer = FileWriter(folder / NAME, about)
@@ -37,7 +43,7 @@ class RunRecorder:
         self._due = world.time
 
     @property
-    def objects(self) -> Any:
+    def objects(self) -> SimpleNamespace:
         """What is there, as RunFeed has it."""
         return self._feed.objects
 
@@ -53,7 +59,7 @@ class RunRecorder:
         for too long.
         """
         self._due = self._world.time + INTERVAL - 1e-3
-        for event in (one for some in events for one in some):
+        for event in (event_ for some in events for event_ in some):
             self._journal.add(_entry(event))
         feed = self._feed
         feed.update()

@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world of this process as messages: goods on their units, people who walk, items that fall."""
 
+from __future__ import annotations
+
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_layout.floor import poses
 from warehouse_viewer.page.world_source import COLUMNS, Looks, Stamp, scenery_of
+
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
 
 
 class RunFeed:
@@ -17,7 +23,7 @@ class RunFeed:
     messages; see page.source.Feed.
     """
 
-    def __init__(self, world: Any) -> None:
+    def __init__(self, world: World) -> None:
         self._world = world
         self._units = [f"storage_unit{n}" for n in self._world.storage_units["shelf_id"]]
         self._people: list[str] = []
@@ -79,7 +85,7 @@ class RunFeed:
         return scenery_of(self._world, self._looks, self._units, self.objects.items)
 
 
-def _poses(rows: np.ndarray, yaw: Any = 0.0) -> np.ndarray:
+def _poses(rows: np.ndarray, yaw: ArrayLike = 0.0) -> np.ndarray:
     """Returns (n, 7) of rows with x, y, z [m], upright and turned by yaw [rad]."""
     out = np.zeros((len(rows), 7))
     out[:, 0], out[:, 1], out[:, 2] = rows["x"], rows["y"], rows["z"]

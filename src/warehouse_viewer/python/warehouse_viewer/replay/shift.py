@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Records a shift that is simulated in this process: --record of simulate."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_fleet.hosts.coordinator_messages import state_message
 from warehouse_fleet.transports.waiting import Waiting
@@ -13,6 +15,10 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.page.activities import TOO_LONG
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.run import RunRecorder
+
+if TYPE_CHECKING:
+    from warehouse_fleet.hosts.fleet_driver import FleetDriver
+    from warehouse_operations.fleets.world_fleet import WorldFleet
 
 
 class ShiftRecorder:
@@ -54,16 +60,16 @@ class ShiftRecorder:
         return run
 
 
-def waiting(fleet: Any) -> list[int]:
+def waiting(fleet: FleetDriver) -> list[int]:
     """Returns the numbers of the robots of a FleetDriver that wait for too long."""
     traffic, robots = fleet.traffic, fleet.robots
-    found = Waiting(traffic, fleet.transports).long()
-    long = [robot for robot, _ in found if traffic.time - robots.still_since[robot] >= TOO_LONG]
+    waits = Waiting(traffic, fleet.transports).long()
+    long = [robot for robot, _ in waits if traffic.time - robots.still_since[robot] >= TOO_LONG]
     return robots.kiva_ids[long].tolist()
 
 
 def figures(ops: Operations) -> dict[str, Any]:
-    """Returns what a recording tells of a shift now."""
+    """Returns what a recording keeps of a shift now."""
     shift = ops.shift
     tally, hours = shift.tally, max(shift.now - shift.began, 1e-9) / 3600
     return {
@@ -72,26 +78,26 @@ def figures(ops: Operations) -> dict[str, Any]:
             "items_picked": tally.items_picked,
             "item_throughput_per_hour": tally.items_picked / hours,
             "orders_completed": tally.orders_completed,
-            "orders_late": sum(0 < one.due < shift.now for one in shift.orders.values()),
+            "orders_late": sum(0 < order.due < shift.now for order in shift.orders.values()),
         },
-        "stations": [station(one, shift.now) for one in shift.stations],
+        "stations": [station(work_station, shift.now) for work_station in shift.stations],
     }
 
 
-def coordinator(fleet: Any, objects: Any) -> dict[str, Any]:
-    """Returns what a coordinator tells of a WorldFleet, as JSON has it; `objects` as
+def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
+    """Returns the state of a WorldFleet's coordinator, as JSON has it; `objects` as
     RunFeed.objects."""
     watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))
 
 
-def station(one: WorkStation, now: float) -> dict[str, Any]:
+def station(work_station: WorkStation, now: float) -> dict[str, Any]:
     """Returns a station at a time of the shift [s]."""
     return {
-        "name": one.name,
-        "kind": one.kind,
-        "open": one.is_open,
-        "inbound": sorted(one.inbound),
-        "pieces": one.pieces,
-        "busy_fraction": one.busy_fraction(now),
+        "name": work_station.name,
+        "kind": work_station.kind,
+        "open": work_station.is_open,
+        "inbound": sorted(work_station.inbound),
+        "pieces": work_station.pieces,
+        "busy_fraction": work_station.busy_fraction(now),
     }

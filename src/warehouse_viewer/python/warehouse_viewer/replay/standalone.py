@@ -39,7 +39,7 @@ def application(recording: Recording) -> Starlette:
 
 
 async def _wait(socket: WebSocket) -> None:
-    """Tells nothing: a page asks what there is, and leaves."""
+    """Does nothing: a page asks what there is, and leaves."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:
             await socket.receive_text()

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of a shift behind ROS, as a recording has them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.operations_json import plain, stations
+
+if TYPE_CHECKING:
+    from warehouse_viewer.ros.feed import Feed
+    from warehouse_viewer.ros.shift_feed import ShiftFeed
 
 SHOWN: dict[str, Callable[[Any], Any]] = {
     "kpis": plain,
@@ -17,13 +23,13 @@ SHOWN: dict[str, Callable[[Any], Any]] = {
 def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
     """Returns Kpis, StationStates and CoordinatorState, as far as there are any, as JSON has
     them."""
-    return {name: SHOWN[name](one) for name, one in messages.items() if one is not None}
+    return {name: SHOWN[name](message) for name, message in messages.items() if message is not None}
 
 
 class Told:
     """The newest of those messages. feed: a ros.feed.Feed; shift: a ros.shift_feed.ShiftFeed."""
 
-    def __init__(self, feed: Any, shift: Any) -> None:
+    def __init__(self, feed: Feed, shift: ShiftFeed) -> None:
         self._feed, self._shift = feed, shift
 
     def figures(self) -> dict[str, Any] | None:

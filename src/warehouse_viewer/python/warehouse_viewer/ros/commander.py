@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sends commands to robots and tells what becomes of each.
+"""Sends commands to robots and returns what becomes of each.
 
-From its answer on a command goes by the number that the answer tells. The answer itself names the
+An answer carries the number by which the command is known from then on. The answer itself names the
 robot alone, so commands to one robot are sent one after the other; a command
 that another client sends to the same robot at the same moment can be taken for ours.
 """
 
 import asyncio
 import time
+from collections.abc import Collection
 from dataclasses import dataclass, field
+from types import ModuleType
 from typing import Any
 
 from warehouse_client.commands import COMMANDS
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 
 ANSWERS = EventKind.ACCEPTED.name, EventKind.REFUSED.name
 ENDS = EventKind.DONE.name, EventKind.BLOCKED.name
@@ -29,7 +31,7 @@ class Outcome:
 class Commander:
     """Lives in an asyncio loop. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._publishers = {t: ros.Publisher(t, k, queue_size=100) for t, k in COMMANDS.items()}
         self._locks: dict[int, asyncio.Lock] = {}
         self._listeners: set[tuple[str, asyncio.Queue]] = set()
@@ -73,7 +75,12 @@ class Commander:
         return outcome
 
 
-async def _follow(events, outcome, kinds, command=None):
+async def _follow(
+    events: asyncio.Queue[dict[str, Any]],
+    outcome: Outcome,
+    kinds: Collection[str],
+    command: int | None = None,
+) -> None:
     """Takes in events, those of one command alone if it is known, until one of these kinds."""
     while True:
         entry = await events.get()
@@ -85,6 +92,6 @@ async def _follow(events, outcome, kinds, command=None):
             return
 
 
-def _drain(events):
+def _drain(events: asyncio.Queue[dict[str, Any]]) -> None:
     while not events.empty():
         events.get_nowait()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator as its services offer it: transports, and who commands a robot."""
 
+from types import ModuleType
 from typing import Any
 
 from warehouse_client.message_names import MODE, THEN
@@ -24,7 +25,7 @@ class Coordination:
     What is asked of the coordinator raises RefusedError, AwayError.
     """
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros = ros
 
     def runs(self) -> bool:
@@ -62,12 +63,12 @@ class Coordination:
         """Sets a robot's mode by its name; returns the coordinator's message."""
         return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
 
-    def _call(self, kind, **fields):
+    def _call(self, kind: type, **fields: Any) -> Any:
         if not self.runs():
             raise RefusedError(NONE_RUNS)
         return request(self._ros, SERVICES[kind], kind, fields)
 
-    def _done(self, answer):
+    def _done(self, answer: Any) -> str:
         if not answer.success:
             raise RefusedError(answer.message)
         return answer.message

@@ -4,8 +4,11 @@
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
+from types import ModuleType
 from typing import Any
 
+import rospy
+from genpy import Message
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
@@ -48,7 +51,7 @@ class Feed:
 
     def __init__(
         self,
-        ros: Any,
+        ros: ModuleType,
         on_event: Callable[[Event], None],
         on_transport: Callable[[TransportEvent], None],
         on_message: Callable[[], None],
@@ -134,11 +137,11 @@ class Feed:
         """
         if not self.has_positions:
             return False
-        told = _names(self["objects"])
+        names = _names(self["objects"])
         robots = {f"kiva{n}" for n in self["fleet"].kiva_id}
-        if told != standing.names or robots != {n for n in told if n.startswith("kiva")}:
+        if names != standing.names or robots != {n for n in names if n.startswith("kiva")}:
             return False
-        is_new = self["objects"] is not objects or not told
+        is_new = self["objects"] is not objects or not names
         stamp = self["fleet"].stamp.to_sec()
         came_later = standing.is_paused or stamp >= standing.time
         return is_new and (not robots or (self["fleet"] is not fleet and came_later))
@@ -150,31 +153,31 @@ class Feed:
 
     def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
         """Subscribes to paths, to ways, and to the scans of exactly these robots (ids)."""
-        wanted = {f"scan{n}": (f"kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        topics = {f"scan{n}": (f"kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
-            wanted["frames"] = ("tf_static", TFMessage)
+            topics["frames"] = ("tf_static", TFMessage)
         if paths:
-            wanted["paths"] = ("warehouse/paths", FleetPaths)
+            topics["paths"] = ("warehouse/paths", FleetPaths)
         if ways:
-            wanted["ways"] = ("warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
+            topics["ways"] = ("warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
         with self._lock:
-            for name in self._extras.keys() - wanted.keys():
+            for name in self._extras.keys() - topics.keys():
                 self._extras.pop(name).unregister()
                 self._messages.pop(name, None)
-            for name in wanted.keys() - self._extras.keys():
-                self._extras[name] = self._subscribe(name, *wanted[name])
+            for name in topics.keys() - self._extras.keys():
+                self._extras[name] = self._subscribe(name, *topics[name])
 
-    def _subscribe(self, name, topic, kind):
+    def _subscribe(self, name: str, topic: str, kind: type) -> rospy.Subscriber:
         return subscribe(self._ros, topic, kind, self._keep, name, queue_size=1)
 
-    def _keep(self, message, name):
+    def _keep(self, message: Message, name: str) -> None:
         self._messages[name] = message
         if name == "coordinator":
             self._coordinated = time.monotonic()
         self._on_message()
 
 
-def _names(objects):
+def _names(objects: WarehouseObjects) -> set[str]:
     """Returns the names of every model in a WarehouseObjects."""
     robots = (f"kiva{n}" for n in objects.kiva_id)
     return {*robots, *objects.storage_units, *objects.items, *objects.belts}

@@ -2,7 +2,10 @@
 """The operations of a shift behind ROS: orders, stock, stations and figures."""
 
 import time
+from types import ModuleType
 from typing import Any
+
+import rospy
 
 from warehouse_msgs import srv
 from warehouse_viewer.page.source import AwayError, RefusedError
@@ -19,17 +22,17 @@ class OperationsClient:
     `ros` is rospy. Methods raise AwayError if no shift answers.
     """
 
-    def __init__(self, ros: Any, feed: ShiftFeed) -> None:
+    def __init__(self, ros: ModuleType, feed: ShiftFeed) -> None:
         self._ros, self.feed = ros, feed
 
-    def call(self, service: str, kind: Any, *fields: Any) -> Any:
+    def call(self, service: str, kind: type, *fields: Any) -> Any:
         """Returns the response of /warehouse/`service`. Raises RefusedError if it refuses."""
         answer = self.request(service, kind, *fields)
         if not getattr(answer, "success", getattr(answer, "accepted", True)):
             raise RefusedError(answer.message)
         return answer
 
-    def request(self, service: str, kind: Any, *fields: Any) -> Any:
+    def request(self, service: str, kind: type, *fields: Any) -> Any:
         """Returns the response of /warehouse/`service`, also where it refuses."""
         name = f"warehouse/{service}"
         try:
@@ -56,9 +59,9 @@ class OperationsClient:
         offset: int = 0,
     ) -> srv.FindOrdersResponse:
         """Returns the order of that number, or (0) those that fit the other conditions."""
-        wanted = number, search, state, late, limit, offset
-        return self.call("find_orders", srv.FindOrders, *wanted)
+        fields = number, search, state, late, limit, offset
+        return self.call("find_orders", srv.FindOrders, *fields)
 
-    def time(self, seconds: float) -> Any:
+    def time(self, seconds: float) -> rospy.Time:
         """Returns a rospy.Time [s]."""
         return self._ros.Time.from_sec(seconds)

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift of operations tells, heard all the time: it is little."""
+"""The messages of a shift of operations, subscribed all the time: they are few."""
 
+from types import ModuleType
 from typing import Any
+
+from genpy import Message
 
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import (
@@ -13,6 +16,7 @@ from warehouse_msgs.msg import (
     StockPlaces,
     Throughput,
 )
+from warehouse_viewer.api.change_book import ChangeBook
 
 WHOLE = {
     "stations": StationStates,
@@ -27,7 +31,7 @@ class ShiftFeed:
     """The newest message of what is told as a whole, None where no shift runs; all that changes
     goes into a ChangeBook. `ros` is rospy."""
 
-    def __init__(self, ros: Any, book: Any) -> None:
+    def __init__(self, ros: ModuleType, book: ChangeBook) -> None:
         self._book = book
         self._messages: dict[str, Any] = {}
         self._seq: dict[str, int] = {}
@@ -50,21 +54,21 @@ class ShiftFeed:
         is_told = self.runs or name == "notices"  # such as why there is no shift
         return self._messages.get(name) if is_told else None
 
-    def _keep(self, message, name):
+    def _keep(self, message: Message, name: str) -> None:
         self._messages[name] = message
         self._book.note(name, name, message)
 
-    def _take_orders(self, message):
+    def _take_orders(self, message: OrderStatuses) -> None:
         self._count("orders", message)
-        for one in message.orders:
-            self._book.note("orders", one.order_id, one)
+        for order in message.orders:
+            self._book.note("orders", order.order_id, order)
 
-    def _take_places(self, message):
+    def _take_places(self, message: StockPlaces) -> None:
         self._count("stock", message)
-        for one in message.places:
-            self._book.note("stock", one.item, one)
+        for place in message.places:
+            self._book.note("stock", place.item, place)
 
-    def _count(self, topic, message):
+    def _count(self, topic: str, message: OrderStatuses | StockPlaces) -> None:
         """Notes where a message was missed, or another shift has begun."""
         last, self._seq[topic] = self._seq.get(topic), message.header.seq
         if last is not None and message.header.seq != last + 1:

@@ -3,13 +3,14 @@
 
 import importlib
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import count
+from types import ModuleType
 from typing import Any
 
-from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
+from gazebo_msgs.srv import GetPhysicsProperties, GetPhysicsPropertiesResponse, GetWorldProperties
 from warehouse_client import identity, placing, services
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
@@ -45,7 +46,7 @@ class Standing:
 class Simulation:
     """One client of those services; calls block. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros, self._placing = ros, threading.Lock()
 
     # --- what can be done
@@ -53,7 +54,7 @@ class Simulation:
         """Returns {action: the reason why it is not available, or None}."""
         return {action: self._lack(action) for action in SERVICES}
 
-    def _lack(self, action):
+    def _lack(self, action: str) -> str | None:
         name, package, kind = SERVICES[action]
         if _type(package, kind) is None:
             return f"this version knows no {package}/{kind}"
@@ -98,7 +99,7 @@ class Simulation:
         return self._do("reset" if time_too else "reset_poses")
 
     def step(self, steps: int) -> str:
-        """Advances a paused simulation by so many physics steps."""
+        """Advances a paused simulation by a number of physics steps."""
         return self._do("step", steps=steps)
 
     def speed(self, factor: float) -> str:
@@ -121,7 +122,7 @@ class Simulation:
         return self._do("restore", name=name)
 
     def undo(self, seconds: float) -> str:
-        """Goes back by so many simulated seconds."""
+        """Goes back by a number of simulated seconds."""
         return self._do("undo", seconds=seconds)
 
     def create(self, name: str, number: int, robots: int, items: int, shelves: int) -> str:
@@ -147,7 +148,7 @@ class Simulation:
         """Puts an item that fell back on its storage unit."""
         return self._do("pick_up", item=f"item{number}")
 
-    def _new_person(self):
+    def _new_person(self) -> str:
         names = self._call("gazebo/get_world_properties", GetWorldProperties, {}).model_names
         return next(name for n in count(1) if (name := f"person{n}") not in names)
 
@@ -158,7 +159,7 @@ class Simulation:
         return f"kiva{number} is gone"
 
     @contextmanager
-    def _engine(self):
+    def _engine(self) -> Iterator[Engine]:
         if is_building(self._ros):
             raise RefusedError("a warehouse is being built; ask again")
         try:
@@ -167,10 +168,10 @@ class Simulation:
         except (EngineError, placing.PlaceError) as error:
             raise RefusedError(str(error)) from error
 
-    def _physics(self):
+    def _physics(self) -> GetPhysicsPropertiesResponse:
         return self._call("gazebo/get_physics_properties", GetPhysicsProperties, {})
 
-    def _do(self, action, **fields):
+    def _do(self, action: str, **fields: Any) -> str:
         lack = self._lack(action)
         if lack:
             raise RefusedError(lack)
@@ -181,11 +182,11 @@ class Simulation:
             raise RefusedError(message or f"{name} failed and says no more")
         return message
 
-    def _call(self, name, kind, fields):
+    def _call(self, name: str, kind: type | None, fields: dict[str, Any]) -> Any:
         return request(self._ros, name, kind, fields)
 
 
-def is_offered(ros: Any, name: str) -> bool:
+def is_offered(ros: ModuleType, name: str) -> bool:
     """Returns whether a node offers the service. Raises AwayError."""
     try:
         return services.is_offered(ros, name)
@@ -193,7 +194,7 @@ def is_offered(ros: Any, name: str) -> bool:
         raise AwayError(f"the ROS master does not answer: {error}") from error
 
 
-def request(ros: Any, name: str, kind: Any, fields: dict[str, Any]) -> Any:
+def request(ros: ModuleType, name: str, kind: type | None, fields: dict[str, Any]) -> Any:
     """Calls a service and returns its response. Raises AwayError."""
     try:
         return ros.ServiceProxy(name, kind)(**fields)
@@ -201,7 +202,7 @@ def request(ros: Any, name: str, kind: Any, fields: dict[str, Any]) -> Any:
         raise AwayError(f"{name}: {error}") from error
 
 
-def _type(package, kind):
+def _type(package: str, kind: str) -> type | None:
     """The service type, or None if this installation has none such."""
     try:
         return getattr(importlib.import_module(f"{package}.srv"), kind, None)

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which robots are at a broker by VDA 5050, as the nodes there tell."""
+"""The robots at a broker by VDA 5050, as the nodes there publish them."""
 
-from typing import Any
+from types import ModuleType
 
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Vda5050
 
 
 class Vda5050Feed:
-    """The newest message of each direction; none once no node tells any more. `ros` is rospy."""
+    """The newest message of each direction; none once no node publishes. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
-        self._told: dict[int, Vda5050] = {}
+    def __init__(self, ros: ModuleType) -> None:
+        self._newest: dict[int, Vda5050] = {}
         self._subscriber = subscribe(ros, "warehouse/vda5050", Vda5050, self._keep, queue_size=10)
 
     def _keep(self, message: Vda5050) -> None:
-        self._told[message.direction] = message
+        self._newest[message.direction] = message
 
     @property
     def messages(self) -> list[Vda5050]:
         """What is told now."""
         if not self._subscriber.get_num_connections():
-            self._told.clear()
-        return [*self._told.values()]
+            self._newest.clear()
+        return [*self._newest.values()]

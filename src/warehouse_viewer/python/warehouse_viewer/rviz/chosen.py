@@ -6,7 +6,7 @@ next to the goal, whose heading does not matter.
 """
 
 import math
-from typing import Any
+from types import ModuleType
 
 from geometry_msgs.msg import PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
@@ -20,7 +20,7 @@ REACH = 0.75  # of a robot's centre from the point that means it [m]
 class Chosen:
     """`number` is that of the chosen robot, 0 = none. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros, self.number, self._scan = ros, 0, None
         self._fleet, self._spacing = None, 1.0
         subscribe(ros, "clicked_point", PointStamped, self._choose, queue_size=1)
@@ -34,7 +34,7 @@ class Chosen:
         if self.number and self.number not in fleet.kiva_id:
             self._set(0)
 
-    def _choose(self, clicked):
+    def _choose(self, clicked: PointStamped) -> None:
         at, fleet = clicked.point, self._fleet
         if fleet is None:
             return
@@ -45,7 +45,7 @@ class Chosen:
         distance, number = min(far, default=(math.inf, 0))
         self._set(number if distance < REACH else 0)
 
-    def _set(self, number):
+    def _set(self, number: int) -> None:
         if self._scan:
             self._scan.unregister()
         self.number, self._scan = number, None
@@ -53,7 +53,7 @@ class Chosen:
             topic = f"kiva{number}/chassis/laser/scan"
             self._scan = subscribe(self._ros, topic, LaserScan, self._scans.publish, queue_size=1)
 
-    def _send(self, goal):
+    def _send(self, goal: PoseStamped) -> None:
         if not self.number:
             self._ros.logwarn("no robot is chosen: click one with Publish Point first")
             return

@@ -34,9 +34,9 @@ def distance(bounds: Sequence[float]) -> float:
 
 def config(text: str, bounds: Sequence[float]) -> str:
     """Returns the RViz configuration `text` with its views set to show the bounds."""
-    told = yaml.safe_load(text)
+    settings = yaml.safe_load(text)
     x, y = (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2
-    views = told["Visualization Manager"]["Views"]
+    views = settings["Visualization Manager"]["Views"]
     views["Current"] |= {
         "Focal Point": {"X": x, "Y": y, "Z": 0},
         "Distance": distance(bounds),
@@ -46,4 +46,4 @@ def config(text: str, bounds: Sequence[float]) -> str:
     wide = max(bounds[1] - bounds[0], ASPECT * (bounds[3] - bounds[2]))
     for view in views["Saved"]:
         view |= {"X": x, "Y": y, "Scale": 1400 / wide}
-    return yaml.safe_dump(told, sort_keys=False)
+    return yaml.safe_dump(settings, sort_keys=False)

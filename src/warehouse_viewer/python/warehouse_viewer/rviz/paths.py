@@ -2,9 +2,11 @@
 """Where robots are going, as a nav_msgs/Path for each robot whose topic has a subscriber."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
+from types import ModuleType
 from typing import Any
 
+import rospy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from nav_msgs.msg import Path
 from std_msgs.msg import Header
@@ -31,7 +33,7 @@ def ways(
     return out
 
 
-def path(points: Sequence[tuple[float, float]], stamp: Any) -> Path:
+def path(points: Sequence[tuple[float, float]], stamp: rospy.Time) -> Path:
     """Returns a Path along points (x, y) [m] in world; each pose heads to the next."""
     header = Header(stamp=stamp, frame_id="world")
     yaw, out = 0.0, Path(header=header)
@@ -46,7 +48,7 @@ def path(points: Sequence[tuple[float, float]], stamp: Any) -> Path:
 class PathTopics:
     """/kiva<id>/path of every robot, published while it has a subscriber. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros = ros
         self._topics: dict[int, Any] = {}
         self._sent: dict[int, list] = {}
@@ -64,9 +66,14 @@ class PathTopics:
             self._send(heard, dict(ways(fleet, paths)), fleet.stamp)
         self._sent = {n: points for n, points in self._sent.items() if n in heard}
 
-    def _send(self, heard, found, stamp):
+    def _send(
+        self,
+        heard: Collection[int],
+        points_of: Mapping[int, list[tuple[float, float]]],
+        stamp: rospy.Time,
+    ) -> None:
         for number in heard:
-            points = found.get(number, [])
+            points = points_of.get(number, [])
             if self._sent.get(number) != points:
                 self._sent[number] = points
                 self._topics[number].publish(path(points, stamp))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a picture of few markers, sent again only where something moved."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
 )
 from warehouse_viewer.drawing import looks, markers
-from warehouse_viewer.drawing.shapes import ShapeArray
+from warehouse_viewer.drawing.shapes import Shape, ShapeArray
 from warehouse_viewer.page.activities import Activity, activity
 from warehouse_viewer.rviz import fleet_ways
 from warehouse_viewer.rviz.chosen import Chosen
@@ -77,7 +78,7 @@ def way_shapes(
     ]
 
 
-def _upright(rows):
+def _upright(rows: np.ndarray) -> np.ndarray:
     """x y z yaw of pose rows."""
     return np.column_stack([rows[:, :3], poses.yaw(rows)])
 
@@ -85,7 +86,7 @@ def _upright(rows):
 class Picture:
     """Publishes /warehouse/markers, and what RViz wants of robots. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._shapes: dict[Any, Any] = {}
         self._news: list[Any] = []
         self._scenery: Scenery | None = None
@@ -102,10 +103,10 @@ class Picture:
         self._topic = LazyPublisher(ros, "warehouse/markers", MarkerArray, self._all, self._moved)
         self._chosen, self._paths = Chosen(ros), PathTopics(ros)
 
-    def _all(self):
+    def _all(self) -> ShapeArray:
         return ShapeArray(list(self._shapes.values()))
 
-    def _moved(self):
+    def _moved(self) -> ShapeArray:
         return ShapeArray(self._news)
 
     def turn(self, patience: float = 0.5) -> None:
@@ -119,7 +120,9 @@ class Picture:
         self._paths.turn(fleet, self._newest["paths"])
         self._show(self._make(scenery, fleet, *fit))
 
-    def _make(self, scenery, fleet, objects, states):
+    def _make(
+        self, scenery: Scenery, fleet: FleetState, objects: WarehouseObjects, states: UnitStates
+    ) -> list[Shape]:
         carried = zip(map(int, states.carrier), poses.rows(states.pose)[:, 2])
         heights = {robot: max(0.0, z) for robot, z in carried if robot}
         floor = looks.floor(scenery, fleet, states)
@@ -131,14 +134,14 @@ class Picture:
             *self._of_scenery(scenery),
         ]
 
-    def _of_scenery(self, scenery):
+    def _of_scenery(self, scenery: Scenery) -> list[Shape]:
         """Made once, as long as it is the same message."""
         if scenery is not self._scenery:
             self._scenery = scenery
             self._fixed = [*markers.paint(painted.marks(scenery)), *markers.scenery(scenery)]
         return self._fixed
 
-    def _show(self, made):
+    def _show(self, made: Sequence[Shape]) -> None:
         """Sends what differs from what was shown, and takes back what is gone."""
         shown = {shape.name: shape for shape in made}
         gone = [shape.gone() for name, shape in self._shapes.items() if name not in shown]
@@ -148,7 +151,7 @@ class Picture:
             self._topic.publish()
 
 
-def follow(ros: Any) -> None:
+def follow(ros: ModuleType) -> None:
     """Publishes until shutdown: the body of the node."""
     picture = Picture(ros)
     while not ros.is_shutdown():

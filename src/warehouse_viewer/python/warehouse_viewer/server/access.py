@@ -3,19 +3,26 @@
 
 import hmac
 import ipaddress
+import re
 import time
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from http.cookies import BaseCookie, CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import SplitResult, parse_qs, urlsplit
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from warehouse_viewer.json_text import dumps
 from warehouse_viewer.server import token_page
 
+Headers = Sequence[tuple[bytes, bytes]]  # as ASGI has them: names and values
+
 MOST_BODY = 64 * 1024  # [bytes]
-MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts and tables of orders are sent
-LAYOUT_FOLDERS = ("/layout/", "/whatif/")
-LAYOUT_PATHS = ("/api/v1/warehouse", "/api/v1/orders/table")
+MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts, worlds and tables of orders are sent
+# Paths where layouts, worlds and tables of orders are sent, also of a simulation in a hub.
+TAKES_LAYOUTS = re.compile(
+    r"(/s/[^/]+)?(/(layout|whatif)/.*|/api/v1/(warehouse|orders/table|simulations(/[^/]+/worlds)?))"
+)
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
@@ -33,10 +40,9 @@ def is_local(host: str) -> bool:
         return False
 
 
-def most_body(scope: Any) -> int:
+def most_body(scope: Scope) -> int:
     """Returns how long a request's body may be [bytes]."""
-    path = scope.get("path", "")
-    takes_layouts = path.startswith(LAYOUT_FOLDERS) or path in LAYOUT_PATHS
+    takes_layouts = TAKES_LAYOUTS.fullmatch(scope.get("path", ""))
     return MOST_LAYOUT if takes_layouts else MOST_BODY
 
 
@@ -46,7 +52,7 @@ GUESSES, FIRST_GUESSES = 1.0, 10  # wrong tokens a second of each address, and a
 
 
 class RateLimit:
-    """So many requests a second of each address, and at once `burst` (what two seconds bring)."""
+    """Limits requests of each address: `rate` per second, `burst` at once (two seconds' worth)."""
 
     MOST_ADDRESSES = 10000
 
@@ -91,14 +97,17 @@ class AccessControl:
     The latter keeps a foreign page from reaching the server under a name of its own that leads to
     127.0.0.1. A browser gives the token once, in a form (token_page) or as ?token=…, and a cookie
     from then on; programs send `Authorization: Bearer …`. An address that guesses waits: its tokens
-    are not looked at in between, also where one is right.
+    are not looked at in between, also where one is right. `other_token` serves as `token` does.
     """
 
-    def __init__(self, app: Any, token: str = "", rate: float = 100) -> None:
+    def __init__(
+        self, app: ASGIApp, token: str = "", rate: float = 100, other_token: str = ""
+    ) -> None:
         self._app, self._token, self._limit = app, token, RateLimit(rate)
+        self._others = (other_token,) if other_token else ()
         self._guesses = RateLimit(GUESSES, burst=FIRST_GUESSES)
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
@@ -118,7 +127,7 @@ class AccessControl:
         else:
             await _limited(self._app, scope, receive, send)
 
-    def _check(self, scope, headers):
+    def _check(self, scope: Scope, headers: Mapping[str, str]) -> None:
         if not self._limit.allows(_address(scope)):
             raise Refusal(429, "too many requests; slow down", AGAIN)
         if int(headers.get("content-length", "0") or 0) > most_body(scope):
@@ -129,23 +138,23 @@ class AccessControl:
         elif self._guesses.left(_address(scope)) < 1:
             raise Refusal(429, GUESSED, AGAIN)
 
-    def _is_form(self, scope):
+    def _is_form(self, scope: Scope) -> bool:
         """Whether a person sends the token."""
         posts = scope["type"] == "http" and scope["method"] == "POST"
-        return self._token and posts and scope["path"] == token_page.PATH
+        return bool(self._token) and posts and scope["path"] == token_page.PATH
 
-    async def _take_form(self, scope, receive, send):
+    async def _take_form(self, scope: Scope, receive: Receive, send: Send) -> None:
         body, more = b"", True
         while more and len(body) <= token_page.MOST_FORM:
             message = await receive()
             body, more = body + message.get("body", b""), message.get("more_body", False)
-        given, to = token_page.parse(body[: token_page.MOST_FORM])
-        if self._is_right(scope, given):
+        token, to = token_page.parse(body[: token_page.MOST_FORM])
+        if self._is_right(scope, token):
             await _keep_token(send, self._token, to)
         else:
             await _ask(scope, send, to, wrong=True)
 
-    def _check_origin(self, headers):
+    def _check_origin(self, headers: Mapping[str, str]) -> None:
         host = headers.get("host", "")
         # Starlette's TrustedHostMiddleware knows no IPv6 addresses.
         if not self._token and not is_local(_split(f"//{host}").hostname or ""):
@@ -154,35 +163,36 @@ class AccessControl:
         if origin is not None and _split(origin).netloc != host:
             raise Refusal(403, f"the origin '{origin}' is foreign")
 
-    def _check_token(self, scope, headers):
+    def _check_token(self, scope: Scope, headers: Mapping[str, str]) -> None:
         if not self._token:
             return
-        scheme, _, given = headers.get("authorization", "").partition(" ")
+        scheme, _, token = headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer":
-            given = _cookie(headers) or _query_token(scope)
-        if given and self._guesses.left(_address(scope)) < 1:
+            token = _cookie(headers) or _query_token(scope)
+        if token and self._guesses.left(_address(scope)) < 1:
             raise Refusal(429, GUESSED, AGAIN)
-        if not self._is_right(scope, given):
+        if not self._is_right(scope, token):
             challenge = [(b"www-authenticate", b"Bearer")]
             raise Refusal(401, "give the token: ?token=… or Authorization: Bearer …", challenge)
 
-    def _is_right(self, scope, given):
+    def _is_right(self, scope: Scope, token: str) -> bool:
         """Whether this is the token; counts it if not."""
-        is_right = hmac.compare_digest(given.encode(), self._token.encode())
-        if given and not is_right:
+        tokens = (self._token, *self._others)
+        is_right = any(hmac.compare_digest(token.encode(), right.encode()) for right in tokens)
+        if token and not is_right:
             self._guesses.allows(_address(scope))
         return is_right
 
-    def _brings_token(self, scope):
+    def _brings_token(self, scope: Scope) -> bool:
         """Whether a browser comes with the token in its address, where it should not stay."""
-        return self._token and scope["path"] == "/" and _query_token(scope)
+        return bool(self._token and scope["path"] == "/" and _query_token(scope))
 
 
-def _address(scope):
+def _address(scope: Scope) -> str:
     return scope["client"][0] if scope.get("client") else ""
 
 
-def _split(address):
+def _split(address: str) -> SplitResult:
     """Its parts. Raises Refusal."""
     try:
         return urlsplit(address)
@@ -190,11 +200,11 @@ def _split(address):
         raise Refusal(400, f"'{address}' is not an address: {error}") from error
 
 
-def _query_token(scope):
+def _query_token(scope: Scope) -> str:
     return parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
 
 
-def _cookie(headers):
+def _cookie(headers: Mapping[str, str]) -> str:
     try:
         cookies: BaseCookie[str] = SimpleCookie(headers.get("cookie", ""))
     except CookieError:
@@ -203,7 +213,7 @@ def _cookie(headers):
     return morsel.value if morsel else ""
 
 
-async def _refuse(scope, send, refusal):
+async def _refuse(scope: Scope, send: Send, refusal: Refusal) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 1008})
         return
@@ -213,7 +223,7 @@ async def _refuse(scope, send, refusal):
     await send({"type": "http.response.body", "body": body})
 
 
-async def _ask(scope, send, to=None, wrong=False):
+async def _ask(scope: Scope, send: Send, to: str | None = None, wrong: bool = False) -> None:
     """The page that asks for the token, and leads to what was asked for."""
     own = {
         b"content-security-policy": token_page.CONTENT,
@@ -226,7 +236,7 @@ async def _ask(scope, send, to=None, wrong=False):
     await send({"type": "http.response.body", "body": b"" if scope["method"] == "HEAD" else body})
 
 
-async def _keep_token(send, token, to="/"):
+async def _keep_token(send: Send, token: str, to: str = "/") -> None:
     cookie: BaseCookie[str] = SimpleCookie({COOKIE: token})
     attributes: dict[str, Any] = {"httponly": True, "samesite": "Strict", "path": "/"}
     cookie[COOKIE].update(attributes)
@@ -235,11 +245,11 @@ async def _keep_token(send, token, to="/"):
     await send({"type": "http.response.body", "body": b""})
 
 
-async def _limited(app, scope, receive, send):
+async def _limited(app: ASGIApp, scope: Scope, receive: Receive, send: Send) -> None:
     """The application, with a body of bounded size whatever its header claims, and our headers."""
     size = 0
 
-    async def bounded():
+    async def bounded() -> Message:
         nonlocal size
         message = await receive()
         size += len(message.get("body", b""))
@@ -247,7 +257,7 @@ async def _limited(app, scope, receive, send):
             return {"type": "http.disconnect"}
         return message
 
-    async def headed(message):
+    async def headed(message: Message) -> None:
         if message["type"] == "http.response.start":
             message = message | {"headers": _completed(message.get("headers", []))}
         await send(message)
@@ -255,7 +265,7 @@ async def _limited(app, scope, receive, send):
     await app(scope, bounded, headed)
 
 
-def _completed(headers):
+def _completed(headers: Headers) -> Headers:
     """Headers with ours, where an answer does not have its own."""
     own = {name.lower() for name, _ in headers}
-    return [*headers, *(one for one in HEADERS if one[0] not in own)]
+    return [*headers, *(header for header in HEADERS if header[0] not in own)]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""HTTP connections that end where they ask nothing, and of which there are only so many.
+"""HTTP connections up to a limit, which end where they ask nothing.
 
 uvicorn bounds how long a connection may idle between two requests, but not how long the first, or
 the rest of one that was begun, may take to come; nor how many connections there are.
 """
 
+import asyncio
 import socket
-from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
@@ -17,7 +17,7 @@ class BoundedConnection(H11Protocol):
     MOST = 200  # WebSockets included; each costs a file
     PATIENCE = 15.0  # with a request that does not come, or not wholly [s, wall]
 
-    def connection_made(self, transport: Any) -> None:
+    def connection_made(self, transport: asyncio.Transport) -> None:
         """Starts to wait for a request (asyncio's hook)."""
         super().connection_made(transport)
         self._since = self.loop.time()  # it waits for a request
@@ -30,19 +30,19 @@ class BoundedConnection(H11Protocol):
         self._since = self.loop.time()
         super().on_response_complete()
 
-    def _waits(self):
-        """For its client, to ask or to go on with what it began to ask."""
+    def _waits(self) -> bool:
+        """Whether it waits for its client to ask, or to go on with its request."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
-    def _make_room(self):
+    def _make_room(self) -> None:
         ours = (c for c in self.connections if isinstance(c, BoundedConnection))
         waiting = [c for c in ours if c is not self and c._waits()]
         min(waiting, key=lambda c: c._since, default=self).transport.abort()
 
-    def _look_later(self, delay):
+    def _look_later(self, delay: float) -> None:
         self._timer = self.loop.call_later(delay, self._look)
 
-    def _look(self):
+    def _look(self) -> None:
         if self.transport.is_closing() or self.transport.get_protocol() is not self:
             return  # it ended, or became a WebSocket
         left = self._since + self.PATIENCE - self.loop.time() if self._waits() else self.PATIENCE
@@ -76,7 +76,7 @@ def listen(host: str, port: int) -> socket.socket:
     Raises OSError if the port is taken or the host is not this machine's.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
+    # asyncio does not recognise a TCP socket that doesn't name its protocol; small answers
     # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
     out = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:

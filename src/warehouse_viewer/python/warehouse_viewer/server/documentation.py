@@ -4,17 +4,17 @@
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
+from starlette.types import Message, Receive, Scope, Send
 
 from warehouse_viewer.server.csp import csp_source
 from warehouse_viewer.server.static_files import FreshFiles
 from warehouse_viewer.shared_files import SHARE
 
-# Of an install space, of the package kiva-warehouse-doc, of the source tree.
+# The folders of an install space, of the package kiva-warehouse-doc, and of the source tree.
 FOLDERS = (
     SHARE / "docs",
     Path("/usr/share/doc/kiva-warehouse-doc/html"),
@@ -33,6 +33,15 @@ def routes(folders: Sequence[Path] = FOLDERS) -> list[BaseRoute]:
     return [Route("/docs", _to_folder), Mount("/docs", Documentation(folders))]
 
 
+def is_built() -> bool:
+    """Returns whether there is a documentation to be shown."""
+    return _built(FOLDERS) is not None
+
+
+def _built(folders: Sequence[Path]) -> Path | None:
+    return next((folder for folder in folders if (folder / "index.html").is_file()), None)
+
+
 async def _to_folder(_: Request) -> Response:
     return RedirectResponse("/docs/")
 
@@ -43,20 +52,20 @@ class Documentation:
     def __init__(self, folders: Sequence[Path]) -> None:
         self._folders = folders
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
-        found = next((one for one in self._folders if (one / "index.html").is_file()), None)
-        if found is None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        folder = _built(self._folders)
+        if folder is None:
             await HTMLResponse(MISSING, 404)(scope, receive, send)
             return
-        policy = content_policy((found / "index.html").read_text()).encode()
+        policy = content_policy((folder / "index.html").read_text()).encode()
 
-        async def headed(message: Any) -> None:
+        async def headed(message: Message) -> None:
             if message["type"] == "http.response.start":
                 own = (b"content-security-policy", policy)
                 message = message | {"headers": [*message.get("headers", []), own]}
             await send(message)
 
-        await FreshFiles(directory=found, html=True)(scope, receive, headed)
+        await FreshFiles(directory=folder, html=True)(scope, receive, headed)
 
 
 def content_policy(page: str) -> str:
@@ -65,7 +74,7 @@ def content_policy(page: str) -> str:
     Only these scripts run, by their hashes; styles may be inline, since the theme has its colours
     there.
     """
-    scripts = " ".join(dict.fromkeys(csp_source(one) for one in INLINE.findall(page)))
+    scripts = " ".join(dict.fromkeys(csp_source(script) for script in INLINE.findall(page)))
     return (
         "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
         f"script-src 'self' {scripts}; frame-ancestors 'none'"

@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """The uvicorn server in which an application with a page runs."""
 
+from __future__ import annotations
+
 import asyncio
 import os
+import socket
 import threading
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from types import FrameType
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from warehouse_viewer.server.connections import BoundedConnection
+
+if TYPE_CHECKING:
+    from warehouse_viewer.page.hub import Hub
 
 MOST_MESSAGE = 64 * 1024  # from a page [bytes]
 STOP_PATIENCE = 1.0  # for a service call to a world that may be gone already [s, wall]
@@ -25,7 +33,7 @@ class Server(uvicorn.Server):
         super().__init__(config)
         self._on_start, self.is_serving = on_start, threading.Event()
 
-    async def startup(self, sockets: Any = None) -> None:
+    async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
         """Starts to serve (uvicorn's hook)."""
         await super().startup(sockets)
         self._on_start()
@@ -35,7 +43,7 @@ class Server(uvicorn.Server):
         """Ends the server without waiting for its clients. Any thread may call."""
         self.should_exit = self.force_exit = True
 
-    def handle_exit(self, sig: Any, frame: Any) -> None:
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Ends the process, even if a thread still waits for an answer (uvicorn's hook)."""
         self.stop()
         end = threading.Timer(STOP_PATIENCE, os._exit, (0,))
@@ -46,7 +54,7 @@ class Server(uvicorn.Server):
 class HubTask:
     """Runs a hub in the asyncio loop of the server that calls start()."""
 
-    def __init__(self, hub: Any) -> None:
+    def __init__(self, hub: Hub) -> None:
         self._hub = hub
         self._task: asyncio.Task | None = None
 
@@ -55,7 +63,7 @@ class HubTask:
         self._task = asyncio.create_task(self._hub.run())  # kept: a loop holds tasks only weakly
 
 
-def config_of(application: Any, **other: Any) -> uvicorn.Config:
+def config_of(application: ASGIApp, **other: Any) -> uvicorn.Config:
     """Returns the server's configuration; `other` are further options of uvicorn.Config."""
     return uvicorn.Config(
         application,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where to watch the warehouse, as its terminal tells it."""
+"""The addresses of the warehouse's pages, as its terminal shows them."""
 
 import io
 import socket
@@ -37,11 +37,11 @@ def text(host: str, port: int, token: str = "", place: str = "", is_private: boo
     return f"{first}{secret}\nThe token is in {place}\n{others}"
 
 
-def _url(host, port):
+def _url(host: str, port: int) -> str:
     return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
 
 
-def _numeric(host, port):
+def _numeric(host: str, port: int) -> str:
     """The same for a phone, which knows no names of the machines around it."""
     with suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         if host in EVERYWHERE:
@@ -50,7 +50,7 @@ def _numeric(host, port):
     return address(host, port)
 
 
-def _picture(url):
+def _picture(url: str) -> str:
     """A QR code in half blocks; nothing where segno is not installed."""
     try:
         import segno

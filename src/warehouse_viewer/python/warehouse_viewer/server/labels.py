@@ -27,7 +27,7 @@ LABEL = '<li><img src="{picture}" alt=""><span><b>{text}</b><small>{code}</small
 
 
 def page(station: str, totes: int, skus: Sequence[str] = ()) -> str:
-    """Returns the page of a station with so many totes, and the labels of some SKUs."""
+    """Returns the page with a station's label, a label per tote, and the labels of some SKUs."""
     places = [(f"Tote {number}", f"{station}-{number}") for number in range(1, totes + 1)]
     commands = [(text, f"CMD-{name}") for name, text in COMMANDS.items()]
     parts = (("Totes", places), ("Buttons", commands), ("Goods", [(sku, sku) for sku in skus]))
@@ -46,7 +46,8 @@ def no_station(name: str) -> str:
 
 def page_of_fault(text: str) -> str:
     """Returns a page that says why there are no labels."""
-    body = f'<h1>No labels</h1><p>{html.escape(text)}</p><a href="/operations">All stations</a>'
+    link = '<a href="../../operations">All stations</a>'
+    body = f"<h1>No labels</h1><p>{html.escape(text)}</p>{link}"
     return PAGE.format(title="No labels", body=body)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The WebSockets of a server, of which there are only so many."""
+"""The WebSockets of a server, up to a limit."""
 
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
@@ -25,7 +25,7 @@ class SocketLimit:
             return
         self._open += 1
         try:
-            # So uvicorn tells of a client that went without a word: a machine that fell asleep.
+            # uvicorn's sign of a client that went without a word: a machine that fell asleep.
             with suppress(ConnectionClosed):
                 await serve(socket)
         finally:

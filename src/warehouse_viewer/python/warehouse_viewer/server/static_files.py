@@ -4,13 +4,14 @@
 import functools
 import gzip
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
+from starlette.types import Scope
 
 KINDS = {  # that shrink, by suffix
     ".css": "text/css",
@@ -55,7 +56,11 @@ class Files(StaticFiles):
             return "", None
 
     def file_response(
-        self, full_path: Any, stat_result: os.stat_result, scope: Any, status_code: int = 200
+        self,
+        full_path: str | os.PathLike[str],
+        stat_result: os.stat_result,
+        scope: Scope,
+        status_code: int = 200,
     ) -> Response:
         """Returns the answer with a file, compressed if that helps (Starlette's hook)."""
         kind = KINDS.get(Path(full_path).suffix)
@@ -83,7 +88,7 @@ class FreshFiles(Files):
     CACHED = "no-cache"
 
 
-def _taken(scope: Any) -> Packing | None:
+def _taken(scope: Scope) -> Packing | None:
     """The best packing that the browser takes; None if it takes none."""
     accepted = Headers(scope=scope).get("accept-encoding", "").split(",")
     names = {part.partition(";")[0].strip() for part in accepted}
@@ -91,6 +96,6 @@ def _taken(scope: Any) -> Packing | None:
 
 
 @functools.lru_cache(MOST_PACKED)
-def _packed(path: str, version: Any, packing: Packing) -> bytes:  # noqa: ARG001 (what tells one content from another)
+def _packed(path: str, version: Hashable, packing: Packing) -> bytes:  # noqa: ARG001 (part of the cache's key)
     """A file's content, compressed once."""
     return packing.pack(Path(path).read_bytes())

@@ -55,13 +55,13 @@ def read(path: Path) -> str:
         raise TokenError(f"{path}: {error.strerror}") from error
 
 
-def _checked(token, where):
+def _checked(token: str, where: str | Path) -> str:
     if not re.fullmatch(r"[!-~]{8,500}", token):
         raise TokenError(f"{where}: a token of 8 to 500 letters and digits was expected")
     return token
 
 
-def _make(path):
+def _make(path: Path) -> None:
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)

@@ -7,8 +7,9 @@ What follows a # a browser keeps to itself, so that no log and no proxy sees it;
 import html
 import re
 from collections.abc import Mapping
-from typing import Any
 from urllib.parse import parse_qs
+
+from starlette.types import Scope
 
 from warehouse_viewer.server.csp import csp_source
 
@@ -35,7 +36,7 @@ PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Token – Kiva warehouse</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>{style}</style></head>
 <body><main><h1>Kiva warehouse</h1><p>This page is for those who have its token. The terminal in
-which the warehouse was started tells it, or in which file it lies.</p>{wrong}
+which the warehouse was started shows it, or its file.</p>{wrong}
 <form method="post" action="{path}"><label for="token">Token</label>
 <input id="token" name="token" type="password" autocomplete="current-password" required autofocus>
 <input name="to" type="hidden" value="{to}"><button>Come in</button></form></main>
@@ -51,13 +52,13 @@ CONTENT = (
 
 def text(to: str = "/", wrong: bool = False) -> bytes:
     """Returns the page, which leads on to the path `to`; `wrong`: the last token was."""
-    told = '<p role="alert">That is not the token.</p>' if wrong else ""
+    notice = '<p role="alert">That is not the token.</p>' if wrong else ""
     return PAGE.format(
-        style=STYLE, script=SCRIPT, path=PATH, to=html.escape(local(to)), wrong=told
+        style=STYLE, script=SCRIPT, path=PATH, to=html.escape(local(to)), wrong=notice
     ).encode()
 
 
-def wanted(scope: Any, headers: Mapping[str, str]) -> bool:
+def wanted(scope: Scope, headers: Mapping[str, str]) -> bool:
     """Returns whether a browser asks for a page."""
     is_page = scope["method"] in ("GET", "HEAD") and "text/html" in headers.get("accept", "")
     return scope["type"] == "http" and is_page

@@ -63,11 +63,11 @@ class AlarmBook:
         """Takes in all that is wrong at `now` [s]: what is left out has ended."""
         with self._lock:
             before, self._alarms, self._now = self._alarms, {}, now
-            for one in troubles:
-                key = one.kind, one.subject
-                since = now if one.since is None else one.since
-                alarm = before.get(key) or self._alarms.get(key) or Alarm(one, since)
-                alarm.trouble, alarm.since = one, min(alarm.since, since)
+            for trouble in troubles:
+                key = trouble.kind, trouble.subject
+                since = now if trouble.since is None else trouble.since
+                alarm = before.get(key) or self._alarms.get(key) or Alarm(trouble, since)
+                alarm.trouble, alarm.since = trouble, min(alarm.since, since)
                 if alarm.since > now:  # the world was reset meanwhile
                     alarm.since = now
                 self._alarms[key] = alarm
@@ -76,7 +76,7 @@ class AlarmBook:
         """Returns the alarms as JSON has them, the worst first, of those the oldest first."""
         with self._lock:
             due = [alarm.told() for alarm in self._alarms.values() if alarm.is_due(self._now)]
-        return sorted(due, key=lambda one: (SEVERITIES.index(one["severity"]), one["since"]))
+        return sorted(due, key=lambda row: (SEVERITIES.index(row["severity"]), row["since"]))
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm, or, with an empty name, takes that back. Returns

@@ -8,7 +8,7 @@ SEVERITIES = (CRITICAL, WARNING, NOTE)  # the worst first
 
 
 class AlarmKind(NamedTuple):
-    """What holds for all alarms of a kind. `after`: it counts once it has lasted so long [s]."""
+    """What holds for all alarms of a kind. `after`: duration from which it counts [s]."""
 
     severity: str
     title: str
@@ -82,7 +82,7 @@ KINDS = {
     "STATION_STARVED": AlarmKind(
         WARNING,
         "Station waits for storage units",
-        "If robots rest, look for a jam; if none does, too few robots work for so many stations.",
+        "If robots rest, look for a jam; if none rests, the stations need more robots.",
     ),
     "WATCHDOG": AlarmKind(
         WARNING,
@@ -92,7 +92,7 @@ KINDS = {
     "PLAN_REFUSED": AlarmKind(
         WARNING,
         "A plan was refused",
-        "Robots keep their last plan. Tell those who look after the planner what the sentence is.",
+        "Robots keep their last plan. Report this sentence to those who look after the planner.",
     ),
     "NOTICE": AlarmKind(
         NOTE,

@@ -6,9 +6,14 @@ come in. Late orders: one in fifty at most. Robots available, that is, neither i
 commanded by a person nor out of service: nineteen in twenty.
 """
 
+from __future__ import annotations
+
 from collections import deque
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import Kpis, Throughput
 
 PIECES_OF_BOUND, MOST_LATE, LEAST_AVAILABLE = 0.9, 0.02, 0.95  # the targets
 MINUTE, HOUR = 60.0, 3600.0  # [s, simulated]
@@ -17,7 +22,7 @@ RECENT = 15  # those of the figure itself
 
 
 class Sample(NamedTuple):
-    """Shares and counts at a time [s]; orders: that came in so far."""
+    """Shares and counts at a time [s]; orders: count of those that have come in."""
 
     time: float
     late: float
@@ -26,12 +31,12 @@ class Sample(NamedTuple):
 
 
 class Figures:
-    """Keeps what the shift's messages do not tell of its last hour. One thread at a time."""
+    """Keeps what the shift's messages leave out about its last hour. One thread at a time."""
 
     def __init__(self) -> None:
         self._samples: deque[Sample] = deque()
 
-    def update(self, now: float, kpis: Any, available: float) -> None:
+    def update(self, now: float, kpis: Kpis, available: float) -> None:
         """Takes in Kpis, and the share of robots that are available, at `now` [s]."""
         if self._samples and now < self._samples[-1].time:
             self._samples.clear()
@@ -42,7 +47,9 @@ class Figures:
         while now - self._samples[0].time > HOUR:
             self._samples.popleft()
 
-    def told(self, kpis: Any, throughput: Any, available: float, robots: int) -> dict[str, Any]:
+    def told(
+        self, kpis: Kpis, throughput: Throughput, available: float, robots: int
+    ) -> dict[str, Any]:
         """Returns the four figures as JSON has them; `throughput` a Throughput, `robots` how many
         there are."""
         bound = kpis.item_upper_bound_per_hour
@@ -75,11 +82,11 @@ def _figure(
         "target": round(target, 4),
         "of": round(of, 1),
         "times": [round(time, 1) for time in times],
-        "values": [round(one, 4) for one in values],
+        "values": [round(value, 4) for value in values],
     }
 
 
-def _rates(throughput: Any, counts: Sequence[int]) -> tuple[float, list[float], list[float]]:
+def _rates(throughput: Throughput, counts: Sequence[int]) -> tuple[float, list[float], list[float]]:
     """Returns what is done in an hour now, and the ends of the intervals that are over [s] with
     what was done in an hour up to each."""
     interval, begin = throughput.interval, throughput.begin

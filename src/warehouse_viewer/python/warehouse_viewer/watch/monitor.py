@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Notes twice a second what the warehouse does, whether or not a page is open."""
 
+from __future__ import annotations
+
 import asyncio
 import logging
-from collections.abc import Collection
-from typing import Any
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +19,11 @@ from warehouse_viewer.watch.figures import Figures
 from warehouse_viewer.watch.span_log import SpanLog
 from warehouse_viewer.watch.station_watch import StationWatch
 
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState, StationState
+    from warehouse_viewer.ros.feed import Feed
+    from warehouse_viewer.ros.shift_feed import ShiftFeed
+
 PERIOD = 0.5  # between two looks [s, wall]
 LOG = logging.getLogger(__name__)
 
@@ -28,13 +35,13 @@ class Monitor:
     `alarms` and `figures`.
     """
 
-    def __init__(self, feed: Any, shift: Any, journal: Journal, book: ChangeBook) -> None:
+    def __init__(self, feed: Feed, shift: ShiftFeed, journal: Journal, book: ChangeBook) -> None:
         self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
         self.spans, self.alarms = SpanLog(), AlarmBook()
         self.stations, self._figures = StationWatch(), Figures()
         self._moments = troubles.Moments()
         self._event = journal.last_id
-        self._told: dict[str, Any] = {}
+        self._noted: dict[str, Any] = {}
         self._read: dict[str, Any] = {}  # the messages that were taken in last
         self.now = 0.0
 
@@ -45,7 +52,7 @@ class Monitor:
             try:
                 self.look()
             except (ValueError, AttributeError, IndexError):
-                LOG.exception("what the warehouse tells can't be read")
+                LOG.exception("the warehouse's messages can't be read")
             await asyncio.sleep(PERIOD)
 
     def look(self) -> None:
@@ -64,39 +71,39 @@ class Monitor:
         self._note_alarms(fleet, rows)
         self._note_figures()
 
-    def _note_spans(self, fleet: Any, stations: Collection[Any]) -> None:
+    def _note_spans(self, fleet: FleetState, stations: Collection[Any]) -> None:
         if fleet is not None:
             names = [f"kiva{number}" for number in fleet.kiva_id]
             waiting = wait_too_long(self._feed.coordinator)
             does = activity(fleet, waiting)
             self.spans.update(self.now, "robot", names, does)
-            self._told["available"] = _available(does, self._feed.coordinator)
+            self._noted["available"] = _available(does, self._feed.coordinator)
         if stations:
-            names = [one.name for one in stations]
+            names = [station.name for station in stations]
             self.spans.update(self.now, "station", names, self.stations.states(stations))
 
-    def _note_alarms(self, fleet: Any, stations: Collection[Any]) -> None:
+    def _note_alarms(self, fleet: FleetState, stations: Collection[Any]) -> None:
         for event in self._journal.since(self._event):
             self._event = event["id"]
             self._moments.take_event(event)
         self.alarms.update(self.now, self._troubles(fleet, stations))
         self._note("alarms", self.alarms.told())
 
-    def _troubles(self, fleet: Any, stations: Collection[Any]) -> list[Trouble]:
-        found: list[Trouble] = []
+    def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
+        pending: list[Trouble] = []
         state = self._feed.coordinator
         if fleet is not None:
-            found += troubles.of_fleet(fleet)
+            pending += troubles.of_fleet(fleet)
         if state:
             self._moments.take_watchdog(state.watchdog, self.now)
-            found += _without(troubles.of_coordinator(state), bool(stations))
+            pending += _without(troubles.of_coordinator(state), bool(stations))
         elif stations:
-            text = "a shift runs, and no coordinator tells what robots do"
-            found.append(Trouble("NO_COORDINATOR", "coordinator", text))
-        found += troubles.of_stations(stations, self.now, self.stations.starved)
-        found += self._moments.lasting(self.now)
+            text = "a shift runs without a coordinator: what robots do is unknown"
+            pending.append(Trouble("NO_COORDINATOR", "coordinator", text))
+        pending += troubles.of_stations(stations, self.now, self.stations.starved)
+        pending += self._moments.lasting(self.now)
         notices = self._shift["notices"]
-        return found + list(troubles.of_notices(notices.notices if notices else ()))
+        return pending + list(troubles.of_notices(notices.notices if notices else ()))
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm; see AlarmBook.see."""
@@ -109,32 +116,36 @@ class Monitor:
         if not (kpis and throughput) or throughput is self._read.get("throughput"):
             return
         self._read["throughput"] = throughput
-        available, robots = self._told.get("available", (1.0, 0))
+        available, robots = self._noted.get("available", (1.0, 0))
         self._figures.update(self.now, kpis, available)
         self._note("figures", self._figures.told(kpis, throughput, available, robots))
 
-    def _note(self, topic: str, told: Any) -> None:
-        """Notes what a topic tells now, if it is something else than before."""
-        if self._told.get(topic) != told:
-            self._told[topic] = told
-            self._book.note(topic, topic, told)
+    def _note(self, topic: str, row: object) -> None:
+        """Notes the newest row of a topic, if it differs from the last."""
+        if self._noted.get(topic) != row:
+            self._noted[topic] = row
+            self._book.note(topic, topic, row)
 
     def figures(self) -> dict[str, Any] | None:
         """Returns the four figures as JSON has them; None if no shift has told any."""
-        return self._told.get("figures")
+        return self._noted.get("figures")
 
-    def station(self, station: Any) -> dict[str, Any]:
+    def station(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside its own fields."""
         return self.stations.told(station)
 
 
-def _available(does: np.ndarray, coordinator: Any) -> tuple[float, int]:
+def _available(does: np.ndarray, coordinator: CoordinatorState | None) -> tuple[float, int]:
     """Returns the share of robots that can work, and how many robots there are."""
     away = coordinator.out_of_service + coordinator.manual if coordinator else 0
     helpless = int((does == Activity.NEEDS_HELP).sum())
     return max(0.0, 1 - (helpless + away) / max(len(does), 1)), len(does)
 
 
-def _without(found: Any, has_stations: bool) -> list[Trouble]:
-    """Leaves out what stations tell themselves, more exactly."""
-    return [one for one in found if not (has_stations and one.kind == "STATION_UNATTENDED")]
+def _without(pending: Iterable[Trouble], has_stations: bool) -> list[Trouble]:
+    """Leaves out what stations report themselves, more exactly."""
+    return [
+        trouble
+        for trouble in pending
+        if not (has_stations and trouble.kind == "STATION_UNATTENDED")
+    ]

@@ -69,29 +69,29 @@ class SpanLog:
             self._forget(now)
         self.now = now
         rows = self._rows_of(kind, names)
-        wanted = self._state.copy()
-        wanted[self._groups[kind].every] = GONE
-        wanted[rows] = states
-        changed = np.flatnonzero(wanted != self._state).astype(np.uint32)
+        after = self._state.copy()
+        after[self._groups[kind].every] = GONE
+        after[rows] = states
+        changed = np.flatnonzero(after != self._state).astype(np.uint32)
         if len(changed):
-            self._add(Moment(self.last + 1, now, changed, wanted[changed]))
+            self._add(Moment(self.last + 1, now, changed, after[changed]))
         self._trim()
 
     def _rows_of(self, kind: str, names: Sequence[str]) -> np.ndarray:
         """Returns the numbers of the rows of these names; new ones are added."""
-        group, told = self._groups.get(kind), tuple(names)
-        if group and group.names == told:
+        group, members = self._groups.get(kind), tuple(names)
+        if group and group.names == members:
             return group.rows
-        for name in told:
+        for name in members:
             if (kind, name) not in self._index:
                 self._index[kind, name] = len(self.rows)
                 self.rows.append((kind, name))
         new = np.full(len(self.rows) - len(self._state), GONE, np.uint8)
         self._state = np.concatenate((self._state, new))
         self._base = np.concatenate((self._base, new))
-        rows = np.array([self._index[kind, name] for name in told], np.int64)
+        rows = np.array([self._index[kind, name] for name in members], np.int64)
         every = np.array([i for i, row in enumerate(self.rows) if row[0] == kind], np.int64)
-        self._groups[kind] = _Group(told, rows, every)
+        self._groups[kind] = _Group(members, rows, every)
         return rows
 
     def _add(self, moment: Moment) -> None:
@@ -113,7 +113,7 @@ class SpanLog:
         knows that many rows; all that is kept if that is no longer known."""
         first = self._moments[0].number if self._moments else self.last + 1
         is_whole = epoch != self.epoch or not first - 1 <= since <= self.last or not known
-        moments = [one for one in self._moments if is_whole or one.number > since]
+        moments = [moment for moment in self._moments if is_whole or moment.number > since]
         head = {
             "epoch": self.epoch,
             "last": self.last,
@@ -131,9 +131,9 @@ class SpanLog:
 def _packed(head: dict[str, Any], moments: Sequence[Moment], origin: float) -> bytes:
     text = dumps(head).encode()
     text += b" " * (-len(text) % 4)
-    times = np.array([one.time - origin for one in moments], "<f4")
-    counts = np.array([len(one.rows) for one in moments], "<u4")
-    changes = [one.rows * np.uint32(STATES) + one.states for one in moments]
+    times = np.array([moment.time - origin for moment in moments], "<f4")
+    counts = np.array([len(moment.rows) for moment in moments], "<u4")
+    changes = [moment.rows * np.uint32(STATES) + moment.states for moment in moments]
     joined = np.concatenate(changes).astype("<u4") if changes else np.zeros(0, "<u4")
     parts = (np.uint32(len(text)).tobytes(), text, times, counts, joined)
     return b"".join(bytes(part) for part in parts)

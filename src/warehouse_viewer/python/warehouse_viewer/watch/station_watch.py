@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """What stations do at a glance, what each waits for, and for how long."""
 
+from __future__ import annotations
+
 from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_viewer.page.activities import Activity
+from warehouse_viewer.page.activities import QUEUED_TOO_LONG, Activity
 from warehouse_viewer.watch.troubles import UNATTENDED
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import FleetState, StationState
 
 QUARTER = 900.0  # over which pieces per hour are told [s, simulated]
 SAMPLES = 30.0  # between two counts of pieces [s, simulated]
-QUEUED_TOO_LONG = 120.0  # for a robot with a storage unit to stand in a queue [s, simulated]
 UNIT_TOO_LONG = 60.0  # for a station with orders to be without a unit [s, simulated]
-STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
+STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
 
 
 @dataclass
@@ -29,12 +33,12 @@ class _Past:
     pieces: deque[tuple[float, int]] = field(default_factory=deque)
 
 
-def needs_units(station: Any) -> bool:
+def needs_units(station: StationState) -> bool:
     """Whether a StationState has work and no storage unit."""
     return station.open and not station.shelf_id and bool(station.orders)
 
 
-def state_of(station: Any, starved: float) -> Activity:
+def state_of(station: StationState, starved: float) -> Activity:
     """Returns what a StationState does, which has been without a unit for `starved` [s]."""
     if station.shelf_id:
         return Activity.NEEDS_HELP if station.waiting >= UNATTENDED else Activity.WORKING
@@ -53,7 +57,7 @@ class StationWatch:
         self._still: dict[int, float] = {}
         self.now = 0.0
 
-    def update(self, now: float, stations: Iterable[Any], fleet: Any) -> None:
+    def update(self, now: float, stations: Iterable[Any], fleet: FleetState) -> None:
         """Takes in the StationState of all stations and a FleetState, or None, at `now` [s]."""
         if now < self.now:
             self._past, self.starved, self._still = {}, {}, {}
@@ -63,7 +67,7 @@ class StationWatch:
         if fleet is not None:
             self._take_robots(fleet, now)
 
-    def _take(self, station: Any, now: float) -> None:
+    def _take(self, station: StationState, now: float) -> None:
         past = self._past.setdefault(station.name, _Past(since=now))
         if needs_units(station):
             self.starved.setdefault(station.name, now)
@@ -79,7 +83,7 @@ class StationWatch:
         while now - past.pieces[0][0] > QUARTER:
             past.pieces.popleft()
 
-    def _take_robots(self, fleet: Any, now: float) -> None:
+    def _take_robots(self, fleet: FleetState, now: float) -> None:
         speeds = np.abs([fleet.vx, fleet.vy, fleet.yaw_rate]).max(axis=0, initial=0)
         ids, units = np.asarray(fleet.kiva_id).tolist(), np.asarray(fleet.shelf_id).tolist()
         still = (speeds < STANDS).tolist()
@@ -89,9 +93,9 @@ class StationWatch:
 
     def states(self, stations: Iterable[Any]) -> np.ndarray:
         """Returns the Activity of each station, (n,) uint8."""
-        return np.array([self._past[one.name].state for one in stations], np.uint8)
+        return np.array([self._past[station.name].state for station in stations], np.uint8)
 
-    def told(self, station: Any) -> dict[str, Any]:
+    def told(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside the message's own fields."""
         past = self._past.get(station.name) or _Past(since=self.now)
         since = self.starved.get(station.name, past.since)

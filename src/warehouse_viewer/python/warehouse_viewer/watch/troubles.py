@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what is wrong from what robots, coordinator, stations and shift tell."""
+"""Reads what is wrong from the messages of robots, coordinator, stations and shift."""
+
+from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warehouse_client.message_names import failures_of
-from warehouse_viewer.message_enums import EventKind
+from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.watch.alarm_book import Trouble
+
+if TYPE_CHECKING:
+    from warehouse_msgs.msg import CoordinatorState, FleetState
 
 UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
@@ -17,7 +22,7 @@ HELD_UP = 120.0  # that a robot waits [s, simulated]
 QUEUED = 600.0  # the same in the queue of a station, where waiting is as it should be
 LASTING = 600.0  # for which what happened in a moment is told [s, simulated]
 
-# By what the coordinator's sentences are like; the first group is whom they concern.
+# Kinds by patterns of the coordinator's sentences; the first group is whom they concern.
 SENTENCES = (
     (re.compile(r"(kiva\d+): "), "ROBOT_BROKEN"),
     (re.compile(r"(kiva\d+) does not move$"), "ROBOT_STALLED"),
@@ -30,8 +35,8 @@ SENTENCES = (
 MOMENTS = {EventKind.COLLISION.name: "COLLISION", EventKind.TIPPED.name: "UNIT_TIPPED"}
 
 
-def of_coordinator(state: Any) -> Iterator[Trouble]:
-    """Yields what a CoordinatorState tells a person, and which robots wait for long."""
+def of_coordinator(state: CoordinatorState) -> Iterator[Trouble]:
+    """Yields the alarms of a CoordinatorState, and the robots that wait for long."""
     for text in state.alarms:
         yield of_sentence(text)
     now = state.header.stamp.to_sec()
@@ -44,12 +49,12 @@ def of_coordinator(state: Any) -> Iterator[Trouble]:
 def of_sentence(text: str) -> Trouble:
     """Returns what a sentence of the coordinator's alarms means."""
     for pattern, kind in SENTENCES:
-        if found := pattern.match(text):
-            return Trouble(kind, found[1], text)
+        if match := pattern.match(text):
+            return Trouble(kind, match[1], text)
     return Trouble("COORDINATOR", text, text)
 
 
-def of_fleet(fleet: Any) -> Iterator[Trouble]:
+def of_fleet(fleet: FleetState) -> Iterator[Trouble]:
     """Yields the robots of a FleetState that need help."""
     failures = np.frombuffer(bytes(fleet.failures), np.uint8)
     for i in np.flatnonzero(failures):
@@ -66,16 +71,18 @@ def of_stations(
 ) -> Iterator[Trouble]:
     """Yields the stations, as StationState, that wait for a person or for storage units; `starved`
     has since when [s] each has had orders and no unit."""
-    for one in stations:
-        if one.waiting >= UNATTENDED:
-            what = "confirm a pick" if one.kind == "PICK" else "put new stock in"
-            text = f"unit {one.shelf_id} is at {one.name}: a person has to {what}"
-            yield Trouble("STATION_UNATTENDED", one.name, text, now - one.waiting)
-        since = starved.get(one.name, now)
+    for station in stations:
+        if station.waiting >= UNATTENDED:
+            what = "confirm a pick" if station.kind == "PICK" else "put new stock in"
+            text = f"unit {station.shelf_id} is at {station.name}: a person has to {what}"
+            yield Trouble("STATION_UNATTENDED", station.name, text, now - station.waiting)
+        since = starved.get(station.name, now)
         if now - since >= STARVED:
-            coming = f"{len(one.inbound)} on their way" if one.inbound else "none is on its way"
-            text = f"{one.name} works at {len(one.orders)} orders and has no unit; {coming}"
-            yield Trouble("STATION_STARVED", one.name, text, since)
+            coming = (
+                f"{len(station.inbound)} on their way" if station.inbound else "none is on its way"
+            )
+            text = f"{station.name} works at {len(station.orders)} orders and has no unit; {coming}"
+            yield Trouble("STATION_STARVED", station.name, text, since)
 
 
 def of_notices(notices: Iterable[str]) -> Iterator[Trouble]:

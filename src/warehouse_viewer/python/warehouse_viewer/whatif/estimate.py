@@ -25,16 +25,16 @@ class Pace:
     [s, wall]."""
 
     def __init__(self, done: Iterable[Done] = ()) -> None:
-        seen: dict[bool, list[float]] = {False: [], True: []}
+        ratios: dict[bool, list[float]] = {False: [], True: []}
         starts = [START]
         for run, took in done:
             kpis = run.kpis
             work = kpis["robots"] * kpis["simulated_s"]
             if work > 0:
-                seen[bool(run.config.get("physics"))].append(kpis["wall_s"] / work)
+                ratios[bool(run.config.get("physics"))].append(kpis["wall_s"] / work)
             if took:
                 starts.append(max(took - kpis["wall_s"], 0.0))
-        self._costs = {kind: median(of[-RECENT:]) for kind, of in seen.items() if of}
+        self._costs = {kind: median(of[-RECENT:]) for kind, of in ratios.items() if of}
         self.start = median(starts[-RECENT:])
 
     def seconds(self, robots: int, simulated_s: float, physics: bool) -> float:

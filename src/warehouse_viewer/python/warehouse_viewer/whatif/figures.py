@@ -76,7 +76,7 @@ def summary(runs: Sequence[Run]) -> dict[str, Any]:
     return {
         "warm_up": _minutes([group]),
         "limit": _limit(runs),
-        "figures": {one.key: _estimate(by_seed, one.key) for one in FIGURES},
+        "figures": {figure.key: _estimate(by_seed, figure.key) for figure in FIGURES},
     }
 
 
@@ -91,20 +91,20 @@ def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
     groups = [Group(name, tuple(runs)) for name, runs in scenarios.items()]
     cut = warm_up(groups)
     figures = [_by_seed(group, cut) for group in groups]
-    found = {
-        (one.key, i): _difference(figures[0], other, one.key)
-        for one in FIGURES
+    differences = {
+        (figure.key, i): _difference(figures[0], other, figure.key)
+        for figure in FIGURES
         for i, other in enumerate(figures[1:], start=1)
     }
-    told = {at: one for at, one in found.items() if one}
-    corrected = dict(zip(told, holm([one.p_value for one in told.values()])))
+    known = {at: d for at, d in differences.items() if d}
+    corrected = dict(zip(known, holm([d.p_value for d in known.values()])))
     rows = []
-    for one in FIGURES:
-        cells: list[dict[str, Any]] = [_estimate(by_seed, one.key) for by_seed in figures]
+    for figure in FIGURES:
+        cells: list[dict[str, Any]] = [_estimate(by_seed, figure.key) for by_seed in figures]
         for i in range(1, len(cells)):
-            if difference := told.get((one.key, i)):
-                cells[i].update(_told(difference.corrected(corrected[one.key, i]), one))
-        rows.append(_shown(one) | {"cells": cells})
+            if difference := known.get((figure.key, i)):
+                cells[i].update(_told(difference.corrected(corrected[figure.key, i]), figure))
+        rows.append(_shown(figure) | {"cells": cells})
     return {
         "names": list(scenarios),
         "warm_up": _minutes(groups),
@@ -113,13 +113,13 @@ def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
     }
 
 
-def _shown(one: Figure) -> dict[str, Any]:
+def _shown(figure: Figure) -> dict[str, Any]:
     return {
-        "key": one.key,
-        "title": one.title,
-        "unit": one.unit,
-        "digits": one.digits,
-        "note": one.note,
+        "key": figure.key,
+        "title": figure.title,
+        "unit": figure.unit,
+        "digits": figure.digits,
+        "note": figure.note,
     }
 
 
@@ -132,14 +132,14 @@ def _by_seed(group: Group, cut: int) -> dict[int, dict[str, float]]:
 
 
 def _estimate(by_seed: Mapping[int, Mapping[str, float]], key: str) -> dict[str, Any]:
-    found = Estimate.of([one[key] for one in by_seed.values()])
-    return {"mean": found.mean, "half": _finite(found.half), "count": found.count}
+    estimate = Estimate.of([row[key] for row in by_seed.values()])
+    return {"mean": estimate.mean, "half": _finite(estimate.half), "count": estimate.count}
 
 
 def _difference(
     first: Mapping[int, Mapping[str, float]], other: Mapping[int, Mapping[str, float]], key: str
 ) -> Difference | None:
-    a, b = ({seed: one[key] for seed, one in all_.items()} for all_ in (first, other))
+    a, b = ({seed: row[key] for seed, row in all_.items()} for all_ in (first, other))
     return difference_of(a, b)
 
 

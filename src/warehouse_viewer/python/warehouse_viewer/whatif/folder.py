@@ -16,11 +16,14 @@ from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
 from warehouse_layout.file.request import LIMITS
 from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
+from warehouse_operations.runs import event_file
 from warehouse_operations.runs.simulation import ERRORS, Description
+from warehouse_operations.stock import demand_file, orders_text
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand import make_demand
 from warehouse_operations.stock.order_file import DemandError, read_csv
 from warehouse_viewer.whatif.scenario import (
+    DEMAND,
     FILE,
     LAYOUTS,
     ORDERS,
@@ -43,8 +46,8 @@ class Folder:
     # --- scenarios
     def names(self) -> list[str]:
         """Returns the names of all scenarios."""
-        found = (file.parent.name for file in self.path.glob(f"*/{FILE}"))
-        return sorted((one for one in found if not one.startswith(".")), key=str.casefold)
+        names = (file.parent.name for file in self.path.glob(f"*/{FILE}"))
+        return sorted((name for name in names if not name.startswith(".")), key=str.casefold)
 
     def of(self, name: str) -> Path:
         """Returns the folder of a scenario. Raises ScenarioError if there is none."""
@@ -79,7 +82,7 @@ class Folder:
         """Copies a scenario without its runs; returns the copy's name."""
         stem = name.rstrip("0123456789").rstrip() or name
         tries = (f"{stem[:55].rstrip()} {n}" for n in itertools.count(2))
-        copy = next(one for one in tries if not (self.path / one).exists())
+        copy = next(candidate for candidate in tries if not (self.path / candidate).exists())
         return self.create(copy, self.read(name))
 
     def rename(self, name: str, to: str) -> str:
@@ -111,11 +114,12 @@ class Folder:
     # --- files
     def layouts(self) -> list[str]:
         """Returns the names of layouts that are not presets."""
-        return sorted(one.name for one in (self.path / LAYOUTS).glob(f"*{SUFFIX}"))
+        return sorted(file.name for file in (self.path / LAYOUTS).glob(f"*{SUFFIX}"))
 
     def orders(self) -> list[str]:
         """Returns the names of files of orders."""
-        return sorted(one.name for one in (self.path / ORDERS).glob("*.csv"))
+        folder = self.path / ORDERS
+        return sorted(file.name for end in (".csv", DEMAND) for file in folder.glob(f"*{end}"))
 
     def add_layout(self, name: str, text: str) -> str:
         """Keeps the text of a layout file; returns its name here. Raises LayoutFileError."""
@@ -146,15 +150,17 @@ class Folder:
         return self._add(LAYOUTS, name, ".csv", text)
 
     def add_orders(self, name: str, text: str) -> str:
-        """Keeps the text of a file of orders; returns its name here. Raises DemandError."""
+        """Keeps the text of a file of orders, or of a description of demand; returns its name
+        here. Raises DemandError."""
+        suffix = DEMAND if name.endswith(DEMAND) else ".csv"
         with tempfile.TemporaryDirectory() as made:
-            file = Path(made, "orders.csv")
+            file = Path(made, f"orders{suffix}")
             file.write_text(text, "utf-8")
             try:
-                read_csv(file)
+                demand_file.read(file) if suffix == DEMAND else read_csv(file)
             except DemandError as error:
                 raise DemandError(str(error).replace(str(file), name)) from error
-        return self._add(ORDERS, name, ".csv", text)
+        return self._add(ORDERS, name, suffix, text)
 
     def _add(self, below: str, name: str, suffix: str, text: str) -> str:
         """Writes a file. One of that name that says something else stays, under its own name."""
@@ -165,27 +171,28 @@ class Folder:
         if len(list(folder.iterdir())) >= MOST_FILES:
             raise ScenarioError(f"there are {MOST_FILES} files in {below}; delete some first")
         stem = name.removesuffix(suffix)
-        for found in itertools.chain([name], (f"{stem}-{n}{suffix}" for n in itertools.count(2))):
-            path = folder / found
+        for free in itertools.chain([name], (f"{stem}-{n}{suffix}" for n in itertools.count(2))):
+            path = folder / free
             if not path.exists():
                 path.write_text(text, "utf-8")
             if path.read_text("utf-8") == text:
-                return found
+                return free
         raise AssertionError("unreachable")
 
 
 def check(scenario: Scenario, path: Path) -> Description:
     """Returns the shift of a scenario in the folder `path`. Raises ScenarioError where a fleet
     could not work there, or orders can't be read."""
-    told = scenario.to_sweep()
+    sweep_file = scenario.to_sweep()
     beside = path / LAYOUTS  # for what begins with ../
     try:
-        layout = told["layout"]
+        layout = sweep_file["layout"]
         if layout.endswith(SUFFIX):
             layout = os.path.normpath(beside / layout)
-        orders = told["orders"]
-        if orders.endswith(".csv"):
-            orders = os.path.normpath(beside / orders)
+        orders = orders_text.with_file(
+            sweep_file["orders"],
+            lambda file: os.path.normpath(beside / file) if file.startswith("../") else file,
+        )
         description = Description(
             layout=layout,
             robots=scenario.robots,
@@ -195,6 +202,7 @@ def check(scenario: Scenario, path: Path) -> Description:
             policies=dict(scenario.policies),
             physics=scenario.physics,
             realism=scenario.realism,
+            events=event_file.events_of(scenario.events, path),
         )
         _check_floor(description)
         _check_orders(orders)
@@ -205,16 +213,16 @@ def check(scenario: Scenario, path: Path) -> Description:
 
 
 def _check_orders(orders: str) -> None:
-    """Only the shift can tell whether the SKUs of a file are in stock: any are taken."""
+    """Takes any SKUs: only the shift knows whether those of a file are in stock."""
     rng = np.random.default_rng(1)
-    assortment = None if orders.endswith(".csv") else Assortment.draw(2, rng)
+    assortment = None if orders_text.file_of(orders) else Assortment.draw(2, rng)
     make_demand(orders, assortment, (1, 1), rng)
 
 
 def _check_floor(description: Description) -> None:
     file = layout_choice.chosen(description.layout)
     layout_choice.check(file, description.robots or None)
-    count = sum(one.kind != "replenish" for one in file.stations)
+    count = sum(station.kind != "replenish" for station in file.stations)
     if not count:
         raise ScenarioError(f"{file.title}: there is no picking station")
     if description.stations > count:

@@ -53,7 +53,7 @@ class Active:
     is_cancelled: bool = False
 
     def end(self) -> None:
-        """Tells the process to end."""
+        """Asks the process to end."""
         self.is_cancelled = True
         if self.process:
             self.process.terminate()
@@ -82,7 +82,7 @@ class Queue:
     def add(self, jobs: list[Job]) -> None:
         """Adds runs that are not there already. Raises QueueError where there are too many."""
         with self._changed:
-            known = {*self._waiting, *(one.job for one in self._active)}
+            known = {*self._waiting, *(active.job for active in self._active)}
             fresh = [job for job in jobs if job not in known]
             if self._is_closed or len(self._waiting) + len(fresh) > MOST_WAITING:
                 raise QueueError(f"{MOST_WAITING} runs wait at most; let some end first")
@@ -95,16 +95,16 @@ class Queue:
         with self._changed:
             taken = [job for job in self._waiting if job.scenario == scenario]
             self._waiting = deque(job for job in self._waiting if job.scenario != scenario)
-            for one in self._active:
-                if one.job.scenario == scenario:
-                    one.end()
+            for active in self._active:
+                if active.job.scenario == scenario:
+                    active.end()
         for job in taken:
             self._on_end(job, Outcome())
         with self._changed:
             self._changed.wait_for(lambda: not self._runs(scenario), PATIENCE)
 
     def _runs(self, scenario: str) -> bool:
-        return any(one.job.scenario == scenario for one in self._active)
+        return any(active.job.scenario == scenario for active in self._active)
 
     def waiting(self) -> list[Job]:
         """Returns the runs that wait."""
@@ -121,8 +121,8 @@ class Queue:
         with self._changed:
             self._is_closed = True
             self._waiting.clear()
-            for one in self._active:
-                one.end()
+            for active in self._active:
+                active.end()
             self._changed.notify_all()
         for thread in self._threads:
             thread.join(PATIENCE)
@@ -173,19 +173,19 @@ class Queue:
 
 
 def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
-    """Reads what a process tells until it ends."""
+    """Reads the lines of a process until it ends."""
     said: deque[str] = deque(maxlen=KEPT)
     last: dict[str, Any] = {}
     assert process.stdout and process.stdin
     with process.stdout:
         for line in process.stdout:
-            told = _told(line)
-            if told is None:
+            news = _told(line)
+            if news is None:
                 said.append(line.rstrip())
-            elif "of" in told:
-                active.progress = told
+            elif "of" in news:
+                active.progress = news
             else:
-                last = told
+                last = news
     with contextlib.suppress(OSError):
         process.stdin.close()
     code = _waited(process)
@@ -197,10 +197,10 @@ def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
 def _told(line: str) -> dict[str, Any] | None:
     """Returns what a line of JSON says; None of other lines."""
     try:
-        told = json.loads(line) if line.startswith("{") else None
+        news = json.loads(line) if line.startswith("{") else None
     except ValueError:
         return None
-    return told if isinstance(told, dict) else None
+    return news if isinstance(news, dict) else None
 
 
 def _waited(process: "subprocess.Popen[str]") -> int:

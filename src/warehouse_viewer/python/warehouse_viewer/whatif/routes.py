@@ -43,9 +43,9 @@ Endpoint = Callable[[Request], Awaitable[Response]]
 
 def routes(workshop: Workshop) -> list[Route]:
     """Returns what the page asks of a Workshop, to be added to an application."""
-    one = f"{PAGE}/scenarios/{{name}}"
+    scenario = f"{PAGE}/scenarios/{{name}}"
     posts, work = ["POST"], workshop
-    seed = f"{one}/seeds/{{seed:int}}"
+    seed = f"{scenario}/seeds/{{seed:int}}"
     return [
         Route(f"{PAGE}/about", _answering(work, lambda _: _about(work))),
         Route(f"{PAGE}/scenarios", _answering(work, lambda _: work.scenarios())),
@@ -54,12 +54,12 @@ def routes(workshop: Workshop) -> list[Route]:
         Route(f"{PAGE}/layouts", _asking(work, work.add_layout, "name", "text"), methods=posts),
         Route(f"{PAGE}/stock", _asking(work, work.add_stock, "name", "text"), methods=posts),
         Route(f"{PAGE}/orders", _asking(work, work.add_orders, "name", "text"), methods=posts),
-        Route(one, _asking(work, work.change, "settings"), methods=["PUT"]),
-        Route(one, _asking(work, work.delete), methods=["DELETE"]),
-        Route(f"{one}/duplicate", _asking(work, work.duplicate), methods=posts),
-        Route(f"{one}/rename", _asking(work, work.rename, "to"), methods=posts),
-        Route(f"{one}/run", _asking(work, work.run), methods=posts),
-        Route(f"{one}/run", _asking(work, work.cancel), methods=["DELETE"]),
+        Route(scenario, _asking(work, work.change, "settings"), methods=["PUT"]),
+        Route(scenario, _asking(work, work.delete), methods=["DELETE"]),
+        Route(f"{scenario}/duplicate", _asking(work, work.duplicate), methods=posts),
+        Route(f"{scenario}/rename", _asking(work, work.rename, "to"), methods=posts),
+        Route(f"{scenario}/run", _asking(work, work.run), methods=posts),
+        Route(f"{scenario}/run", _asking(work, work.cancel), methods=["DELETE"]),
         Route(f"{seed}/report.html", _report(work, lambda r: _its_report(work, r))),
         Route(f"{PAGE}/compare", _answering(work, lambda r: work.compare(_names(r)))),
         Route(f"{PAGE}/report.html", _report(work, lambda r: work.report(_names(r)))),
@@ -69,9 +69,9 @@ def routes(workshop: Workshop) -> list[Route]:
 def _about(workshop: Workshop) -> Answer:
     return workshop.about() | {
         "presets": {
-            name: {"robots": one.robots, "stations": one.belts, "units": one.shelves}
-            for name, one in PRESETS.items()
-            if one.robots
+            name: {"robots": preset.robots, "stations": preset.belts, "units": preset.shelves}
+            for name, preset in PRESETS.items()
+            if preset.robots
         },
         "policies": {role: list(names) for role, names in ROLES.items()},
         "default_policies": DEFAULTS,
@@ -107,14 +107,14 @@ def _asking(workshop: Workshop, work: Callable[..., Answer], *fields: str) -> En
 
     async def endpoint(request: Request) -> Response:
         try:
-            given = await request.json() if fields else {}
+            body = await request.json() if fields else {}
         except ValueError as error:
             return JSONResponse({"detail": f"the request is wrong: {error}"}, 422)
-        if not isinstance(given, dict) or given.keys() != {*fields}:
+        if not isinstance(body, dict) or body.keys() != {*fields}:
             return JSONResponse({"detail": f"the fields {', '.join(fields)} were expected"}, 422)
-        if not all(isinstance(given[one], str) for one in ("name", "text", "to") if one in given):
+        if not all(isinstance(body[key], str) for key in ("name", "text", "to") if key in body):
             return JSONResponse({"detail": "texts were expected"}, 422)
-        arguments = request.path_params | given
+        arguments = request.path_params | body
         return await _answered(workshop, lambda: JSONResponse(work(**arguments), headers=FRESH))
 
     return endpoint

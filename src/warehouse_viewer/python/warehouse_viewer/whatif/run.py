@@ -13,6 +13,7 @@ import threading
 from pathlib import Path
 
 from warehouse_layout.file.layout_file import LayoutFileError
+from warehouse_operations.reports import report
 from warehouse_operations.runs import sweep
 from warehouse_operations.runs.progress import ProgressLines
 from warehouse_operations.runs.simulation import ERRORS, simulate
@@ -28,7 +29,8 @@ def simulated(file: Path, seed: int) -> list[str]:
         description.seed: (description, folder) for description, folder in sweep.read(file).jobs
     }
     description, folder = jobs[seed]
-    return simulate(description, folder, progress=ProgressLines(description.seconds, sys.stdout))[1]
+    progress = ProgressLines(description.seconds, sys.stdout)
+    return simulate(description, folder, progress=progress, write_report=report.write)[1]
 
 
 def end_with_server() -> None:
@@ -47,11 +49,11 @@ def main() -> None:
     os.nice(NICE)
     end_with_server()
     try:
-        told = {"done": simulated(Path(sys.argv[1]), int(sys.argv[2]))}
+        result = {"done": simulated(Path(sys.argv[1]), int(sys.argv[2]))}
     except (*ERRORS, LayoutFileError, sweep.SweepError, OSError) as error:
         print(dumps({"error": str(error)}), flush=True)
         sys.exit(1)
-    print(dumps(told), flush=True)
+    print(dumps(result), flush=True)
 
 
 if __name__ == "__main__":

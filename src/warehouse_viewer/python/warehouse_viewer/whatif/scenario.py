@@ -13,9 +13,13 @@ import yaml
 from warehouse_layout.file.layout_file import SUFFIX
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import ROLES
+from warehouse_operations.runs import event_file
+from warehouse_operations.stock import orders_text
+from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 
 FILE = "scenario.yaml"
+DEMAND = ".demand.yaml"  # a description of demand, as `demand` writes it
 LAYOUTS, ORDERS = "layouts", "orders"  # folders beside the scenarios, of files that they share
 REALISM = ("ideal", "typical", "bad_day")
 MOST_MINUTES, MOST_SEEDS = 24 * 60.0, 50
@@ -31,7 +35,7 @@ class ScenarioError(ValueError):
 class Scenario:
     """What is simulated, `seeds` times. layout: a preset, or a file in LAYOUTS; robots, stations:
     0 for as many as the layout has; realism: with physics, one of REALISM; orders: as simulate
-    takes them, or a CSV file in ORDERS; policies: names by role."""
+    takes them, with files in ORDERS; policies: names by role; events: see event_file."""
 
     layout: str = "medium"
     robots: int = 0
@@ -42,18 +46,19 @@ class Scenario:
     physics: bool = False
     realism: str = ""
     policies: Mapping[str, Any] = field(default_factory=dict)
+    events: list[dict[str, Any]] = field(default_factory=list)
 
     @classmethod
-    def of_json(cls, told: Any) -> "Scenario":
+    def of_json(cls, fields_of: object) -> "Scenario":
         """Returns the scenario that a page sends. Raises ScenarioError."""
-        known = {one.name for one in fields(cls)}
-        if not isinstance(told, dict) or not told.keys() <= known:
+        known = {field.name for field in fields(cls)}
+        if not isinstance(fields_of, dict) or not fields_of.keys() <= known:
             raise ScenarioError(f"a scenario with {', '.join(sorted(known))} was expected")
-        for key, value in told.items():
+        for key, value in fields_of.items():
             is_right, expected = EXPECTED[key]
             if not is_right(value):
                 raise ScenarioError(f"{key} is {value!r}; {expected} was expected")
-        out = cls(**told)
+        out = cls(**fields_of)
         if out.realism and not out.physics:
             raise ScenarioError("realism: ideal robots have none; physics was expected")
         return out
@@ -68,19 +73,19 @@ class Scenario:
         out = self.to_json() | {
             "out": ".",
             "layout": f"../{LAYOUTS}/{self.layout}" if has_file else self.layout,
-            "orders": f"../{ORDERS}/{self.orders}" if _is_csv(self.orders) else self.orders,
+            "orders": orders_text.with_file(self.orders, _in_orders),
             "policies": dict(self.policies),
         }
         return {
             key: value
             for key, value in out.items()
-            if isinstance(value, bool) or value not in (0, "", {})
+            if isinstance(value, bool) or value not in (0, "", {}, [])
         }
 
     def write(self, folder: Path) -> None:
         """Writes scenario.yaml into a folder."""
         text = yaml.safe_dump(self.to_sweep(), sort_keys=False, allow_unicode=True)
-        (folder / FILE).write_text(f"# rosrun warehouse_fleet sweep {FILE}\n{text}", "utf-8")
+        (folder / FILE).write_text(f"# rosrun warehouse_operations sweep {FILE}\n{text}", "utf-8")
 
     @classmethod
     def read(cls, folder: Path) -> "Scenario":
@@ -91,51 +96,70 @@ class Scenario:
             raise ScenarioError(f"{path}: `out: .` without a grid was expected")
         data.setdefault("physics", True)
         for key, below in (("layout", LAYOUTS), ("orders", ORDERS)):
-            given = str(data.get(key, ""))
-            data[key] = given.removeprefix(f"../{below}/") or getattr(cls, key)
+            text = str(data.get(key, ""))
+            data[key] = text.replace(f"../{below}/", "", 1) or getattr(cls, key)
         try:
             return cls.of_json(data)
         except ScenarioError as error:
             raise ScenarioError(f"{path}: {error}") from error
 
 
-def _is_csv(orders: Any) -> bool:
-    return isinstance(orders, str) and orders.endswith(".csv") and not orders.startswith("mix:")
+def _in_orders(file: str) -> str:
+    """Returns a file of orders as it is seen from a scenario's folder."""
+    return f"../{ORDERS}/{file}" if is_orders_file(file) else file
+
+
+def is_orders_file(name: str) -> bool:
+    """Returns whether it is a name of a file in ORDERS."""
+    return any(is_file_name(name, suffix) for suffix in (".csv", DEMAND))
 
 
 def _whole(least: int, most: int) -> tuple[Callable[[Any], bool], str]:
-    def is_right(value: Any) -> bool:
+    def is_right(value: object) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and least <= value <= most
 
     return is_right, f"a whole number from {least} to {most}"
 
 
-def _is_minutes(value: Any) -> bool:
+def _is_minutes(value: object) -> bool:
     if not isinstance(value, int | float) or isinstance(value, bool):
         return False
     return math.isfinite(value) and 0 < value <= MOST_MINUTES
 
 
-def _is_layout(value: Any) -> bool:
+def _is_layout(value: object) -> bool:
     return isinstance(value, str) and (
         (value in PRESETS and value != "empty") or is_file_name(value, SUFFIX)
     )
 
 
-def _is_orders(value: Any) -> bool:
+def _is_orders(value: object) -> bool:
     if not isinstance(value, str) or len(value) > 200:
         return False
-    if value.endswith(".csv"):
-        return is_file_name(value, ".csv")
+    try:
+        file = orders_text.file_of(value)
+    except DemandError:
+        return False
+    if file:
+        return is_orders_file(file) and not value.startswith("mix:")
     return value.partition(":")[0] in ("fill", "poisson", "mix")
 
 
-def _is_policies(value: Any) -> bool:
+def _is_policies(value: object) -> bool:
     """Only names that are known: a page names no code."""
     return isinstance(value, dict) and all(
         role in ROLES and isinstance(name, str) and name in ROLES[role]
         for role, name in value.items()
     )
+
+
+def _is_events(value: object) -> bool:
+    """Only what names no files: a page names those in ORDERS alone."""
+    try:
+        events = event_file.events_of(value, Path("."))
+    except event_file.EventError:
+        return False
+    return not any(event.kind == "orders" for event in events)
 
 
 def is_file_name(name: str, suffix: str) -> bool:
@@ -144,7 +168,7 @@ def is_file_name(name: str, suffix: str) -> bool:
     return name != stem and bool(FILE_NAME.fullmatch(stem)) and ".." not in name
 
 
-def checked_name(name: Any) -> str:
+def checked_name(name: object) -> str:
     """Returns a scenario's name, which is that of its folder. Raises ScenarioError."""
     text = name.strip() if isinstance(name, str) else ""
     if not NAME.fullmatch(text) or text.endswith(".") or text in (LAYOUTS, ORDERS):
@@ -159,10 +183,15 @@ EXPECTED: dict[str, tuple[Callable[[Any], Any], str]] = {
     "layout": (_is_layout, f"a preset, or the name of a {SUFFIX} file"),
     "robots": _whole(0, LIMITS["robots"]),
     "stations": _whole(0, MOST_STATIONS),
-    "orders": (_is_orders, "fill, poisson:PER_HOUR, mix:PER_HOUR:LINESxPIECES or FILE.csv"),
+    "orders": (
+        _is_orders,
+        "fill, poisson:PER_HOUR, mix:PER_HOUR:LINESxPIECES, FILE.csv, day:FILE.csv or"
+        " demand:FILE.demand.yaml, either of these with *1.3",
+    ),
     "minutes": (_is_minutes, f"a number above 0, up to {MOST_MINUTES:g},"),
     "seeds": _whole(1, MOST_SEEDS),
     "physics": (lambda value: isinstance(value, bool), "true or false"),
     "realism": (lambda value: value in ("", *REALISM), f"one of {', '.join(REALISM)}"),
     "policies": (_is_policies, f"a known policy for some of {', '.join(ROLES)}"),
+    "events": (_is_events, f"a list of events, each with `at` and {event_file.EXPECTED},"),
 }

@@ -14,7 +14,7 @@ from warehouse_viewer.whatif.queue import Active
 from warehouse_viewer.whatif.stored import Planned
 
 CUT = "cut"  # the state of a run whose server ended
-BEGUN = 0.1  # of a run: from then on its own pace tells how long it takes
+BEGUN = 0.1  # share of a run from which its own pace gives its duration
 
 Told = dict[str, Any]
 
@@ -30,7 +30,7 @@ def layout_counts(layout: str, _: int) -> tuple[int, int]:
     """Returns the robots and picking stations of a layout of that version."""
     file = layout_choice.chosen(layout)
     robots = file.robots if isinstance(file.robots, int) else len(file.robots)
-    return robots, sum(one.kind != "replenish" for one in file.stations)
+    return robots, sum(station.kind != "replenish" for station in file.stations)
 
 
 def changed(path: Path) -> int:
@@ -46,12 +46,12 @@ def site(name: str, robots: int, stations: int) -> Told:
     return {"name": name, "robots": robots, "stations": stations}
 
 
-def run(one: Planned, run: Run | None, active: Active | None, waits: bool, state: Told) -> Told:
+def run(planned: Planned, run: Run | None, active: Active | None, waits: bool, state: Told) -> Told:
     """Returns a run as the page shows it."""
-    out: Told = {"seed": one.seed, "state": "none"}
+    out: Told = {"seed": planned.seed, "state": "none"}
     if active:
-        told = active.progress
-        share = min(told.get("time", 0.0) / one.seconds, 1.0)
+        progress = active.progress
+        share = min(progress.get("time", 0.0) / planned.seconds, 1.0)
         took = time.monotonic() - active.began
         return out | {"state": "runs", "share": share, "took": took}
     if waits:
@@ -66,21 +66,21 @@ def run(one: Planned, run: Run | None, active: Active | None, waits: bool, state
 
 def state(each: Sequence[Told]) -> str:
     """Returns the state of a scenario of which these are the runs."""
-    states = {one["state"] for one in each}
+    states = {row["state"] for row in each}
     for state in ("runs", "waits", "failed", CUT, "cancelled"):
         if state in states:
             return "runs" if state == "waits" else state
     return "done" if states == {"done"} else "part" if "done" in states else "none"
 
 
-def left(one: Told, cost: float, start: float) -> float:
-    """Returns how long a run still takes [s, wall]: once it is well begun, what it took tells.
+def left(row: Told, cost: float, start: float) -> float:
+    """Returns how long a run still takes [s, wall]: by its own pace once it is well begun.
 
     start: what a process takes besides the shift, half of it for the report in the end.
     """
-    if one["state"] != "runs":
+    if row["state"] != "runs":
         return cost
-    share = one["share"]
+    share = row["share"]
     if share < BEGUN:
-        return max(cost - float(one["took"]), start / 2)
-    return max(one["took"] - start / 2, 0.0) * (1 - share) / share + start / 2
+        return max(cost - float(row["took"]), start / 2)
+    return max(row["took"] - start / 2, 0.0) * (1 - share) / share + start / 2

@@ -29,20 +29,20 @@ class Planned(NamedTuple):
 
 def planned(file: Path) -> tuple[Planned, ...]:
     """Returns the runs of a scenario's file. Raises SweepError and simulation.ERRORS."""
-    wanted = sweep.read(file)
-    one = wanted.jobs[0][0]
-    config = json.loads(json.dumps(one.config))  # as it is read from run.json
-    return tuple(Planned(job.seed, folder, config, job.seconds) for job, folder in wanted.jobs)
+    plan = sweep.read(file)
+    first = plan.jobs[0][0]
+    config = json.loads(json.dumps(first.config))  # as it is read from run.json
+    return tuple(Planned(job.seed, folder, config, job.seconds) for job, folder in plan.jobs)
 
 
-def complete(wanted: Planned) -> Run | None:
+def complete(planned_run: Planned) -> Run | None:
     """Returns the run of that configuration if it is complete, without its maps."""
-    path = wanted.folder / KPIS
+    path = planned_run.folder / KPIS
     try:
         run = _read(path, path.stat().st_mtime_ns)
     except (OSError, RunError):
         return None
-    return run if run.config == wanted.config and run.seed == wanted.seed else None
+    return run if run.config == planned_run.config and run.seed == planned_run.seed else None
 
 
 @functools.lru_cache(2000)
@@ -60,16 +60,16 @@ class States:
     def read(self) -> dict[str, dict[str, Any]]:
         """Returns what is known; nothing where the file is not there or damaged."""
         with contextlib.suppress(OSError, ValueError):
-            told = json.loads(self._path.read_text("utf-8"))
-            if isinstance(told, dict):
-                return {key: one for key, one in told.items() if isinstance(one, dict)}
+            states = json.loads(self._path.read_text("utf-8"))
+            if isinstance(states, dict):
+                return {key: value for key, value in states.items() if isinstance(value, dict)}
         return {}
 
     def put(self, seeds: list[int], state: str, **more: Any) -> None:
         """Notes the state of runs."""
-        told = self.read() | {str(seed): {"state": state} | more for seed in seeds}
+        states = self.read() | {str(seed): {"state": state} | more for seed in seeds}
         beside = self._path.with_name(f".{STATE}.part")
-        beside.write_text(dumps(told), "utf-8")
+        beside.write_text(dumps(states), "utf-8")
         os.replace(beside, self._path)
 
     def clear(self) -> None:

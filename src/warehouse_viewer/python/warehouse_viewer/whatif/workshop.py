@@ -77,12 +77,12 @@ class Workshop:
 
     def scenarios(self) -> Told:
         """Returns all scenarios with their runs, and how long the queue takes [s, wall]."""
-        active = {one.job: one for one in self._queue.active()}
+        active = {process.job: process for process in self._queue.active()}
         waiting = set(self._queue.waiting())
         done: list[Done] = []
         each = [self._shown(name, active, waiting, done) for name in self.folder.names()]
         self._pace = Pace(done)
-        left = sum(one["left"] for one in each if one["state"] == "runs")
+        left = sum(process["left"] for process in each if process["state"] == "runs")
         parallel = min(self._queue.processes, max(1, len(active) + len(waiting)))
         return {
             "scenarios": each,
@@ -98,33 +98,33 @@ class Workshop:
         out: Told = {"name": name, "state": "wrong", "left": 0.0, "runs": [], "summary": None}
         try:
             scenario = self.folder.read(name)
-            wanted = shown.planned(folder / FILE, self._version(name, scenario))
+            plan = shown.planned(folder / FILE, self._version(name, scenario))
         except (ScenarioError, *WRONG) as error:
             return out | {"error": self._own(str(error))}
-        site = shown.site(wanted[0].config["site"], *self._counts(scenario))
+        site = shown.site(plan[0].config["site"], *self._counts(scenario))
         states = States(folder).read()
         each = []
-        found: list[Run] = []
-        for one in wanted:
-            run = stored.complete(one)
-            job = Job(name, one.seed, folder / FILE)
-            state = states.get(str(one.seed), {})
+        complete: list[Run] = []
+        for planned in plan:
+            run = stored.complete(planned)
+            job = Job(name, planned.seed, folder / FILE)
+            state = states.get(str(planned.seed), {})
             if run:
-                found.append(run)
+                complete.append(run)
                 done.append(Done(run, state.get("took", 0.0)))
-            each.append(shown.run(one, run, active.get(job), job in waiting, state))
-        missing = [one for one in each if one["state"] != "done"]
-        cost = self._pace.seconds(site["robots"], wanted[0].seconds, scenario.physics)
+            each.append(shown.run(planned, run, active.get(job), job in waiting, state))
+        missing = [planned for planned in each if planned["state"] != "done"]
+        cost = self._pace.seconds(site["robots"], plan[0].seconds, scenario.physics)
         return out | {
             "settings": scenario.to_json(),
             "site": site,
             "runs": each,
             "state": shown.state(each),
-            "left": sum(shown.left(one, cost, self._pace.start) for one in missing),
-            "summary": figures.summary(found) if found else None,
+            "left": sum(shown.left(planned, cost, self._pace.start) for planned in missing),
+            "summary": figures.summary(complete) if complete else None,
         }
 
-    def estimate(self, settings: Any) -> Told:
+    def estimate(self, settings: object) -> Told:
         """Returns how long a scenario would take on this machine [s, wall]."""
         scenario = Scenario.of_json(settings)
         description = check(scenario, self.folder.path)
@@ -144,8 +144,8 @@ class Workshop:
         """Returns the report about all runs of scenarios, HTML."""
         from warehouse_operations.reports import report
 
-        found = [runs.read(run.folder) for name in names for run in self._runs(name)]
-        return report.page(found)
+        results = [runs.read(run.folder) for name in names for run in self._runs(name)]
+        return report.page(results)
 
     def report_of(self, name: str, seed: int) -> str:
         """Returns the report that a run has written, HTML."""
@@ -157,19 +157,19 @@ class Workshop:
 
     def _runs(self, name: str) -> list[Run]:
         scenario = self.folder.read(name)
-        wanted = shown.planned(self.folder.of(name) / FILE, self._version(name, scenario))
-        found = [run for one in wanted if (run := stored.complete(one))]
-        if not found:
+        plan = shown.planned(self.folder.of(name) / FILE, self._version(name, scenario))
+        complete = [run for planned in plan if (run := stored.complete(planned))]
+        if not complete:
             raise ScenarioError(f"no run of '{name}' has ended yet")
-        return found
+        return complete
 
     # --- what is asked for
-    def create(self, name: Any, settings: Any) -> Told:
+    def create(self, name: str, settings: object) -> Told:
         """Makes a scenario."""
         with self._lock:
             return {"name": self.folder.create(name, Scenario.of_json(settings))}
 
-    def change(self, name: str, settings: Any) -> Told:
+    def change(self, name: str, settings: object) -> Told:
         """Changes a scenario. Runs that are of another one now are removed."""
         self._check_quiet(name)
         with self._lock:
@@ -177,9 +177,9 @@ class Workshop:
             self.folder.change(name, scenario)
             folder = self.folder.of(name)
             kept = {
-                one.folder.name
-                for one in shown.planned(folder / FILE, self._version(name, scenario))
-                if stored.complete(one)
+                planned.folder.name
+                for planned in shown.planned(folder / FILE, self._version(name, scenario))
+                if stored.complete(planned)
             }
             for old in folder.glob("seed-*"):
                 if old.name not in kept:
@@ -191,7 +191,7 @@ class Workshop:
         with self._lock:
             return {"name": self.folder.duplicate(name)}
 
-    def rename(self, name: str, to: Any) -> Told:
+    def rename(self, name: str, to: str) -> Told:
         """Gives a scenario another name."""
         self._check_quiet(name)
         with self._lock:
@@ -210,11 +210,11 @@ class Workshop:
         folder = self.folder.of(name)
         scenario = self.folder.read(name)
         check(scenario, self.folder.path)
-        wanted = shown.planned(folder / FILE, self._version(name, scenario))
+        plan = shown.planned(folder / FILE, self._version(name, scenario))
         with self._lock:
-            missing = [one.seed for one in wanted if not stored.complete(one)]
+            missing = [item.seed for item in plan if not stored.complete(item)]
             known = {job.seed for job in self._queue.waiting() if job.scenario == name}
-            known |= {one.job.seed for one in self._queue.active() if one.job.scenario == name}
+            known |= {item.job.seed for item in self._queue.active() if item.job.scenario == name}
             fresh = [seed for seed in missing if seed not in known]
             self._queue.add([Job(name, seed, folder / FILE) for seed in fresh])
             States(folder).put(fresh, "waits")
@@ -243,7 +243,7 @@ class Workshop:
 
     def _check_quiet(self, name: str) -> None:
         self.folder.of(name)
-        jobs = [*self._queue.waiting(), *(one.job for one in self._queue.active())]
+        jobs = [*self._queue.waiting(), *(active.job for active in self._queue.active())]
         if any(job.scenario == name for job in jobs):
             raise ScenarioError(f"'{name}' runs; cancel that first")
 
@@ -267,7 +267,7 @@ class Workshop:
 
     # --- what is known of layouts
     def _version(self, name: str, scenario: Scenario) -> tuple[int, int]:
-        """Returns what tells one content of a scenario's files from another."""
+        """Returns what differs between two contents of a scenario's files."""
         layout = self.folder.path / LAYOUTS / scenario.layout
         return shown.changed(self.folder.path / name / FILE), shown.changed(layout)
 

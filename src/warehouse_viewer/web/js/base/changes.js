@@ -4,6 +4,7 @@
 
 import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
+import { ROOT } from './root.js';
 
 const RETRY = 1000; // [ms]
 
@@ -17,7 +18,7 @@ export class Changes {
 
   open() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    this.socket = new WebSocket(`${scheme}://${location.host}/api/v1/changes?of=${this.topics}`);
+    this.socket = new WebSocket(`${scheme}://${location.host}${ROOT}/api/v1/changes?of=${this.topics}`);
     on(this.socket, 'open', () => this.handlers.state?.(true));
     on(this.socket, 'message', ({ data }) => {
       const message = JSON.parse(data);

@@ -2,7 +2,7 @@
 // Charts by Chart.js, in the colours and the type of the design. The library comes when the first
 // chart is wanted.
 
-import { make, on } from './dom.js';
+import { make, on, onTheme } from './dom.js';
 
 const LIBRARY = '/chart/chart.min.js';
 let loading = null;
@@ -19,11 +19,6 @@ export function faint(name, opacity) {
   return `rgba(${r}, ${g}, ${b}, ${opacity})`;
 }
 
-/** Calls `act` whenever the colours are others: dark or light. */
-export function onTheme(act) {
-  new MutationObserver(act).observe(document.documentElement, { attributeFilter: ['data-theme'] });
-}
-
 function library() {
   loading ??= new Promise((resolve, reject) => {
     const script = make('script', { src: LIBRARY });
@@ -34,7 +29,7 @@ function library() {
   return loading;
 }
 
-/** A chart on a canvas. `look()` tells its {type, datasets, options} in the colours of now; data come
+/** A chart on a canvas. `look()` returns its {type, datasets, options} in the current colours; data come
  *  by show(). */
 export class Plot {
   constructor(canvas, look) {
@@ -63,7 +58,7 @@ export class Plot {
 
   config() {
     const { datasets, options } = this.look();
-    return { data: { datasets: datasets.map((one, i) => ({ ...one, data: this.data[i] ?? [] })) },
+    return { data: { datasets: datasets.map((dataset, i) => ({ ...dataset, data: this.data[i] ?? [] })) },
       options: { animation: false, responsive: true, maintainAspectRatio: false, events: ['mousemove', 'mouseout', 'touchstart'], ...options } };
   }
 
@@ -76,7 +71,7 @@ export class Plot {
   restyle() {
     if (!this.chart) return;
     Object.assign(this.chart.options, this.config().options);
-    this.look().datasets.forEach((one, i) => Object.assign(this.chart.data.datasets[i], one));
+    this.look().datasets.forEach((dataset, i) => Object.assign(this.chart.data.datasets[i], dataset));
     this.chart.update('none');
   }
 }

@@ -4,9 +4,10 @@
 import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
 import { decode } from './protocol.js';
+import { ROOT } from './root.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
-export const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
+const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
 const NOTABLE = 0.2; // change of a gap, as a part of it
 
 export class Connection {
@@ -24,7 +25,7 @@ export class Connection {
 
   open() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = this.socket = new WebSocket(`${scheme}://${location.host}/live`);
+    const socket = this.socket = new WebSocket(`${scheme}://${location.host}${ROOT}/live`);
     const isOurs = () => socket === this.socket && !this.isHeld; // none that was left
     socket.binaryType = 'arraybuffer';
     on(socket, 'open', () => isOurs() && this.greet());
@@ -78,7 +79,7 @@ export class Connection {
     this.send({ watch: wishes });
   }
 
-  /** Asks for no update sooner than so many seconds after another. */
+  /** Asks for a least duration between two updates [s]. */
   slowTo(gap) {
     if (Math.abs(gap - this.gap) < NOTABLE * Math.max(gap, this.gap)) return;
     this.gap = gap;

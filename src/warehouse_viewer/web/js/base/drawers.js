@@ -62,7 +62,7 @@ export class Drawers {
     this.fit();
   }
 
-  /** Tells the buttons what is open, and the style sheet what is left of the window. */
+  /** Shows on the buttons what is open, and gives the style sheet the rest of the window. */
   fit() {
     for (const button of document.querySelectorAll('[data-drawer]')) {
       button.setAttribute('aria-expanded', String(this.isOpen(button.dataset.drawer)));
@@ -89,7 +89,7 @@ const placeOf = (drawer) => (NARROW.matches ? 'all' : drawer.dataset.place);
 export function marginsOf() {
   const shown = all().filter((drawer) => drawer.classList.contains('open') && !drawer.hidden)
     .map((drawer) => ({ place: placeOf(drawer), box: drawer.getBoundingClientRect() }));
-  const within = (place) => shown.filter((one) => one.place === place).map(({ box }) => box);
+  const within = (place) => shown.filter((drawer) => drawer.place === place).map(({ box }) => box);
   const rail = $('rail').getBoundingClientRect(), foot = footOf();
   const top = $('bar').getBoundingClientRect().bottom + GAP;
   if (NARROW.matches) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The colours of heat maps, and what they range over.
 
-// From yellow to dark red, as in reports (ColorBrewer's YlOrRd).
+// Yellow to dark red, as in reports (ColorBrewer's YlOrRd).
 export const STOPS = [[255, 255, 178], [254, 204, 92], [253, 141, 60], [240, 59, 32], [189, 0, 38]];
 
 /** What of the values is shown as the most: all but a hundredth are below. */

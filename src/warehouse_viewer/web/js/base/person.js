@@ -3,7 +3,7 @@
 
 import { $, on } from './dom.js';
 
-/** The name; asks for it if there is none yet, or `again`. '': the person does not tell. */
+/** The name; asks for it if there is none yet, or `again`. '': the person gives none. */
 export async function personOf(again = false) {
   const kept = localStorage.getItem('person') ?? '';
   if (kept && !again) return kept;
@@ -15,9 +15,9 @@ export async function personOf(again = false) {
   on(name, 'keydown', onKey); // once: a listener that is there is not added again
   await new Promise((resolve) => { on(dialog, 'close', resolve); });
   if (dialog.returnValue !== 'yes') return kept;
-  const given = name.value.trim();
-  localStorage.setItem('person', given);
-  return given;
+  const typed = name.value.trim();
+  localStorage.setItem('person', typed);
+  return typed;
 }
 
 /** Enter keeps the name: the form's first button is another. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests to the server of a page, in JSON.
 
+import { at } from './root.js';
+
 /** The response, if it is a good one; throws an Error with the reason, and with the `status`
  *  where there is an answer. A text is sent as it is. */
 export async function send(method, path, body = undefined, signal = undefined) {
@@ -8,7 +10,7 @@ export async function send(method, path, body = undefined, signal = undefined) {
   try {
     const text = typeof body === 'string' ? body : JSON.stringify(body);
     const sent = body === undefined ? {} : { body: text, headers: { 'content-type': 'application/json' } };
-    answer = await fetch(path, { method, signal, ...sent });
+    answer = await fetch(at(path), { method, signal, ...sent });
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     throw new Error('the server does not answer', { cause: error });

@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from page to page: the server tells which pages it has.
+// The way from page to page: the server lists its pages.
 
 import { make, on } from './dom.js';
+import { ROOT, at } from './root.js';
 
 const COUNT_PERIOD = 10000; // [ms]
 
 async function showPages() {
-  const answer = await fetch('/pages').catch(() => null);
+  const answer = await fetch(at('/pages')).catch(() => null);
   const pages = answer?.ok ? await answer.json() : [];
-  const links = pages.map(({ path, title }) => make('a', { href: path, textContent: title }));
+  const links = pages.map(({ path, title }) => make('a', { href: at(path), textContent: title }));
   for (const link of links) {
     if (link.pathname === location.pathname) link.setAttribute('aria-current', 'page');
   }
-  document.querySelector('.site')?.replaceChildren(...(links.length > 1 ? links : []));
+  const hub = ROOT ? [make('a', { href: '/', textContent: 'Simulations' })] : [];
+  document.querySelector('.site')?.replaceChildren(...hub, ...(links.length > 1 ? links : []));
+  // What leads to a page that may not be there, as the documentation that was not built.
+  for (const part of document.querySelectorAll('[data-needs]')) part.hidden = !pages.some(({ path }) => path === part.dataset.needs);
   pages.forEach(({ count, title }, i) => count && followCount(links[i], title, count));
 }
 
-/** A page's link tells how many things wait there for a person. */
+/** Shows on a page's link how many things wait there for a person. */
 async function followCount(link, title, address) {
   const isHere = link.hasAttribute('aria-current');
   if (isHere) on(window, 'count', ({ detail }) => showCount(link, title, detail)); // sooner than others
-  const answer = await fetch(address).catch(() => null);
+  const answer = await fetch(at(address)).catch(() => null);
   const { total = 0 } = answer?.ok ? await answer.json() : {};
   showCount(link, title, total);
   if (!isHere) setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
@@ -32,4 +36,10 @@ function showCount(link, title, total) {
   link.replaceChildren(title, ...(total ? [badge] : []));
 }
 
+/** Links in the pages' files begin at the server's root. */
+function moveLinks() {
+  for (const link of document.querySelectorAll('a[href^="/"]')) link.setAttribute('href', at(link.getAttribute('href')));
+}
+
+if (ROOT) moveLinks();
 showPages();

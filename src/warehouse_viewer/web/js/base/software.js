@@ -11,8 +11,8 @@ export function drawsInSoftware() {
 function ask() {
   if (typeof document === 'undefined') return false; // no browser draws
   const gl = document.createElement('canvas').getContext('webgl');
-  const told = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : '';
+  const debug = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = debug ? gl.getParameter(debug.UNMASKED_RENDERER_WEBGL) : '';
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page takes of three.js, as the module that its own modules import: the server tells this
+// What the page takes of three.js, as the module that its own modules import: the server serves this
 // file as /three/build/three.module.js, and index.html loads three.min.js before, which is half as large.
 
 export const {

@@ -8,7 +8,8 @@ import { EventKind, FailureKind, OrderState, RobotMode, State } from './message_
 const byNumber = (texts) => Object.assign([], texts);
 
 /** What a robot does at a glance, by Activity (activities.py), from what needs no attention to what
- *  needs a person; a `waiting` robot has waited for half a minute, or stands before an obstacle. */
+ *  needs a person; a `waiting` robot has waited for half a minute, in a station's queue for two
+ *  minutes, or stands before an obstacle. */
 export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'];
 export const NEEDS_HELP = 4;
 /** The class that gives each its colour; design.css has them. */
@@ -29,6 +30,8 @@ export const STATE = byNumber({
   [State.BLOCKED]: 'blocked',
   [State.WAITING]: 'waits for its turn',
 });
+/** Who commands a robot. */
+export const MODE_WORDS = { [RobotMode.AUTOMATIC]: 'automatic', [RobotMode.MANUAL]: 'manual', [RobotMode.OUT_OF_SERVICE]: 'out of service' };
 /** What is broken, by bit: an empty battery, then the kinds of failures. */
 export const FAILURE = byNumber({
   0: 'battery empty',
@@ -47,12 +50,6 @@ const WORK_TEXTS = { waiting: 'at a station', ready: 'ready beneath a unit', idl
 export function countedWork(work) {
   return counted(Object.fromEntries(WORK.map((name) => [WORK_TEXTS[name] ?? name, work[name]])));
 }
-/** Which side commands a robot. */
-export const MODE = {
-  [RobotMode.AUTOMATIC]: 'automatic',
-  [RobotMode.MANUAL]: 'manual',
-  [RobotMode.OUT_OF_SERVICE]: 'out of service',
-};
 /** Kinds of events that a person may have to look after. */
 export const TROUBLE = [EventKind.REFUSED, EventKind.BLOCKED, EventKind.COLLISION, EventKind.FAILED,
   EventKind.LOST, EventKind.TIPPED, EventKind.FELL];
@@ -75,7 +72,7 @@ export function counted(counts, none = 'none') {
     .map(([name, count]) => `${count} ${spaced(name)}`).join(', ') || none;
 }
 
-/** {kind: count} of events so far, under the names that the log has for them. */
+/** {kind: count} of events as a text, under the names that the log has for them. */
 export function countedEvents(counts) {
   return Object.entries(counts).filter(([, count]) => count > 0)
     .map(([kind, count]) => `${count} × ${kind}`).join(', ') || 'nothing';

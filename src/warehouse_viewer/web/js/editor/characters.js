@@ -4,7 +4,7 @@
 export const NOTHING = ' ', FLOOR = '.', PLACE = 's';
 export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next letter that is free
 
-/** In the order of the palette; `look` names the colour, --cell-…. */
+/** The characters in the order of the palette; `look` names the colour, --cell-…. */
 export const CHARACTERS = [
   { char: '.', word: 'floor', hint: 'floor, driven any way', look: 'floor' },
   { char: '>', word: 'one way right', hint: 'one-way street to the right', look: 'street' },

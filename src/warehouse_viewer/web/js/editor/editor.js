@@ -3,7 +3,7 @@
 
 import { $ } from '../base/dom.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';
-import { FLOOR, isLetter, NEXT_STATION } from './characters.js';
+import { FLOOR } from './characters.js';
 import { Drawing } from './drawing.js';
 import { History } from './history.js';
 import { Overlay } from './overlay.js';
@@ -16,13 +16,13 @@ import { View } from './view.js';
 const PAPER = { left: 0, bottom: 0, right: 30, top: 18 }; // in sight at first
 
 export class Editor {
-  /** say(text, kind) tells the person. */
+  /** say(text, kind) shows the person a text. */
   constructor(say) {
     Object.assign(this, { say, drawing: new Drawing(), history: new History(), view: new View() });
     this.sheet = new Sheet($('sheet'), this.view);
     this.overlay = new Overlay($('overlay'), this.view);
     Object.assign(this, { brush: FLOOR, selection: null, cursor: null, pointer: null, clipboard: null });
-    Object.assign(this, { stationKey: '', faults: [], lanesFound: {}, heat: null, told: null, bounds: null });
+    Object.assign(this, { stationKey: '', faults: [], lanesFound: {}, heat: null, notes: null, bounds: null });
     this.listeners = { change: [], draft: [], state: [] }; // of the drawing, amid a stroke; of what is chosen
     this.frames = []; // how long each took [ms]
     this.take('pen');
@@ -45,7 +45,7 @@ export class Editor {
     this.history.keep(this.drawing);
   }
 
-  /** Shows what has been drawn so far. */
+  /** Shows all that is drawn. */
   drawn() {
     this.tell('draft');
     this.redraw();
@@ -55,7 +55,7 @@ export class Editor {
   commit(station = null) {
     this.bounds = this.drawing.bounds();
     if (station) this.stationKey = station.key;
-    if (this.heat) Object.assign(this, { heat: null, told: null });
+    if (this.heat) Object.assign(this, { heat: null, notes: null });
     this.tell('change');
     this.tell('state');
     this.redraw();
@@ -257,8 +257,8 @@ export class Editor {
     if (!cells.length) return;
     const columns = cells.map((c) => c[0]), rows = cells.map((c) => c[1]);
     const rect = rectOf([Math.min(...columns), Math.min(...rows)], [Math.max(...columns), Math.max(...rows)]);
-    const { seen } = this.view;
-    const isSeen = rect.left > seen.left && rect.right < seen.right && rect.bottom > seen.bottom && rect.top < seen.top - 1;
+    const { seen: visible } = this.view;
+    const isSeen = rect.left > visible.left && rect.right < visible.right && rect.bottom > visible.bottom && rect.top < visible.top - 1;
     if (!isSeen) this.view.show({ left: rect.left - 4, right: rect.right + 4, bottom: rect.bottom - 4, top: rect.top + 4 }, this.view.scale);
     this.overlay.flash(cells, () => this.redrawOverlay());
     this.redraw();
@@ -289,5 +289,3 @@ export class Editor {
     if (this.frames.length > 1000) this.frames.shift();
   }
 }
-
-export const wordOf = (brush) => (isLetter(brush) ? `station ${brush}` : brush === NEXT_STATION ? 'station' : brush);

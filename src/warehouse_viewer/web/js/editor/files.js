@@ -4,6 +4,7 @@
 import { $, make, on } from '../base/dom.js';
 import { ask as question, confirmed } from '../base/question.js';
 import { ask as request } from '../base/request.js';
+import { ROOT } from '../base/root.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
 
@@ -50,9 +51,9 @@ export class Files {
     await this.attempt(async () => {
       if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
-      const { drawing, told } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
+      const { drawing, told: notes } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
       this.editor.open(drawing);
-      tellLost(told);
+      tellLost(notes);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
     });
   }
@@ -93,9 +94,9 @@ export class Files {
 }
 
 /** Lists what could not be carried over from a file of another format. */
-export function tellLost(told) {
-  if (!told?.length) return;
-  $('lost').replaceChildren(...told.map((text) => make('li', { textContent: text })));
+export function tellLost(notes) {
+  if (!notes?.length) return;
+  $('lost').replaceChildren(...notes.map((text) => make('li', { textContent: text })));
   $('loser').showModal();
 }
 
@@ -118,7 +119,7 @@ export async function compare(editor) {
   try {
     const name = fileNameOf(editor.drawing);
     const { name: kept } = await request('POST', '/whatif/layouts', { name, text: textOf(editor.drawing).text });
-    location.assign(`/whatif?layout=${encodeURIComponent(kept)}`);
+    location.assign(`${ROOT}/whatif?layout=${encodeURIComponent(kept)}`);
   } catch (error) {
     editor.say(error.message, 'refused');
   }

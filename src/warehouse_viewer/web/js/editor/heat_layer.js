@@ -4,7 +4,7 @@
 import { STOPS } from '../base/heat_scale.js';
 
 /** Which of the STOPS shows a value. */
-export const stopOf = (value, top) => Math.min(STOPS.length - 1, Math.floor((value / top) * STOPS.length));
+const stopOf = (value, top) => Math.min(STOPS.length - 1, Math.floor((value / top) * STOPS.length));
 
 /** heat: {values, width, origin, top}; values by cell from the cell `origin` on, row by row. */
 export function drawHeat(pen, view, { values, width, origin, top }) {

@@ -74,7 +74,7 @@ export class Keyboard {
     editor.moveCursor(to);
   }
 
-  /** As a pointer that goes down and up: at one cell, or with a shape at its two ends. */
+  /** Acts as a pointer that goes down and up: at one cell, or with a shape at its two ends. */
   draw() {
     const { tool, cursor } = this.editor;
     if (!cursor) return;

@@ -50,12 +50,12 @@ export class Overlay {
 
   /** Queues end and exits begin at the edge of the service cell: its letter stays free. */
   lanes({ drawing, lanesFound, station }) {
-    for (const one of drawing.stations) {
-      const { key, service } = one, found = lanesFound[key] ?? [];
-      const at = found.findIndex((c) => same(c, service)), wide = one === station ? 0.16 : 0.1;
+    for (const each of drawing.stations) {
+      const { key, service } = each, found = lanesFound[key] ?? [];
+      const at = found.findIndex((c) => same(c, service)), wide = each === station ? 0.16 : 0.1;
       for (const part of ['queue', 'exit']) {
-        const isDrawn = one[part].length > 0;
-        const cells = isDrawn ? one[part] : part === 'queue' ? found.slice(0, Math.max(at, 0)) : found.slice(at + 1);
+        const isDrawn = each[part].length > 0;
+        const cells = isDrawn ? each[part] : part === 'queue' ? found.slice(0, Math.max(at, 0)) : found.slice(at + 1);
         const way = part === 'queue' ? [...cells, service] : [service, ...cells];
         if (cells.length) this.way(way, part, wide, !isDrawn);
       }
@@ -80,20 +80,20 @@ export class Overlay {
     pen.stroke(tip);
   }
 
-  names({ drawing, station, told }) {
+  names({ drawing, station, notes }) {
     const { pen, view, colours } = this;
     if (view.scale < NAMES_FROM) return;
     pen.font = '600 12px system-ui, sans-serif';
     pen.textAlign = 'left';
     pen.textBaseline = 'middle';
-    for (const one of drawing.stations) {
-      const [x, y] = view.centreOf(one.service), words = labelOf(one.name, told?.[one.name], view.scale);
+    for (const each of drawing.stations) {
+      const [x, y] = view.centreOf(each.service), words = labelOf(each.name, notes?.[each.name], view.scale);
       const width = Math.max(...words.map((word) => pen.measureText(word).width)) + 10;
       const height = 15 * words.length + 4, top = y - view.scale * 0.4 - height;
       const left = Math.min(x + view.scale * 0.55, Math.max(x, view.width - 4) - width);
       pen.fillStyle = colours.ruler;
       pen.fillRect(left, top, width, height);
-      pen.fillStyle = one === station ? colours.select : colours['ruler-text'];
+      pen.fillStyle = each === station ? colours.select : colours['ruler-text'];
       words.forEach((word, i) => pen.fillText(word, left + 5, top + 10 + 15 * i));
     }
   }
@@ -189,7 +189,7 @@ export class Overlay {
 }
 
 /** The lines at a station: its name, and what a trial told of it. */
-function labelOf(name, told, scale) {
-  if (!told) return [name];
-  return scale < ROOMY ? [`${name}: ${told.queue}`] : [name, `queue ${told.queue}, busy ${told.busy}`];
+function labelOf(name, notes, scale) {
+  if (!notes) return [name];
+  return scale < ROOMY ? [`${name}: ${notes.queue}`] : [name, `queue ${notes.queue}, busy ${notes.busy}`];
 }

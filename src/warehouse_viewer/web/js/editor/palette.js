@@ -10,7 +10,7 @@ const SIGNS = { '>': '→', '<': '←', '^': '↑', 'v': '↓', '-': '↔', '|':
 export class Palette {
   constructor(editor) {
     this.editor = editor;
-    this.brushes = new Map(CHARACTERS.map((one) => [one.char, this.brush(one)]));
+    this.brushes = new Map(CHARACTERS.map((character) => [character.char, this.brush(character)]));
     $('brushes').append(...this.brushes.values());
     this.tools = new Map(Object.entries(TOOLS).map(([name, tool]) => [name, this.tool(name, tool)]));
     for (const [name, button] of this.tools) {

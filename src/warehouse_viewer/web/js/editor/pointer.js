@@ -56,7 +56,7 @@ export class Pointer {
       this.held.set(event.pointerId, [x, y]);
       this.editor.redraw();
     } else if (this.drawing === event.pointerId) {
-      for (const one of event.getCoalescedEvents?.() ?? []) this.lead(one);
+      for (const moved of event.getCoalescedEvents?.() ?? []) this.lead(moved);
       this.lead(event);
     } else if (!before) this.hover(this.cell(event), event.pointerType);
   }

@@ -7,7 +7,7 @@ const APART = 56; // [px] at least, between two numbers
 
 export const metres = (value) => String(Math.round(value * 100) / 100);
 
-/** The least of 1, 2, 5, 10, … [m] that is so many metres or more. */
+/** The least of 1, 2, 5, 10, … [m] that is not below a length. */
 export function stepOf(least) {
   const power = 10 ** Math.floor(Math.log10(least));
   return [1, 2, 5, 10].map((k) => k * power).find((step) => step >= least * 0.999);

@@ -3,7 +3,7 @@
 
 const MOST = 250000; // cells of an area
 
-/** From cell to cell, each beside the one before: streets and lanes go on. */
+/** The cells of a line, each beside the one before: streets and lanes go on. */
 export function lineCells([x, y], [toX, toY]) {
   const out = [[x, y]], dx = Math.abs(toX - x), dy = Math.abs(toY - y);
   let across = 0, up = 0;

@@ -5,7 +5,7 @@ import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
 
 const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
 const BLANK = new Set(['.', NOTHING, '#', '=']);
-export const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
+const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
 
 /** Colours by the names of the style sheet's --cell-…, --editor-…. */
 export function coloursOf(root = document.documentElement) {
@@ -28,10 +28,10 @@ export class Sheet {
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.fillStyle = colours.nothing;
     pen.fillRect(0, 0, view.width, view.height);
-    const seen = clipped(view.seen, drawing);
-    this.fill(drawing, seen);
+    const visible = clipped(view.seen, drawing);
+    this.fill(drawing, visible);
     if (view.scale >= GRID_FROM) this.grid(view.seen);
-    if (view.scale >= SIGNS_FROM) this.signs(drawing, seen);
+    if (view.scale >= SIGNS_FROM) this.signs(drawing, visible);
   }
 
   /** Each look is one path of the runs of its cells. */
@@ -61,7 +61,7 @@ export class Sheet {
     for (let row = bottom; row <= top; row++) pen.fillRect(0, Math.round(view.y - row * scale), view.width, 1);
   }
 
-  /** Arrows, letters, and what tells places, charging and keep-out apart without colours. */
+  /** Arrows, letters, and signs that distinguish places, charging and keep-out without colours. */
   signs(drawing, { left, bottom, right, top }) {
     const signs = { arrows: new Path2D(), frames: new Path2D(), crosses: new Path2D(), words: [] };
     for (let row = bottom; row < top; row++) {

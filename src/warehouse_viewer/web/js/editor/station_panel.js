@@ -35,10 +35,10 @@ export class StationPanel {
 
   show() {
     const { drawing, station, stationKey, lanesFound } = this.editor;
-    const told = JSON.stringify([drawing.stations.map((s) => [s.key, s.name, s.kind]), stationKey]);
-    if (told !== this.told) {
+    const state = JSON.stringify([drawing.stations.map((s) => [s.key, s.name, s.kind]), stationKey]);
+    if (state !== this.state) {
       $('stations').replaceChildren(...drawing.stations.map((s) => this.row(s, s === station)));
-      this.told = told;
+      this.state = state;
     }
     $('no-stations').hidden = drawing.stations.length > 0;
     $('station').hidden = !station;
@@ -58,8 +58,8 @@ export class StationPanel {
   }
 }
 
-function laneText({ queue, exit }, found) {
+function laneText({ queue, exit }, lane) {
   if (queue.length && exit.length) return `queue of ${queue.length} and exit of ${exit.length} cells`;
   const drawn = queue.length ? `queue of ${queue.length} cells, no exit drawn` : exit.length ? `exit of ${exit.length} cells, no queue drawn` : 'no lane drawn';
-  return found ? `${drawn}: found by itself, dashed` : `${drawn}: choose queue or exit, then drag`;
+  return lane ? `${drawn}: found by itself, dashed` : `${drawn}: choose queue or exit, then drag`;
 }

@@ -7,7 +7,7 @@ import { Drawing } from './drawing.js';
 
 const NONE = { left: 0, bottom: 0, right: 1, top: 1 };
 
-/** What the server's drawing_json tells of a file, of a drawing; `origin` is the cell that becomes
+/** The JSON of a drawing, as the server's drawing_json has that of a file; `origin` is the cell that becomes
  *  [0, 0]. */
 export function jsonOf(drawing) {
   const { left, bottom, right, top } = drawing.bounds() ?? NONE;
@@ -53,7 +53,7 @@ export function drawingOf(json) {
   out.units = places(json.storage_units);
   out.robots = places(json.robots);
   out.items = json.counts_items ? null : json.items;
-  // Without `at` a hall is centred about the drawing; what is drawn at its edge must not move it.
+  // A hall without `at` is centred about the drawing; what is drawn at its edge must not move it.
   const centre = building ? [-((width - 1) >> 1) * spacing, -((height - 1) >> 1) * spacing] : null;
   const at = json.at ?? centre;
   out.at = at && [at[0] - left * spacing, at[1] - bottom * spacing];

@@ -37,7 +37,7 @@ class Tool {
 }
 
 /** Freehand. A station is placed once a stroke: it moves with the pointer no farther. */
-export class Pen extends Tool {
+class Pen extends Tool {
   down(cell) {
     this.editor.begin();
     this.from = cell;
@@ -85,7 +85,7 @@ class Shape extends Tool {
   }
 }
 
-export class Line extends Shape {
+class Line extends Shape {
   cells(a, b) {
     return straightCells(a, b);
   }
@@ -96,19 +96,19 @@ export class Line extends Shape {
   }
 }
 
-export class Rectangle extends Shape {
+class Rectangle extends Shape {
   cells(a, b) {
     return rectangleCells(a, b);
   }
 }
 
-export class Outline extends Shape {
+class Outline extends Shape {
   cells(a, b) {
     return outlineCells(a, b);
   }
 }
 
-export class Fill extends Tool {
+class Fill extends Tool {
   down(cell) {
     const { editor } = this, cells = areaCells(editor.drawing, cell);
     if (!cells) {
@@ -123,7 +123,7 @@ export class Fill extends Tool {
   up() {}
 }
 
-export class Select extends Tool {
+class Select extends Tool {
   down(cell) {
     this.from = cell;
     this.editor.select(rectOf(cell, cell));
@@ -144,7 +144,7 @@ export class Select extends Tool {
 }
 
 /** A queue or an exit of the chosen station, as `part` says. */
-export class Lane extends Tool {
+class Lane extends Tool {
   constructor(editor, part) {
     super(editor);
     this.part = part;
@@ -222,7 +222,7 @@ export class Hand extends Tool {
   hover() {}
 }
 
-/** By name: [key, word, what it does, tool]. */
+/** The tools by name: [key, word, what it does, tool]. */
 export const TOOLS = {
   pen: ['d', 'draw', 'Draw freehand', (e) => new Pen(e)],
   line: ['l', 'line', 'Draw a straight line', (e) => new Line(e)],

@@ -54,10 +54,10 @@ export class Trial {
     $('trial-of').textContent = `pieces an hour, ${Math.round(100 * share)} % of what the stations can do${this.comparison(result)}`;
     $('trial-text').textContent = `${result.pieces} pieces and ${result.orders} orders in ${clock(result.seconds)}, ideal robots, from a standstill`;
     $('trial-minutes').replaceChildren(...bars(result.per_minute));
-    const told = result.stations.map((s) => [s.name, { queue: s.queue.toFixed(1), busy: `${Math.round(100 * s.busy)} %` }]);
-    $('trial-stations').replaceChildren(...told.map(([name, { queue, busy }]) => (
+    const rows = result.stations.map((s) => [s.name, { queue: s.queue.toFixed(1), busy: `${Math.round(100 * s.busy)} %` }]);
+    $('trial-stations').replaceChildren(...rows.map(([name, { queue, busy }]) => (
       make('tr', {}, ...[name, queue, busy].map((textContent) => make('td', { textContent }))))));
-    this.editor.told = Object.fromEntries(told);
+    this.editor.notes = Object.fromEntries(rows);
     this.show(this.kind);
   }
 
@@ -89,13 +89,13 @@ export class Trial {
   age() {
     if ($('trial').dataset.phase !== 'done' || $('trial').hidden) return;
     this.phase('done', 'This was before the last change; try again.');
-    this.editor.told = null;
+    this.editor.notes = null;
   }
 
   close() {
     this.abort?.abort();
     $('trial').hidden = true;
-    Object.assign(this.editor, { heat: null, told: null });
+    Object.assign(this.editor, { heat: null, notes: null });
     this.editor.redrawOverlay();
   }
 }

@@ -9,7 +9,7 @@ import { lasting } from '../base/time.js';
 const TITLE = document.title;
 /** The classes that give the severities their colours. */
 const LOOKS = { critical: 'needs-help', warning: 'waiting', note: 'resting' };
-/** What only the page itself can tell. */
+/** The alarm that only the page itself can raise. */
 const AWAY = { id: 0, kind: 'CONNECTION', severity: 'critical', title: 'No connection', subject: 'server', text: '',
   to_do: 'What is shown is old. The page comes back by itself; if not, look whether the node `viewer` runs.', since: 0, seen_by: '', seen_at: 0 };
 
@@ -45,7 +45,7 @@ export class Alarms {
   draw() {
     const all = [...this.away ? [this.away] : [], ...this.alarms];
     const kept = this.rows;
-    this.rows = new Map(all.map((alarm) => [alarm.id, kept.get(alarm.id) ?? new Row((one, by) => this.see(one, by))]));
+    this.rows = new Map(all.map((alarm) => [alarm.id, kept.get(alarm.id) ?? new Row((chosen, by) => this.see(chosen, by))]));
     all.forEach((alarm) => this.rows.get(alarm.id).show(alarm, this.now));
     const elements = [...this.rows.values()].map(({ element }) => element);
     if (elements.some((element, i) => $('alarms').children[i] !== element) || $('alarms').children.length !== elements.length) {
@@ -58,14 +58,14 @@ export class Alarms {
     document.title = all.length ? `(${all.length}) ${TITLE}` : TITLE;
   }
 
-  /** Tells all pages that a person has seen an alarm, or takes that back. */
-  async see(alarm, seen) {
-    const by = seen ? await personOf() : '';
-    if (seen && !by) return;
+  /** Marks an alarm as seen on all pages, or as not seen. */
+  async see(alarm, isSeen) {
+    const by = isSeen ? await personOf() : '';
+    if (isSeen && !by) return;
     this.showPerson();
     try {
-      const told = await post(`/alarms/${alarm.id}/seen`, { by });
-      this.take(this.alarms.map((one) => (one.id === told.id ? told : one)));
+      const changed = await post(`/alarms/${alarm.id}/seen`, { by });
+      this.take(this.alarms.map((other) => (other.id === changed.id ? changed : other)));
     } catch (error) {
       this.fail(error);
     }
@@ -89,9 +89,9 @@ class Row {
     this.since = make('span', { className: 'since dim' });
     this.text = make('p');
     this.toDo = make('p', { className: 'to-do dim' });
-    this.seen = make('span', { className: 'seen dim' });
+    this.seenBy = make('span', { className: 'seen dim' });
     this.button = make('button', { className: 'edged', click: () => see(this.alarm, !this.alarm.seen_by) });
-    this.element = make('li', {}, make('header', {}, this.title, this.since), this.text, this.toDo, make('footer', {}, this.seen, this.button));
+    this.element = make('li', {}, make('header', {}, this.title, this.since), this.text, this.toDo, make('footer', {}, this.seenBy, this.button));
   }
 
   show(alarm, now) {
@@ -116,6 +116,6 @@ class Row {
   tick(now) {
     const { since, seen_by: by, seen_at: at } = this.alarm;
     this.since.textContent = since ? `for ${lasting(now - since)}` : '';
-    this.seen.textContent = by ? `seen by ${by}, ${lasting(now - at)} ago` : 'seen by no one yet';
+    this.seenBy.textContent = by ? `seen by ${by}, ${lasting(now - at)} ago` : 'seen by no one yet';
   }
 }

@@ -5,7 +5,7 @@ import { sparkline } from '../base/charts.js';
 import { $, make } from '../base/dom.js';
 
 export const count = (value) => Math.round(value).toLocaleString('en');
-export const percent = (value) => `${Math.round(100 * value)} %`;
+const percent = (value) => `${Math.round(100 * value)} %`;
 const exact = (value) => `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %`;
 
 /** What the server calls each; `most`: less is better. */
@@ -84,7 +84,7 @@ export class Figures {
   }
 
   showSmall(kpis) {
-    $('figures').replaceChildren(...SMALL.map(([name, text, told]) => (
-      make('div', {}, make('dt', { textContent: text }), make('dd', { textContent: told(kpis[name]) })))));
+    $('figures').replaceChildren(...SMALL.map(([name, text, format]) => (
+      make('div', {}, make('dt', { textContent: text }), make('dd', { textContent: format(kpis[name]) })))));
   }
 }

@@ -2,8 +2,8 @@
 // The last hour of robots and stations: a row for each, coloured by what it did. Only rows in sight
 // are drawn, whatever their number.
 
-import { onTheme } from '../base/charts.js';
-import { $, make, on } from '../base/dom.js';
+import { $, make, on, onTheme, tell } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
@@ -11,9 +11,16 @@ import { Spans } from './spans.js';
 import { clock, lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
+const HOUR = 3590; // [s], nearly
 const PERIOD = 2000; // between two requests [ms]
 const BIG = matchMedia('(pointer: coarse)');
 const NAMES = [120, 84]; // the width of names on a wide and on a narrow page [px]
+
+/** What of the hour is known, where it is not all of it. */
+export function knownOf({ begin, now }) {
+  if (begin < 1 || now - begin > HOUR) return '';
+  return `its last ${lasting(now - begin)}: watched since ${clock(begin)}`;
+}
 
 export class Gantt {
   constructor() {
@@ -55,7 +62,7 @@ export class Gantt {
     clearTimeout(this.timer);
     if (this.isAsking) return;
     this.isAsking = true;
-    const answer = await fetch(`/api/v1/spans?${this.spans.query}`).catch(() => null); // others tell that the server is away
+    const answer = await fetch(`${ROOT}/api/v1/spans?${this.spans.query}`).catch(() => null); // others show that the server is away
     if (answer?.ok) this.take(await answer.arrayBuffer());
     this.isAsking = false;
     if (this.isInSight && !document.hidden) this.timer = setTimeout(() => this.poll(), PERIOD);
@@ -65,6 +72,7 @@ export class Gantt {
   take(buffer) {
     this.spans.take(buffer);
     Object.assign(this.view, { begin: this.spans.begin, now: this.spans.now });
+    tell($('gantt-known'), knownOf(this.spans));
     this.resort();
   }
 
@@ -72,7 +80,7 @@ export class Gantt {
   resort() {
     const row = this.rows[this.chosen]?.row;
     this.rows = sorted(this.spans, $('gantt-show').value, $('gantt-sort').value);
-    this.chosen = row ? this.rows.findIndex((one) => one.row === row || one.row.name === row.name) : -1;
+    this.chosen = row ? this.rows.findIndex((shown) => shown.row === row || shown.row.name === row.name) : -1;
     this.fit();
   }
 
@@ -195,7 +203,7 @@ export class Gantt {
     return this.span ? this.view.x(this.span.time) : undefined;
   }
 
-  /** The row so many below, at the same time. */
+  /** The row a number of rows below, at the same time. */
   toRow(by) {
     const next = Math.max(0, Math.min(this.rows.length - 1, this.chosen + by));
     this.choose(next, this.rows[next].row.indexAt(this.span?.time ?? this.spans.now));
@@ -208,6 +216,6 @@ export class Gantt {
 
   openOnFloor() {
     const row = this.rows[this.chosen]?.row;
-    if (row) location.href = row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`;
+    if (row) location.href = ROOT + (row.kind === 'station' ? `/station/${row.name}` : `/#${row.name}`);
   }
 }

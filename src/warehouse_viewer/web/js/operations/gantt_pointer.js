@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mouse and fingers over a Gantt: Ctrl and wheel or a pinch zooms, dragging moves, hovering tells.
+// Mouse and fingers over a Gantt: Ctrl and wheel or a pinch zooms, dragging moves, hovering shows a row's state.
 
 import { $, on } from '../base/dom.js';
 
@@ -83,11 +83,11 @@ export class GanttPointer {
     this.gantt.soon();
   }
 
-  tell({ clientX, clientY }, found) {
+  tell({ clientX, clientY }, row) {
     const tip = $('gantt-tip');
-    tip.hidden = !found;
-    if (!found) return;
-    tip.textContent = this.gantt.tell(found.row, found.span);
+    tip.hidden = !row;
+    if (!row) return;
+    tip.textContent = this.gantt.tell(row.row, row.span);
     const half = tip.offsetWidth / 2;
     tip.style.left = `${Math.max(half + 4, Math.min(innerWidth - half - 4, clientX))}px`;
     tip.style.top = `${clientY}px`;

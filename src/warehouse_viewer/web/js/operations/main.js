@@ -2,6 +2,7 @@
 // The work of the warehouse: figures, alarms, stations, robots, orders, stock. What
 // changes comes by itself.
 
+import { ROOT } from '../base/root.js';
 import { Alarms } from './alarms.js';
 import { get, remove } from '../base/api.js';
 import { Changes } from '../base/changes.js';
@@ -83,11 +84,11 @@ class Page {
 
   /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
    *  the answer was no. */
-  async act(sent, told = () => '') {
+  async act(sent, textOf = () => '') {
     this.say('');
     try {
       const { message } = await sent;
-      this.say(told(message), 'done');
+      this.say(textOf(message), 'done');
     } catch (error) {
       this.say(error.message);
     }
@@ -132,7 +133,7 @@ class Page {
     try {
       const { total, pieces, places } = await get(`/stock?limit=${PLACES}&sku=${encodeURIComponent(sku)}`);
       $('found').textContent = `${count(pieces)} pieces in ${count(total)} bins`;
-      Object.assign($('on-floor'), { hidden: !sku || !total, href: `/#${encodeURIComponent(sku)}` });
+      Object.assign($('on-floor'), { hidden: !sku || !total, href: `${ROOT}/#${encodeURIComponent(sku)}` });
       $('places').replaceChildren(...places.map(({ item, shelf_id: unit, sku: held, quantity, reserved }) => (
         make('li', { textContent: `storage unit ${unit}: ${quantity}${sku ? '' : ` ${held}`} in ${item}${reserved ? `, ${reserved} reserved` : ''}` }))));
     } catch (error) {
@@ -143,7 +144,7 @@ class Page {
 
 /** A link of old, /operations#pick1, leads to that station's screen. */
 function leaveForStation() {
-  if (location.hash.length > 1) location.replace(`/station/${location.hash.slice(1)}`);
+  if (location.hash.length > 1) location.replace(`${ROOT}/station/${location.hash.slice(1)}`);
 }
 
 window.page = new Page(); // for a look from the console

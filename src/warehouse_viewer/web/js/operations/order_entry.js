@@ -7,11 +7,12 @@ import { $, make, on } from '../base/dom.js';
 const TYPING = 150; // after a key [ms]
 const SHOWN = 20; // SKUs that a list offers
 const MOST_PIECES = 2 ** 31 - 1;
+const LARGE = 1e6; // limits from here on say nothing to a person who has mistyped
 
 /** A whole number in a text, from least to most; an Error that says what was expected. */
 export function whole(text, least, most) {
   const value = /^\s*\d+\s*$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} to ${most.toLocaleString('en')} was expected`);
+  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} ${most < LARGE || value > most ? `to ${most.toLocaleString('en')}` : 'on'} was expected`);
   return value;
 }
 
@@ -41,6 +42,8 @@ export class OrderEntry {
     on($('new-order'), 'click', () => this.open());
     on($('entry-no'), 'click', () => $('entry').close());
     on($('entry-more'), 'click', () => this.add().sku.focus());
+    // A fault goes with the text that had it.
+    on($('entry-form'), 'input', ({ target }) => target.ariaInvalid === 'true' && mark(target, '', $(target.getAttribute('aria-describedby'))));
     on($('entry-form'), 'submit', (event) => {
       event.preventDefault();
       this.submit();
@@ -62,28 +65,28 @@ export class OrderEntry {
     const line = new Line(() => this.drop(line), this.lines.length + 1);
     this.lines.push(line);
     $('entry-lines').append(line.element);
-    this.lines.forEach((one) => { one.remove.hidden = this.lines.length === 1; });
+    this.lines.forEach((other) => { other.remove.hidden = this.lines.length === 1; });
     return line;
   }
 
   drop(line) {
-    this.lines = this.lines.filter((one) => one !== line);
+    this.lines = this.lines.filter((other) => other !== line);
     line.element.remove();
-    this.lines.forEach((one) => { one.remove.hidden = this.lines.length === 1; });
+    this.lines.forEach((other) => { other.remove.hidden = this.lines.length === 1; });
     this.lines.at(-1).sku.focus();
   }
 
   /** The order as it is typed in; null where a field is wrong, which is marked then. */
   async read() {
-    const found = await Promise.all(this.lines.map((line) => line.read()));
+    const entered = await Promise.all(this.lines.map((line) => line.read()));
     const due = field('entry-due', (text) => (text.trim() ? this.now() + 60 * whole(text, 1, 100000) : 0));
     const priority = field('entry-priority', (text) => whole(text, 0, 255));
     const reference = field('entry-reference', (text) => {
       if (!/^[ -~]*$/.test(text)) throw new Error('letters without accents, digits and signs were expected');
       return text.trim();
     });
-    const isWrong = [...found, due, priority, reference].includes(null);
-    return isWrong ? null : { reference, lines: found, due, priority };
+    const isWrong = [...entered, due, priority, reference].includes(null);
+    return isWrong ? null : { reference, lines: entered, due, priority };
   }
 
   async submit() {
@@ -138,8 +141,8 @@ class Line {
 
 /** Why a SKU can't be ordered; '': it can. */
 async function unknown(sku) {
-  const { skus } = await find(sku).catch(() => ({ skus: [{ sku }] })); // the server will tell
-  if (skus.some((one) => one.sku === sku)) return '';
+  const { skus } = await find(sku).catch(() => ({ skus: [{ sku }] })); // the server will refuse it
+  if (skus.some((stocked) => stocked.sku === sku)) return '';
   return `there is no ${sku}${skus.length ? `; is ${skus[0].sku} meant?` : ''}`;
 }
 

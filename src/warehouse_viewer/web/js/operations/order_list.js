@@ -4,6 +4,7 @@
 
 import { get } from '../base/api.js';
 import { $, make, on, press } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
@@ -74,7 +75,7 @@ export class OrderList {
     this.draw();
   }
 
-  /** Asks for what is in sight after so many milliseconds, and not before an answer has come. */
+  /** Asks for what is in sight after a delay [ms], and not before an answer has come. */
   soon(delay) {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.fetchOrders(), delay);
@@ -109,7 +110,7 @@ export class OrderList {
     const offset = isReload ? 0 : Math.max(0, sight - AROUND + this.shift);
     if (isReload) this.forget();
     const { query } = this;
-    for (const kind of ['csv', 'xlsx']) $(`out-${kind}`).href = `/api/v1/orders.${kind}?${query}`;
+    for (const kind of ['csv', 'xlsx']) $(`out-${kind}`).href = `${ROOT}/api/v1/orders.${kind}?${query}`;
     query.set('limit', count + 2 * AROUND);
     query.set('offset', offset);
     try {
@@ -130,7 +131,7 @@ export class OrderList {
     this.newest = Math.max(this.newest ?? 0, ...orders.map(({ order_id: id }) => id));
   }
 
-  /** Rows from `offset` on in the server's list: one that is known already tells their place here. */
+  /** Rows from `offset` on in the server's list: a known row among them gives their place here. */
   went(offset, orders) {
     const places = new Map(this.rows.map(({ order_id: id }, i) => [id, this.first + i]));
     const common = orders.findIndex(({ order_id: id }) => places.has(id));
@@ -178,9 +179,9 @@ export class OrderList {
 }
 
 /** Whether an order is one of those that a filter of the server's query and a text ask for. */
-export function belongs(order, filter, text, now) {
-  const wanted = new URLSearchParams(filter), state = wanted.get('state');
+function belongs(order, filter, text, now) {
+  const query = new URLSearchParams(filter), state = query.get('state');
   if (state && order.state !== state) return false;
-  if (wanted.has('late') && (!order.due || isOver(order) || order.due > now)) return false;
+  if (query.has('late') && (!order.due || isOver(order) || order.due > now)) return false;
   return !text || order.reference.includes(text) || order.lines.some(({ sku }) => sku === text);
 }

@@ -14,7 +14,7 @@ export class OrderRow {
     this.element.setAttribute('role', 'listitem');
   }
 
-  /** An order at a time [s], so far from the list's beginning [px]. */
+  /** Shows an order at a time [s], at a distance from the list's beginning [px]. */
   show(order, now, top) {
     this.order = order;
     this.element.style.top = `${top}px`;

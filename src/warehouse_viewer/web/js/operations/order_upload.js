@@ -5,7 +5,7 @@ import { post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
 
 const MOST = 4_000_000; // characters
-const MOST_FAULTS = 20; // that the server tells
+const MOST_FAULTS = 20; // faults that the server lists
 const SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')";
 
 const counted = (n, word) => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
@@ -65,7 +65,7 @@ export class OrderUpload {
 
   show(answer) {
     if (!answer.accepted) {
-      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : 'The first fault';
+      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : `The first ${MOST_FAULTS} faults`;
       this.say(`${this.name} is not accepted`, `None of its orders is in the list. ${some}:`, answer.faults);
       return;
     }

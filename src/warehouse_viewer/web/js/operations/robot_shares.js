@@ -2,6 +2,7 @@
 // How many robots do what at a glance, what work that is, and which of them wait.
 
 import { $, make } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from '../base/words.js';
 
@@ -14,7 +15,7 @@ export function sharesOf(activities) {
 }
 
 export class RobotShares {
-  /** `fleet` as the server tells it; null without a coordinator. */
+  /** `fleet` from the server; null without a coordinator. */
   show(fleet) {
     $('fleet').textContent = fleet ? '' : 'no coordinator runs';
     if (!fleet) return;
@@ -36,7 +37,7 @@ export class RobotShares {
     const more = waiting.length - MOST_WAITS;
     const longest = [...waiting].sort((a, b) => a.since - b.since).slice(0, MOST_WAITS);
     $('waiting').replaceChildren(...longest.map(({ robot, since, text: why }) => (
-      make('li', {}, make('a', { href: `/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${why}`))),
+      make('li', {}, make('a', { href: `${ROOT}/#kiva${robot}`, textContent: `kiva${robot}` }), ` waits ${lasting(time - since)} ${why}`))),
     ...more > 0 ? [make('li', { className: 'dim', textContent: `and ${more} more` })] : []);
   }
 }

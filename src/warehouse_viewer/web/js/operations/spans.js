@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states of robots and stations over the last hour, as the server tells them (span_log.py).
+// The states of robots and stations over the last hour, as span_log.py encodes them.
 
-export const GONE = 7; // nothing is known
+const GONE = 7; // nothing is known
 const STATES = 5; // that a row can be in
 
 /** The {head, times, counts, changes} of an answer. */
@@ -13,7 +13,7 @@ export function decode(buffer) {
     changes: new Uint32Array(buffer, at + 8 * moments) };
 }
 
-/** Of one robot or station: when it came into which state, the oldest first. */
+/** The spans of one robot or station: when it came into which state, the oldest first. */
 class Row {
   constructor(kind, name) {
     Object.assign(this, { kind, name, times: [], states: [] });

@@ -3,14 +3,15 @@
 // themselves or by hand.
 
 import { put } from '../base/api.js';
-import { $, make } from '../base/dom.js';
+import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
+import { ROOT } from '../base/root.js';
+import { waitsOf } from '../base/station_waits.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
-const UNATTENDED = 60; // [s], simulated
 const CHIPS = 8; // of a queue that are shown
-const HOLDS = 5000; // [ms] in which the server surely tells of what was set
+const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
 export class Stations {
   /** `act(promise)` waits for what was asked of the server. */
@@ -25,7 +26,7 @@ export class Stations {
       $('stations').replaceChildren(...[...this.rows.values()].map(({ element }) => element));
     }
     for (const station of stations) this.rows.get(station.name).show(station, this.now);
-    const open = stations.filter((one) => one.open).length;
+    const open = stations.filter((station) => station.open).length;
     $('stations-sum').textContent = `${open} of ${stations.length} open`;
   }
 
@@ -36,25 +37,25 @@ export class Stations {
   }
 }
 
-/** What was set last. It counts until the server tells of it: a state that comes before may be older. */
-export class Wanted {
-  /** `wanted` is {open, mode}; it was set at `now` [ms]. */
-  note(wanted, now) {
-    Object.assign(this, { wanted, until: now + HOLDS });
+/** What was set last. It counts until the server sends it: a state that comes before may be older. */
+export class Choice {
+  /** `choice` is {open, mode}; it was set at `now` [ms]. */
+  note(choice, now) {
+    Object.assign(this, { choice, until: now + HOLDS });
   }
 
-  /** A station as the server tells of it at `now` [ms], with what was set. */
+  /** A station's state of `now` [ms] from the server, with what was set. */
   upon(station, now) {
-    const { open, mode } = this.wanted ?? station;
-    if (now >= this.until || (station.open === open && station.mode === mode)) this.wanted = undefined;
-    return { ...station, ...this.wanted };
+    const { open, mode } = this.choice ?? station;
+    if (now >= this.until || (station.open === open && station.mode === mode)) this.choice = undefined;
+    return { ...station, ...this.choice };
   }
 }
 
 /** One that stays where it is: a finger may be on its way to a button. */
 class Row {
   constructor(act) {
-    this.wanted = new Wanted();
+    this.choice = new Choice();
     this.name = make('strong');
     this.kind = make('span', { className: 'dim' });
     this.state = make('span', { className: 'badge' });
@@ -80,7 +81,7 @@ class Row {
     for (const button of [this.gate, this.hand]) button.disabled = true;
     try {
       const answer = await put(`/stations/${this.station.name}`, { open, mode });
-      this.wanted.note({ open, mode }, performance.now());
+      this.choice.note({ open, mode }, performance.now());
       this.show(this.station, this.now);
       return answer;
     } finally {
@@ -88,8 +89,8 @@ class Row {
     }
   }
 
-  show(told, now) {
-    const before = this.station, station = this.wanted.upon(told, performance.now());
+  show(newest, now) {
+    const before = this.station, station = this.choice.upon(newest, performance.now());
     this.station = station;
     this.tick(now);
     if (JSON.stringify(before) === JSON.stringify(station)) return;
@@ -104,9 +105,11 @@ class Row {
     this.rate.lastChild.textContent = Math.round(station.pieces_per_hour).toLocaleString('en');
     this.busy.lastChild.textContent = `${Math.round(100 * station.busy_fraction)} %`;
     this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
+    this.hand.textContent = 'Manual';
+    press(this.hand, this.isByHand);
+    this.hand.title = this.isByHand ? 'A person works here; press for automatic' : 'It works automatically; press for a person at its screen';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
-    this.screen.href = `/station/${encodeURIComponent(name)}`;
+    this.screen.href = `${ROOT}/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
     this.showQueue(station.queue);
   }
@@ -134,14 +137,4 @@ function chip({ unit, robot, stands, is_long: isLong }) {
   const title = robot ? `storage unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `storage unit ${unit}: a robot is on its way to it`;
   const out = make('span', { className: isLong ? 'chip is-long' : robot ? 'chip' : 'chip is-far', title, textContent: waits ? `${unit} · ${lasting(stands)}` : `${unit}` });
   return out;
-}
-
-/** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
-export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders }, now) {
-  const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));
-  if (waiting) return [`unit ${unit} has waited for a person for ${lasting(waiting)}`, waiting >= UNATTENDED ? 'is-bad' : ''];
-  if (unit) return [`unit ${unit} is there, for ${span}`, ''];
-  if (next) return [`waits for unit ${next}, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  if (open && orders?.length) return [`waits for a unit, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  return ['', ''];
 }

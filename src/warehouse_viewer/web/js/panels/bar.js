@@ -13,7 +13,7 @@ const NEEDS = { pause: 'pause', step: 'step', speed: 'speed', checkpoint: 'check
   restore: 'restore', undo: 'undo', reset: 'reset' };
 
 export class Bar {
-  /** `say(text, kind)` tells the person at the page; `offer(text, label, act)` adds a button. */
+  /** `say(text, kind)` shows the person at the page a text; `offer(text, label, act)` adds a button. */
   constructor(say, offer) {
     Object.assign(this, { say, offer, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
@@ -75,8 +75,8 @@ export class Bar {
   }
 
   showLink(live, reason) {
-    this.live = live;
-    this.link(live ? 'live' : 'away', live ? 'live' : `${reason}; trying again`);
+    this.live = false; // until its state is known
+    this.link('away', live ? 'loading …' : `${reason}; trying again`);
     this.enable();
   }
 
@@ -87,6 +87,7 @@ export class Bar {
 
   showStatus(status) {
     this.lacks = status.lacks;
+    this.live = true;
     if (status.away) {
       this.link('away', 'the simulation does not answer');
       this.enable();
@@ -124,7 +125,7 @@ export class Bar {
       undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
     };
     for (const [id, action] of Object.entries(NEEDS)) {
-      const lack = this.live ? this.lacks[action] || early[id] : 'no connection';
+      const lack = this.live ? this.lacks[action] || early[id] : $('link').textContent;
       enable($(id), lack, id === 'speed' ? $(id).parentElement : $(id));
     }
   }

@@ -8,17 +8,17 @@ import { counted, countedEvents, countedWork } from '../base/words.js';
 const MOST_WAITING = 50; // rows
 
 /** What a CoordinatorState counts, as [what, text]. */
-export function factsOf({ robots, work, transports, executed_over_planned: executed, ...told }) {
+export function factsOf({ robots, work, transports, executed_over_planned: executed, ...state }) {
   return [
     ['robots', counted(robots)],
     ['at work', countedWork(work)],
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
     ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],
-    ['planning time', `median ${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
+    ['planning time', `median ${state.plan_p50.toFixed(1)} ms, p99 ${state.plan_p99.toFixed(1)} ms`],
     ['driven / planned time', executed.toFixed(2)],
     ['incidents', countedEvents({
-      [EventKind.COLLISION]: told.collisions, [EventKind.BLOCKED]: told.blocked, watchdog: told.watchdog })],
+      [EventKind.COLLISION]: state.collisions, [EventKind.BLOCKED]: state.blocked, watchdog: state.watchdog })],
   ];
 }
 
@@ -32,7 +32,7 @@ export class FleetPanel {
     return Boolean(this.fleet);
   }
 
-  /** What the server tells of the coordinator; null: none runs. */
+  /** Takes the server's state of the coordinator; null: none runs. */
   take(fleet) {
     this.fleet = fleet;
     document.body.classList.toggle('coordinated', this.runs);

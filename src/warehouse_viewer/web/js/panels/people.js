@@ -8,7 +8,7 @@ import { Placer } from './placer.js';
 export const isPerson = (name) => /^person\d+$/.test(name ?? '');
 
 export class People extends Placer {
-  /** `say(text, kind, at)` tells the person at the page. */
+  /** `say(text, kind, at)` shows the person at the page a text. */
   constructor(say) {
     super('add-person', { what: 'a person', hint: 'click where to put the person' }, say);
   }

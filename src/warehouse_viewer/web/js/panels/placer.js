@@ -4,7 +4,7 @@
 import { $, isPressed, on, press } from '../base/dom.js';
 
 export class Placer {
-  /** `what` it puts and `hint` are for the person; `say(text, kind, at)` tells them. */
+  /** `what` it puts and `hint` are for the person; `say(text, kind, at)` shows them a text. */
   constructor(button, { what, hint }, say) {
     Object.assign(this, { button: $(button), what, hint, say });
     on(this.button, 'click', () => this.want(!this.wantsCell));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robots at a broker by VDA 5050, as the panel of the selection tells them.
+// Facts of robots at a broker by VDA 5050, for the panel of the selection.
 
 import { get } from '../base/api.js';
 
@@ -27,9 +27,9 @@ let asked = -Infinity;
 export function vda5050Of(id, now = performance.now()) {
   if (now - asked > PERIOD) {
     asked = now;
-    get('/vda5050').then((told) => {
+    get('/vda5050').then((rows) => {
       robots.clear();
-      for (const robot of told) robots.set(robot.id, robot);
+      for (const robot of rows) robots.set(robot.id, robot);
     }, () => robots.clear());
   }
   return factsOf(robots.get(id));

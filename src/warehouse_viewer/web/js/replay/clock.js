@@ -17,6 +17,6 @@ export function wallClock(seconds) {
 
 /** Seconds of '10:42' or '10:42:30', after midnight or after a shift's begin; null: it is no such time. */
 export function readClock(text) {
-  const found = /^(\d{1,4}):([0-5]\d)(?::([0-5]\d))?$/.exec(text);
-  return found && 3600 * Number(found[1]) + 60 * Number(found[2]) + Number(found[3] ?? 0);
+  const match = /^(\d{1,4}):([0-5]\d)(?::([0-5]\d))?$/.exec(text);
+  return match && 3600 * Number(match[1]) + 60 * Number(match[2]) + Number(match[3] ?? 0);
 }

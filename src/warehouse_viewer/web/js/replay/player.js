@@ -3,7 +3,7 @@
 
 import { State } from './state.js';
 
-export const TICK = 100; // between two pictures [ms]
+const TICK = 100; // between two pictures [ms]
 const AHEAD = 0.9; // of a chunk, after which the next one is fetched
 const FRESH = 2000; // between two looks for what a running warehouse has recorded since [ms]
 
@@ -13,22 +13,22 @@ export class Player {
   constructor(recording, show, { changed, failed, now = () => performance.now() }) {
     Object.assign(this, { recording, show, changed, failed, now });
     this.state = new State();
-    Object.assign(this, { time: 0, speed: 1, isPlaying: false, chunk: null, shown: null, busy: null, wanted: null, looked: -Infinity });
+    Object.assign(this, { time: 0, speed: 1, isPlaying: false, chunk: null, shown: null, busy: null, target: null, looked: -Infinity });
   }
 
   /** Shows a moment [s]. Of many wishes that come while one is carried out the last counts. */
   async seek(time) {
     const { begin, end } = this.recording;
-    this.time = this.wanted = Math.min(end, Math.max(begin, time));
+    this.time = this.target = Math.min(end, Math.max(begin, time));
     this.changed();
     this.busy ??= this.seekAll().finally(() => { this.busy = null; });
     return this.busy;
   }
 
   async seekAll() {
-    while (this.wanted !== null) {
-      const time = this.wanted;
-      this.wanted = null;
+    while (this.target !== null) {
+      const time = this.target;
+      this.target = null;
       await this.guarded(() => this.openAt(time, true));
     }
   }
@@ -51,7 +51,7 @@ export class Player {
   /** What is played next no longer is: another page's content is shown. */
   stop() {
     this.pause();
-    Object.assign(this, { chunk: null, shown: null, wanted: null });
+    Object.assign(this, { chunk: null, shown: null, target: null });
   }
 
   async tick() {
@@ -61,7 +61,7 @@ export class Player {
     this.busy = this.guarded(() => this.goOn(this.time + this.speed * passed));
     await this.busy;
     this.busy = null;
-    if (this.wanted !== null) this.seek(this.wanted);
+    if (this.target !== null) this.seek(this.target);
   }
 
   async guarded(act) {
@@ -84,19 +84,19 @@ export class Player {
     this.changed();
   }
 
-  /** Near its end, looks what a running warehouse has recorded since. */
+  /** Looks near its end for what a running warehouse has recorded since. */
   async look(time) {
     const { recording } = this;
     if (!recording.live || time < recording.end - 1 || this.now() - this.looked < FRESH) return;
     this.looked = this.now();
     await recording.refresh();
     const { number } = this.chunk;
-    if (recording.chunks.some((one) => one.number === number)) await this.continueAt(number);
+    if (recording.chunks.some((chunk) => chunk.number === number)) await this.continueAt(number);
   }
 
   /** Takes what has come to the chunk that is played since. */
   async continueAt(number) {
-    const chunk = this.recording.chunks.find((one) => one.number === number);
+    const chunk = this.recording.chunks.find((other) => other.number === number);
     this.content = await this.recording.load(chunk);
     this.chunk = chunk;
   }
@@ -127,7 +127,7 @@ export class Player {
 
   tell(messages, isJump) {
     const past = isJump && messages.find(({ type }) => type === 'past');
-    const events = messages.filter(({ type }) => type === 'events').flatMap((one) => one.events);
+    const events = messages.filter(({ type }) => type === 'events').flatMap((message) => message.events);
     if (past) this.show.past([...past.events, ...events]);
     else if (events.length) this.show.events(events);
     const figures = messages.findLast(({ type }) => type === 'figures');

@@ -3,12 +3,13 @@
 // are kept.
 
 import { reasonOf } from '../base/request.js';
+import { at } from '../base/root.js';
 import { read } from './chunk.js';
 
 const KEPT = 12; // chunks
 
 export class Recording {
-  constructor(ask = fetch.bind(globalThis)) {
+  constructor(ask = (path) => fetch(at(path))) {
     this.ask = ask;
     this.chunks = []; // {number, scene, begin, end, wall}
     this.marks = []; // {time, kind, model, text}
@@ -51,7 +52,7 @@ export class Recording {
   }
 
   after({ number }) {
-    return this.chunks[this.chunks.findIndex((one) => one.number === number) + 1];
+    return this.chunks[this.chunks.findIndex((chunk) => chunk.number === number) + 1];
   }
 
   /** A chunk's {updates, texts}. */
@@ -79,7 +80,7 @@ export class Recording {
   }
 }
 
-/** Without what came after the end: the world went back. */
+/** Drops what came after the end: the world went back. */
 function until({ updates, texts }, end) {
   const inTime = ({ stamp }) => stamp <= end + 0.75; // a chunk that goes on is longer than it was told
   return { updates: updates.filter(inTime), texts: texts.filter(inTime) };
@@ -87,6 +88,6 @@ function until({ updates, texts }, end) {
 
 async function body(answer, kind) {
   if (answer.ok) return answer[kind]();
-  const told = await answer.json().catch(() => ({}));
-  throw new Error(reasonOf(told.detail) ?? `the server failed: ${answer.status}`);
+  const reply = await answer.json().catch(() => ({}));
+  throw new Error(reasonOf(reply.detail) ?? `the server failed: ${answer.status}`);
 }

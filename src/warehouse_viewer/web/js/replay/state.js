@@ -4,7 +4,7 @@
 import { BODY_WORDS, ROBOT_WORDS } from '../base/protocol.js';
 import { wrapped } from '../base/world.js';
 
-const FAR = 6; // [m]; a robot that moves so far between two updates was put there
+const FAR = 6; // [m]; a robot that moves farther between two updates was put there
 const BODIES = ['units', 'loose', 'scenery'];
 
 export class State {

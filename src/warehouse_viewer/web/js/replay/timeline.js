@@ -4,7 +4,7 @@
 import { $, on, press, setIcon } from '../base/dom.js';
 import { hms, wallClock } from './clock.js';
 import { freeze } from './frozen.js';
-import { linkTo, momentOf, timeOf, wallAt } from './link.js';
+import { linkTo, lookOf, momentOf, timeOf, wallAt } from './link.js';
 import { Player } from './player.js';
 import { Recording } from './recording.js';
 import { Track } from './track.js';
@@ -49,8 +49,8 @@ export class Timeline {
   }
 
   async start() {
-    const found = await this.recording.refresh().catch(() => false);
-    if (!found) return;
+    const isNew = await this.recording.refresh().catch(() => false);
+    if (!isNew) return;
     if (!this.recording.chunks.length) {
       setTimeout(() => this.start(), FIRST);
       return;
@@ -81,7 +81,9 @@ export class Timeline {
   /** Shows the moment that the address names, if it names one. */
   async follow() {
     const moment = momentOf(location.hash);
-    if (moment) await this.enter(timeOf(moment, this.recording.chunks));
+    if (!moment) return;
+    await this.enter(timeOf(moment, this.recording.chunks));
+    this.page.look(lookOf(location.hash));
   }
 
   seek(time) {
@@ -91,7 +93,7 @@ export class Timeline {
 
   /** Shows the past from a time on [s]. */
   async enter(time) {
-    this.wanted = time; // a later wish counts
+    this.target = time; // a later wish counts
     if (this.isLive) {
       this.isLive = false;
       this.page.connection.hold();
@@ -100,7 +102,7 @@ export class Timeline {
     }
     await this.fresh;
     if (this.recording.live && time > this.recording.end) await this.refresh();
-    if (this.wanted === time && !this.isLive) await this.player.seek(time);
+    if (this.target === time && !this.isLive) await this.player.seek(time);
   }
 
   async toggle() {
@@ -138,7 +140,7 @@ export class Timeline {
   }
 
   async copy() {
-    const link = linkTo(location.href, this.isLive ? this.stamp : this.player.time);
+    const link = linkTo(location.href, this.isLive ? this.stamp : this.player.time, this.page.looks());
     try {
       await navigator.clipboard.writeText(link);
       this.page.tip.say('the link is copied', 'done');
@@ -149,7 +151,7 @@ export class Timeline {
   }
 
   // --- to the page
-  /** The live warehouse is so far [s]. */
+  /** Takes the time of the live warehouse [s]. */
   note(stamp) {
     if (!this.isLive) return;
     const isNews = Math.floor(stamp) !== Math.floor(this.stamp);
@@ -195,7 +197,7 @@ export class Timeline {
   /** The figures of that moment: pieces an hour, orders done and late, robots at work. */
   drawFigures() {
     const { activity } = this.page.world;
-    const working = activity.reduce((sum, one) => sum + (one > RESTING && one < WAITING), 0);
+    const working = activity.reduce((sum, does) => sum + (does > RESTING && does < WAITING), 0);
     const { kpis } = this;
     const rows = [...(kpis ? [['pieces/h', Math.round(kpis.item_throughput_per_hour)],
       ['orders done', kpis.orders_completed], ['late', kpis.orders_late]] : []),

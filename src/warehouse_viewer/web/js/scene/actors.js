@@ -9,9 +9,9 @@ import { COLOURS, Robots } from './robots.js';
 import { addShadows } from './shadows.js';
 import { boardsOf, flatMaterial, shelfGeometry, shelfPicture, speckGeometry, variantOf } from './shelves.js';
 
-// From so many pixels a metre on a thing is drawn in detail.
+// Scale from which a thing is drawn in detail [px/m].
 const DETAIL = { unit: 110, item: 110, scenery: 15 };
-// Of storage units that stand, and of walls, by theme.
+// Colours of storage units that stand, and of walls, by theme.
 const STEEL = { dark: new THREE.Color(0xb9c2ce), light: new THREE.Color(0xf7f9fb) };
 const WALL = { dark: new THREE.Color(0x5a6473), light: new THREE.Color(0xaab3be) };
 const isWall = (name) => /^(layout_walls|wall|pillar|column)/.test(name);
@@ -69,7 +69,7 @@ export class Actors {
     this.units.add(speckGeometry(bounds), flatMaterial(), TINY);
   }
 
-  /** Of a thing {kind, index}: its bounds, as looks.js has them. */
+  /** The bounds of a thing {kind, index}, as looks.js has them. */
   boundsOf({ kind, index }) {
     return kind === 'scenery' ? this.bounds.scenery[index] : this.bounds[kind];
   }
@@ -80,7 +80,7 @@ export class Actors {
     return kind === 'scenery' ? this.sceneryBase : crowds[kind].base;
   }
 
-  /** Before the picture of that time [ms]: what is drawn in detail, how, and what not. Returns whether the
+  /** Chooses before a picture, by its time [ms], what is drawn in detail, and how. Returns whether the
    *  backdrop has to be drawn soon. */
   fill(camera, height, now) {
     const moved = this.view.update(camera, height);

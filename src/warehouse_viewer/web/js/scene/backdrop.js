@@ -46,7 +46,7 @@ export class Renewal {
 }
 
 export class Backdrop {
-  /** Of a canvas of that renderer, by WebGL 2. */
+  /** Copies what stands still on the canvas of a renderer, by WebGL 2. */
   constructor(renderer, scene) {
     Object.assign(this, { renderer, scene, target: new THREE.WebGLRenderTarget(1, 1) });
     this.target.depthTexture = new THREE.DepthTexture(1, 1, THREE.FloatType);

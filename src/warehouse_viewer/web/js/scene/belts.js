@@ -26,7 +26,7 @@ export class Belts {
     this.slats.add(slat, new THREE.MeshLambertMaterial({ color: 0x3a3d42 }), NEAR);
   }
 
-  /** Moves the belts' surfaces on by so many seconds. */
+  /** Moves the belts' surfaces on by a duration [s]. */
   run(seconds) {
     if (!this.slats.count) return;
     this.way = (this.way + SPEED * seconds) % this.length;

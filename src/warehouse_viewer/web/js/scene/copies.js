@@ -19,7 +19,7 @@ export class Instances {
     this.grow(FIRST);
   }
 
-  /** Makes room for so many, and keeps those that are there. */
+  /** Makes room for a count of copies, and keeps those that are there. */
   grow(room) {
     const larger = (old, size) => {
       const out = new Float32Array(room * size);
@@ -74,7 +74,7 @@ export class Merged {
     this.grow(FIRST);
   }
 
-  /** Makes room for so many copies, and keeps those that are there. */
+  /** Makes room for a count of copies, and keeps those that are there. */
   grow(room) {
     const { original, corners, attributes } = this;
     const geometry = new THREE.BufferGeometry();

@@ -10,7 +10,7 @@ import { drawsInSoftware } from '../base/software.js';
 // How large something is seen; a layer is drawn at one of them, or more (FAR | NEAR).
 export const FAR = 1, NEAR = 2, TINY = 4;
 const SMALL = 7; // [px] a metre, below which things are tiny
-const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
+const CHEAP = 60000; // vertices up to which a crowd is always drawn in detail
 const CHEAP_IN_SOFTWARE = 10000; // the same of what moves, where the processor draws
 const TILE = 16; // edge of a square of the floor whose things are drawn together [m]
 const MIDDLE = 1; // of what stands on the floor, above it [m]
@@ -107,7 +107,7 @@ export class StandingCrowd extends Crowd {
   /** Whether what stands is part of the backdrop. */
   setStill(isStill) {
     this.layer = isStill ? STILL : 0;
-    for (const { copies, layer } of this.parts) for (const one of copies) one?.mesh.layers.set(layer);
+    for (const { copies, layer } of this.parts) for (const copy of copies) copy?.mesh.layers.set(layer);
   }
 
   /** Whether something came or went that the backdrop does not show yet. */
@@ -169,9 +169,9 @@ class Part {
     this.stale = false;
     for (const copies of this.copies) copies?.begin();
     for (const i of this.members) {
-      const wanted = levelOf(i);
+      const level = levelOf(i);
       for (let layer = 0; layer < layers.length; ++layer) {
-        if (layers[layer].levels & wanted) this.copiesOf(layer).add(crowd.base, crowd.tint, i, layers[layer].place);
+        if (layers[layer].levels & level) this.copiesOf(layer).add(crowd.base, crowd.tint, i, layers[layer].place);
       }
     }
     for (const copies of this.copies) copies?.end();

@@ -18,7 +18,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 /** Where a camera with these axes must be, [x, y, z], to have all points in its picture and as
  *  large as they go: `half` are the tangents of half its angles of view, [width, height]. */
 export function positionFor(points, { right, up, ahead }, half) {
-  // In the camera's own axes a point is in the picture where |x - cx| <= k (z - cz); the largest
+  // A point, in the camera's own axes, is in the picture where |x - cx| <= k (z - cz); the largest
   // cz for which both edges of an axis allow that is where they meet.
   const depth = points.map((p) => dot(p, ahead));
   const edges = [right, up].map((axis, i) => {

@@ -35,15 +35,15 @@ export class HeatMap {
     }
   }
 
-  /** On or off. */
-  want(wanted) {
-    $('heat-panel').hidden = !wanted;
+  /** Shows the heat map, or hides it. */
+  want(isOn) {
+    $('heat-panel').hidden = !isOn;
     this.changes?.close();
-    this.changes = wanted ? new Changes(['heat'], {
+    this.changes = isOn ? new Changes(['heat'], {
       shift: ({ runs }) => this.take(runs ? this.heat : null, runs ? '' : 'no shift is running'),
       heat: ({ heat }) => this.take(heat),
     }) : null;
-    if (!wanted) this.take(null);
+    if (!isOn) this.take(null);
   }
 
   take(heat, text = '') {

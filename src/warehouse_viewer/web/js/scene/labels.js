@@ -13,8 +13,8 @@ export class Labels {
 
   /** Draws all labels, for a View; `wanted`: a set of indices of robots to name; `more` labels
    *  {text, kind, at [x, y, z], note}. */
-  draw(view, wanted, more) {
-    const { names, numbers } = labelled(this.world, view, wanted);
+  draw(view, always, more) {
+    const { names, numbers } = labelled(this.world, view, always);
     const { robots } = this.world.scene;
     const { shown, activity } = this.world;
     const labels = [

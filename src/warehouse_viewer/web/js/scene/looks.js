@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From looks, as the world tells them, to geometries, sizes and instanced meshes.
+// Geometries, sizes and instanced meshes of the world's looks.
 
 import * as THREE from '/three/build/three.module.js';
 
@@ -46,7 +46,7 @@ export function largestOf(links) {
   return shapes.find((shape) => volume(shape) === most);
 }
 
-/** Of each shape its extents along the axes of the model and the height of its middle [m]. */
+/** The extents of each shape along the axes of the model, and the height of its middle [m]. */
 export function sizesOf(links) {
   return shapesOf(links).map(({ matrix, size }) => {
     const half = new THREE.Vector3(...size).multiplyScalar(0.5);

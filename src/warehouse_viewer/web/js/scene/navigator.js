@@ -4,7 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { scaleFor, seeAll } from './fit.js';
 
-const NEAR = 7, CLOSE = 60; // of one thing that is looked at: from so far [m], or so large [px/m]
+const NEAR = 7, CLOSE = 60; // distance [m] and scale [px/m] at which one thing is looked at
 const TILT = 0.75; // from the vertical [rad]
 const ABOVE = 500; // where parallel rays begin [m]
 const HEIGHT = 0.6; // of what stands at the floor's edges [m]
@@ -42,6 +42,19 @@ export class Navigator {
       zoom: scaleFor(this.stage.bounds, heading, free) });
   }
 
+  /** Where the camera is and what it looks at; `zoom` from above, else 0. */
+  get view() {
+    const { camera, controls, isAbove } = this.stage;
+    return { position: camera.position.toArray(), target: controls.target.toArray(), zoom: isAbove ? camera.zoom : 0 };
+  }
+
+  /** Looks from a view of before. */
+  restore(view) {
+    this.showAll(Boolean(view.zoom)); // its near and far
+    if (!view.zoom) this.stage.camera.near = 0.1;
+    this.take(view);
+  }
+
   take({ position, target, zoom }) {
     const { camera, controls } = this.stage;
     camera.position.set(...position);
@@ -77,7 +90,7 @@ export class Navigator {
     if (place) this.visit(place());
   }
 
-  /** Before each picture; returns whether the camera is under way. */
+  /** Moves the camera before each picture; returns whether it is under way. */
   advance(now = performance.now()) {
     if (this.flight) this.fly(now);
     else if (this.followed) this.goAlong();

@@ -7,7 +7,7 @@ import { Ways } from './ways.js';
 import { within } from '../base/world.js';
 
 const ACCENT = { dark: 0x6cacff, light: 0x1257c4 }; // as design.css has it
-const FAR = 5; // a ray without a return is drawn so long [m]
+const FAR = 5; // drawn length of a ray without a return [m]
 const RING = 0.1; // between a thing and its mark [m]
 
 export class Overlays {
@@ -54,7 +54,7 @@ export class Overlays {
     this.stage.invalidate();
   }
 
-  /** From [x, y] along points [[x, y], …], and a mark at `goal`; no points: no path. */
+  /** Draws a path from [x, y] along points [[x, y], …], and a mark at `goal`; no points: no path. */
   showPath(from, points, goal = points[points.length - 1]) {
     this.path.visible = points.length > 0;
     this.goal.visible = Boolean(goal);

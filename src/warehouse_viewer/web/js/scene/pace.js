@@ -4,7 +4,7 @@
 
 export const SHARE = 1 / 6; // of the time, in which pictures are drawn, at least
 export const MOST = 2 / 3; // the same where the simulation keeps its speed all the same
-export const CROWD = 2000; // robots: with so many SHARE is all, or the page would take a core
+export const CROWD = 2000; // robots from which SHARE is the limit, or the page would take a core
 export const HURRIED = 1 / 2; // the same while the camera is moved, at least
 const KEPT = 0.97; // of the speed that is wanted: it is kept
 const MORE = 1.25, LESS = 0.5; // how the share changes from one look at the speed to the next
@@ -36,11 +36,11 @@ export class Pace {
 
   /** The simulation has a speed, and a wanted one (0: as fast as it can): where it falls behind, the
    *  processor is left to it. */
-  yieldTo(factor, wanted) {
-    this.keepsSpeed = wanted > 0 && factor >= KEPT * wanted;
+  yieldTo(factor, least) {
+    this.keepsSpeed = least > 0 && factor >= KEPT * least;
   }
 
-  /** So many robots are there to be drawn. */
+  /** Takes the count of robots that are drawn. */
   expect(robots) {
     this.most = robots < CROWD ? MOST : SHARE;
   }
@@ -52,7 +52,7 @@ export class Pace {
     this.share = Math.max(SHARE, Math.min(this.most, this.share * (this.keepsSpeed ? MORE : LESS)));
   }
 
-  /** A picture was begun then [ms]; `isDone()` tells whether the processor has drawn it. */
+  /** A picture was begun then [ms]; `isDone()`: whether the processor has drawn it. */
   drew(begun, isDone) {
     this.rest = this.finish(begun, isDone);
   }

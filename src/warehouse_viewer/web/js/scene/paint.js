@@ -43,13 +43,13 @@ export class Paint {
   }
 }
 
-/** So far behind what lies on it [steps of depth] that from afar it does not shine through. */
+/** A material's offset behind what lies on it [steps of depth]: it does not shine through from afar. */
 export function behind(steps) {
   return { polygonOffset: true, polygonOffsetFactor: steps, polygonOffsetUnits: steps };
 }
 
 /** Two triangles for each rectangle x, y, width, depth of a row of numbers. */
-export function quads(rows) {
+function quads(rows) {
   const points = [];
   for (let at = 0; at < rows.length; at += 4) {
     const [x, y, width, depth] = rows.slice(at, at + 4);

@@ -47,7 +47,7 @@ export class Picker {
     }
   }
 
-  /** The robot that is drawn within so many pixels, nearest of all, as {kind, index}, or null. */
+  /** The nearest robot that is drawn within a distance [px], as {kind, index}, or null. */
   robotNear(x, y, reach) {
     const { shown, status } = this.actors.world;
     let best = null, nearest = reach;

@@ -8,7 +8,7 @@ import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
 import { addShadows } from './shadows.js';
 import { flatMaterial, speckGeometry } from './shelves.js';
 
-// By Activity, as design.css has them in the dark.
+// Colours by Activity, as design.css has them in the dark.
 export const COLOURS = [0x8b97a7, 0x4f9cf9, 0x3fbf7f, 0xf2b036, 0xf0605a].map((c) => new THREE.Color(c));
 const PAD = 0.49; // half edge of what is left of a robot's frame from afar [cells]
 const LINE = 0.05, NOSE = 0.16; // of an outline: width, and of the arrow at its front [m]
@@ -108,7 +108,7 @@ function outlineGeometry({ min, max }) {
   return out;
 }
 
-/** In a light shade of each one's tint, through whatever stands before it. */
+/** Outlines in a light shade of each robot's tint, through whatever stands before it. */
 function outlineMaterial() {
   const out = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.9, depthTest: false, side: THREE.DoubleSide });
   out.onBeforeCompile = (shader) => {

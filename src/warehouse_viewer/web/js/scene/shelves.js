@@ -122,7 +122,7 @@ function numbers(seed) {
   };
 }
 
-/** Of copies that have a tint; without light, which would cost more than it shows. */
+/** A material for copies that have a tint; without light, which would cost more than it shows. */
 export function flatMaterial(map = null) {
   const out = new THREE.MeshBasicMaterial({ map, vertexColors: THREE.VertexColors });
   out.onBeforeCompile = (shader) => {

@@ -37,7 +37,7 @@ export class Signs {
     this.stage.renew();
   }
 
-  /** What the server tells of the fleet; null: none runs, and nothing more is known of stations. Those
+  /** Takes the server's state of the fleet; null: none runs, and nothing more is known of stations. Those
    *  of now are asked for; `past`: those that were then. */
   take(fleet, past = null) {
     this.queues = fleet?.queues ?? {};
@@ -45,18 +45,18 @@ export class Signs {
     if (past) this.showStations(past);
   }
 
-  follow(wanted) {
-    if (wanted === Boolean(this.changes)) return;
+  follow(isOn) {
+    if (isOn === Boolean(this.changes)) return;
     this.changes?.close();
     this.stations.clear();
-    this.changes = wanted ? new Changes(['stations'], {
+    this.changes = isOn ? new Changes(['stations'], {
       shift: ({ runs }) => runs || this.stations.clear(),
       stations: ({ stations }) => this.showStations(stations),
     }) : null;
   }
 
   showStations(stations) {
-    this.stations = new Map(stations.map((one) => [one.name, one]));
+    this.stations = new Map(stations.map((station) => [station.name, station]));
   }
 
   /** [{text, kind, at, note}] for the Labels, of stations whose signs have room; the note is beside the text. */
@@ -74,6 +74,6 @@ export function signOf(queue, station) {
   if (station && !station.open) return { kind: 'sign', note: [count, 'closed'].filter(Boolean).join(' · ') };
   const waits = Math.floor(station?.waiting ?? 0);
   if (waits < SOON) return { kind: 'sign', note: count };
-  const told = waits < LONG ? `${waits} s` : `${Math.floor(waits / 60)} min`;
-  return { kind: `sign ${waits < LONG ? 'waiting' : 'needs-help'}`, note: [count, told].filter(Boolean).join(' · ') };
+  const text = waits < LONG ? `${waits} s` : `${Math.floor(waits / 60)} min`;
+  return { kind: `sign ${waits < LONG ? 'waiting' : 'needs-help'}`, note: [count, text].filter(Boolean).join(' · ') };
 }

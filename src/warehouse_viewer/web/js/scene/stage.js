@@ -103,7 +103,7 @@ export class Stage {
     return [(left + innerWidth - right) / 2, (top + innerHeight - bottom) / 2];
   }
 
-  /** Shows all so many times as large. */
+  /** Enlarges all by a factor. */
   zoom(factor) {
     const { camera, controls } = this;
     if (this.isAbove) camera.zoom *= factor;
@@ -203,7 +203,7 @@ export class Stage {
   }
 }
 
-/** A function that tells whether all that was drawn until now is done. */
+/** A function that returns whether all that was drawn until now is done. */
 function fence(gl) {
   const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.flush();

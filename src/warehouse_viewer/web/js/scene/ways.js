@@ -16,7 +16,7 @@ export class Ways {
     stage.scene.add(this.released, this.planned, this.ties);
   }
 
-  /** `ways` as protocol.js tells them; `ids` of the robots whose ways are drawn, null: of all. */
+  /** `ways` as protocol.js reads them; `ids` of the robots whose ways are drawn, null: of all. */
   show(ways, ids) {
     this.ways = ways;
     this.shown = [...ways.keys()].filter((id) => this.world.robotOf.has(id) && (!ids || ids.includes(id)));

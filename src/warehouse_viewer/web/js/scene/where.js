@@ -9,7 +9,7 @@ const MOST = 1000; // bins
 const SIZE = [0.9, 0.9, 1.95]; // of the light around a unit [m]
 const COLOUR = 0x009e73;
 
-/** The SKU in what a person types: 'where is sku-17?' is 'sku-17'; '' if it is none. */
+/** The SKU in what a person types: 'where is sku-17?' is 'sku-17'; '' if there is no SKU in it. */
 export function skuIn(text) {
   return text.trim().replace(/^where\s+(is|are)\s+/i, '').replace(/\s*\?$/, '');
 }
@@ -43,21 +43,21 @@ export class Where {
     this.changes = null;
     this.places = new Map();
     if (sku) {
-      const found = await get(`/stock?limit=${MOST}&sku=${encodeURIComponent(sku)}`).catch((error) => error);
+      const answer = await get(`/stock?limit=${MOST}&sku=${encodeURIComponent(sku)}`).catch((error) => error);
       if (sku !== this.sku) return; // another one was asked for
-      if (found instanceof Error) {
+      if (answer instanceof Error) {
         this.sku = '';
-        this.fail(`where is ${sku}? ${found.message}`);
+        this.fail(`where is ${sku}? ${answer.message}`);
         return;
       }
-      this.take(found.places);
-      if (found.places.length) this.follow();
+      this.take(answer.places);
+      if (answer.places.length) this.follow();
     }
     this.isKnown = true;
     this.tell();
   }
 
-  /** From now on what changes is shown too. */
+  /** Shows from now on what changes, too. */
   follow() {
     const { sku } = this;
     this.changes = new Changes(['stock'], { stock: ({ stock, missed }) => {

@@ -6,15 +6,15 @@ import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { meaningOf } from './codes.js';
 import { newId } from './outbox.js';
 
-const FLASH = 6000; // for so long a tote shows that it is complete [ms]
+const FLASH = 6000; // how long a tote shows that it is complete [ms]
 const COMPLETE = 'take away, set up a new one';
-const WRITE_OFF_UNDO = 10_000; // for so long a write-off can be taken back [ms]
+const WRITE_OFF_UNDO = 10_000; // how long a write-off can be taken back [ms]
 
 export class Bench {
-  /** shelf: keeps {told, count, last} over a reload. */
+  /** shelf: keeps {told: the state, count, last} over a reload. */
   constructor(name, shelf, outbox) {
     Object.assign(this, { name, shelf, outbox, settled: new Map(), changed: new Map(), stations: [name] });
-    this.told = shelf.read('told');
+    this.state = shelf.read('told');
     this.count = shelf.read('count') ?? { sequence: 0, hand: 0, placed: 0 };
     this.last = shelf.read('last');
   }
@@ -22,7 +22,7 @@ export class Bench {
   // --- what there is
 
   get isPicking() {
-    return this.told?.kind === 'PICK';
+    return this.state?.kind === 'PICK';
   }
 
   /** Reports that the server has not told the results of: {sequence: quantity}. */
@@ -34,9 +34,9 @@ export class Bench {
 
   /** What is to be done with the unit that is there, the next first. */
   get tasks() {
-    if (this.told?.mode !== StationMode.MANUAL) return [];
+    if (this.state?.mode !== StationMode.MANUAL) return [];
     const { pending } = this;
-    return this.told.picks.filter(({ sequence }) => !pending.has(sequence));
+    return this.state.picks.filter(({ sequence }) => !pending.has(sequence));
   }
 
   get task() {
@@ -52,10 +52,10 @@ export class Bench {
   /** What each place of a tote shows, from 1 to the station's slots. */
   get totes() {
     const { pending, task } = this;
-    const by = new Map((this.told?.totes ?? []).map((tote) => [tote.position, tote]));
-    return Array.from({ length: this.told?.slots ?? 0 }, (_, i) => {
+    const by = new Map((this.state?.totes ?? []).map((tote) => [tote.position, tote]));
+    return Array.from({ length: this.state?.slots ?? 0 }, (_, i) => {
       const tote = by.get(i + 1), isLit = task?.tote === i + 1;
-      const left = tote ? tote.pieces_left - piecesFor(tote.order_id, this.told, pending) : 0;
+      const left = tote ? tote.pieces_left - piecesFor(tote.order_id, this.state, pending) : 0;
       const leaves = isLit ? null : this.leaving(i + 1, left ? tote.order_id : 0);
       return { position: i + 1, reference: tote?.reference ?? '', left, isLit, leaves };
     });
@@ -72,21 +72,21 @@ export class Bench {
     const { last } = this;
     if (!last) return null;
     if (last.outcome !== PickOutcome.DONE) return Date.now() < last.until ? last : null;
-    return last.unit === this.told?.shelf_id ? last : null;
+    return last.unit === this.state?.shelf_id ? last : null;
   }
 
-  // --- what the server tells
+  // --- what the server sends
 
   /** Takes the stations in as they are now; returns what is worth a sound: 'arrives' or ''. */
   take(stations) {
-    const now = stations.find(({ name }) => name === this.name) ?? null, before = this.told;
+    const now = stations.find(({ name }) => name === this.name) ?? null, before = this.state;
     this.stations = stations.map(({ name }) => name);
     const left = this.leftOf(before, now);
-    this.told = now;
+    this.state = now;
     this.shelf.write('told', now);
     const there = new Set((now?.picks ?? []).map(({ sequence }) => sequence));
     for (const sequence of this.settled.keys()) if (!there.has(sequence)) this.settled.delete(sequence);
-    for (const one of left) this.flash(one);
+    for (const row of left) this.flash(row);
     const came = now?.shelf_id && now.shelf_id !== before?.shelf_id && this.task;
     return came ? 'arrives' : '';
   }
@@ -152,7 +152,7 @@ export class Bench {
     this.shelf.write('count', count);
   }
 
-  /** Reports that so many pieces were taken, or put in. */
+  /** Reports a number of pieces as taken, or put in. */
   confirm(quantity) {
     const { task } = this;
     const tote = this.totes.find(({ isLit }) => isLit);
@@ -166,7 +166,7 @@ export class Bench {
 
   /** Keeps the report of a task. Throws where this device can't keep it. */
   report(task, outcome, quantity) {
-    const { sequence, sku, item, order_id: order, tote } = task, unit = this.told.shelf_id;
+    const { sequence, sku, item, order_id: order, tote } = task, unit = this.state.shelf_id;
     const body = { order_id: order, item, quantity, outcome, id: newId() };
     this.last = { sequence, sku, item, tote, unit, quantity, outcome, until: Date.now() + WRITE_OFF_UNDO };
     this.shelf.write('last', this.last);
@@ -189,7 +189,7 @@ export class Bench {
   /** The server has answered an entry of the outbox. */
   answered({ kind, sequence, body }) {
     if (kind !== 'report') return;
-    const isTold = this.told?.picks.some((pick) => pick.sequence === sequence);
+    const isTold = this.state?.picks.some((pick) => pick.sequence === sequence);
     if (isTold) this.settled.set(sequence, body.outcome === PickOutcome.DONE ? body.quantity : 0);
   }
 }

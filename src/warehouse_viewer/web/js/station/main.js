@@ -5,6 +5,7 @@ import { get, put } from '../base/api.js';
 import { $, on, press } from '../base/dom.js';
 import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { confirmed } from '../base/question.js';
+import { ownPath } from '../base/root.js';
 import { stayAwake } from './awake.js';
 import { Bench } from './bench.js';
 import { meaningOf } from './codes.js';
@@ -57,7 +58,7 @@ class Page {
 
   take(stations) {
     const sound = this.bench.take(stations);
-    if (sound) this.tell({ ok: true, sound, text: `storage unit ${this.bench.told.shelf_id} is here` });
+    if (sound) this.tell({ ok: true, sound, text: `storage unit ${this.bench.state.shelf_id} is here` });
     this.view.show();
   }
 
@@ -97,7 +98,7 @@ class Page {
     else this.tell({ ok: false, sound: 'refused', text: `${code}: answer the question first` });
   }
 
-  /** Tells the result of act(), or why this device could not keep it. */
+  /** Shows the result of act(), or why this device could not keep it. */
   do(act) {
     try {
       this.tell(act());
@@ -134,10 +135,10 @@ class Page {
   }
 
   async switchMode() {
-    const { told } = this.bench;
-    const mode = told.mode === StationMode.MANUAL ? StationMode.AUTOMATIC : StationMode.MANUAL;
+    const { state } = this.bench;
+    const mode = state.mode === StationMode.MANUAL ? StationMode.AUTOMATIC : StationMode.MANUAL;
     try {
-      await put(`/stations/${encodeURIComponent(this.name)}`, { open: told.open, mode });
+      await put(`/stations/${encodeURIComponent(this.name)}`, { open: state.open, mode });
       this.view.say({ ok: true, text: '' });
     } catch (error) {
       this.tell({ ok: false, sound: 'refused', text: error.message });
@@ -157,4 +158,4 @@ async function inBin({ sku, item }) {
 }
 
 stayAwake();
-window.page = new Page(decodeURIComponent(location.pathname.split('/')[2])); // for a look from the console
+window.page = new Page(decodeURIComponent(ownPath().split('/')[2])); // for a look from the console

@@ -3,6 +3,7 @@
 // is gone closes no socket.
 
 import { Changes } from '../base/changes.js';
+import { at } from '../base/root.js';
 
 const QUIET = 4000; // without a word the server is asked [ms]
 const PATIENCE = 3500; // for its answer [ms]
@@ -44,10 +45,10 @@ export class News {
     if (this.isAsking) return;
     this.isAsking = true;
     try {
-      const answer = await fetch('/api/v1/stations', { signal: AbortSignal.timeout(PATIENCE) });
-      const told = await answer.json();
+      const answer = await fetch(at('/api/v1/stations'), { signal: AbortSignal.timeout(PATIENCE) });
+      const body = await answer.json();
       this.hear(answer.ok ? 'live' : 'idle');
-      if (answer.ok) this.handlers.take(told.stations);
+      if (answer.ok) this.handlers.take(body.stations);
     } catch {
       if (this.state !== 'away') this.handlers.link('away');
       this.state = 'away';

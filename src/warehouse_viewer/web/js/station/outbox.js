@@ -16,10 +16,10 @@ export function newId() {
 
 export class Outbox {
   /** prefix: of its keys in `storage` (as localStorage). send(entry): a promise of the answer; throws
-   *  Refused, or anything else where no answer came. told: {changed(), answered(entry, answer),
+   *  Refused, or anything else where no answer came. handlers: {changed(), answered(entry, answer),
    *  refused(entry, reason)}. Entries have a key each, so that two windows of a station lose nothing. */
-  constructor(prefix, storage, send, told, sleep = (ms, wake) => setTimeout(wake, ms)) {
-    Object.assign(this, { prefix, storage, send, told, sleep, last: 0, failures: 0, isBusy: false, wake: null });
+  constructor(prefix, storage, send, handlers, sleep = (ms, wake) => setTimeout(wake, ms)) {
+    Object.assign(this, { prefix, storage, send, handlers, sleep, last: 0, failures: 0, isBusy: false, wake: null });
   }
 
   /** The entries that no one answered yet, in order. */
@@ -41,15 +41,15 @@ export class Outbox {
   add(entry) {
     this.last = Math.max(this.last + 1, Date.now());
     this.storage.setItem(this.prefix + String(this.last).padStart(DIGITS, '0'), JSON.stringify(entry));
-    this.told.changed();
+    this.handlers.changed();
     this.run();
   }
 
   /** Drops a report that was never on its way; returns whether there was one. */
   takeOut(sequence) {
-    const entry = this.entries.find((one) => one.sequence === sequence && !one.isTried);
+    const entry = this.entries.find((kept) => kept.sequence === sequence && !kept.isTried);
     if (entry) this.storage.removeItem(entry.key);
-    if (entry) this.told.changed();
+    if (entry) this.handlers.changed();
     return Boolean(entry);
   }
 
@@ -68,9 +68,9 @@ export class Outbox {
   async attempt({ key, ...entry }) {
     this.storage.setItem(key, JSON.stringify({ ...entry, isTried: true }));
     try {
-      this.settle(key, this.told.answered, entry, await this.send(entry));
+      this.settle(key, this.handlers.answered, entry, await this.send(entry));
     } catch (error) {
-      if (error instanceof Refused) this.settle(key, this.told.refused, entry, error.message);
+      if (error instanceof Refused) this.settle(key, this.handlers.refused, entry, error.message);
       else await this.pause();
     }
   }
@@ -79,12 +79,12 @@ export class Outbox {
     this.failures = 0;
     this.storage.removeItem(key);
     tell(entry, answer);
-    this.told.changed();
+    this.handlers.changed();
   }
 
   async pause() {
     this.failures += 1;
-    this.told.changed();
+    this.handlers.changed();
     const ms = RETRY[Math.min(this.failures, RETRY.length) - 1];
     await new Promise((resolve) => {
       this.wake = resolve;

@@ -3,16 +3,17 @@
 
 import { $, on } from '../base/dom.js';
 import { ask } from '../base/question.js';
+import { ROOT, at } from '../base/root.js';
 import { Shelf } from './shelf.js';
 
-const WORKER = '/station-worker.js';
+const WORKER = at('/station-worker.js');
 
 export class Settings {
   /** scan(code) takes a code that was typed. */
   constructor(name, scanner, scan) {
     Object.assign(this, { scanner, scan, shelf: new Shelf('station/') });
     scanner.prefix = this.shelf.read('prefix') ?? '';
-    $('labels').href = `/station/${encodeURIComponent(name)}/labels`;
+    $('labels').href = `${ROOT}/station/${encodeURIComponent(name)}/labels`;
     on($('settings-open'), 'click', () => this.open());
     on($('prefix'), 'keydown', (event) => this.takeKey(event));
     this.keepPage();
@@ -45,7 +46,7 @@ export class Settings {
     const without = 'Picks are kept here all the same, but a reload needs the network';
     try {
       if (!navigator.serviceWorker) throw new Error('this address is not secure (https)');
-      await navigator.serviceWorker.register(WORKER, { scope: '/station/' });
+      await navigator.serviceWorker.register(WORKER, { scope: at('/station/') });
       $('reload-hint').textContent = 'This page can be reloaded without the network.';
     } catch (error) {
       $('reload-hint').textContent = `${without}: ${error.message}.`;

@@ -51,10 +51,10 @@ function front(bins, lit, quantity) {
   const isLit = ({ name }) => name === lit;
   // The nearer ones last; the lit one on top.
   const order = [...bins].sort((a, b) => isLit(a) - isLit(b) || a.depth - b.depth);
-  const [one] = order.filter(isLit);
+  const [first] = order.filter(isLit);
   return draw('', 0, 0, SIDE, TOP) + levels.map((z) => draw('plate', 0, z - 0.04, SIDE, 0.02)).join('')
     + order.map((bin) => draw(isLit(bin) ? 'bin lit' : 'bin', bin.x, bin.z - 0.02, 0.16, 0.22)).join('')
-    + (one ? `<text x="${SCALE * one.x}" y="${-SCALE * (one.z + 0.09)}">${quantity}</text>` : '');
+    + (first ? `<text x="${SCALE * first.x}" y="${-SCALE * (first.z + 0.09)}">${quantity}</text>` : '');
 }
 
 /** [{name, x, z, depth}] of a unit's bins, in its own frame [m], seen from its front. */

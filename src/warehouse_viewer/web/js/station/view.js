@@ -25,10 +25,10 @@ export class View {
   }
 
   show() {
-    const { bench } = this, { task, told } = bench;
-    $('unit').textContent = told?.shelf_id ? `storage unit ${told.shelf_id}` : '';
+    const { bench } = this, { task, state } = bench;
+    $('unit').textContent = state?.shelf_id ? `storage unit ${state.shelf_id}` : '';
     for (const id of ['take', 'buttons']) $(id).hidden = !task && !(id === 'buttons' && bench.undoable);
-    $('put').hidden = told?.mode !== StationMode.MANUAL || !bench.isPicking || !told.slots;
+    $('put').hidden = state?.mode !== StationMode.MANUAL || !bench.isPicking || !state.slots;
     $('idle').hidden = Boolean(task);
     $('work').dataset.shows = task ? bench.isPicking ? 'pick' : 'store' : 'idle';
     $('undo').disabled = !bench.undoable;
@@ -50,7 +50,7 @@ export class View {
     put('progress', hand + placed ? `${hand + placed} of ${quantity} counted${placed ? `, ${placed} in the tote` : ''}` : '');
     const more = bench.tasks.length - 1;
     put('next', more ? `then ${more} more from this unit` : 'the last one of this unit');
-    this.front.show(bench.told.shelf_id, item, quantity);
+    this.front.show(bench.state.shelf_id, item, quantity);
     this.showCount(task);
   }
 
@@ -75,11 +75,11 @@ export class View {
   }
 
   showIdle() {
-    const { bench } = this, { told } = bench;
+    const { bench } = this, { state } = bench;
     this.shown = '';
     for (const id of ['confirm', 'short', 'damaged']) $(id).hidden = true;
     document.querySelector('#buttons .count').hidden = true;
-    const [text, more, button] = this.idle(told);
+    const [text, more, button] = this.idle(state);
     put('idle-text', text);
     put('idle-more', more);
     $('by-hand').hidden = !button;
@@ -87,15 +87,15 @@ export class View {
   }
 
   /** [text, what to do, the button's text] where nothing is to be done. */
-  idle(told) {
+  idle(state) {
     const { bench, link } = this, kept = bench.outbox.entries.length;
-    if (!told) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];
-    if (told.mode !== StationMode.MANUAL) return [`${told.name} works automatically.`, '', 'Work manually'];
+    if (!state) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];
+    if (state.mode !== StationMode.MANUAL) return [`${state.name} works automatically.`, '', 'Work manually'];
     if (kept && link !== 'live') return ['All is done here.', 'The next storage unit comes when the network is back.', ''];
     if (kept) return ['All is done here.', 'Sending it to the server …', ''];
     const back = 'Back to automatic';
-    if (!told.open) return ['The station is closed.', '', back];
-    const { length: coming } = told.inbound;
+    if (!state.open) return ['The station is closed.', '', back];
+    const { length: coming } = state.inbound;
     if (!coming) return ['Nothing to be done.', 'No storage unit is on its way.', back];
     return ['The next storage unit is on its way.', coming > 1 ? `${coming} are coming.` : '', back];
   }
@@ -116,7 +116,7 @@ export class View {
     put('link', isAway ? `offline${waiting}` : link === 'idle' ? `no shift is running${waiting}` : 'live');
   }
 
-  /** Tells what became of something; it stays until something else is told. */
+  /** Shows what became of something, until the next result. */
   say({ ok, text }) {
     put('told', text);
     $('told').dataset.kind = ok ? 'done' : 'refused';

@@ -2,10 +2,10 @@
 // Keeps the files of a station's screen, so that a reload works while the network is gone. What the
 // server has is taken first, always; nothing of /api is ever kept.
 
-const NAME = 'station-2';
+const NAME = 'station-3';
 const PATIENCE = 2500; // for the server, before what is kept is taken [ms]
 const MODULES = {
-  base: ['api', 'changes', 'dom', 'message_enums', 'question', 'request', 'world'],
+  base: ['api', 'changes', 'dom', 'message_enums', 'question', 'request', 'root', 'world'],
   station: [
     'awake', 'bench', 'codes', 'main', 'news', 'outbox', 'scanner', 'send', 'settings', 'shelf', 'sounds', 'unit_drawing', 'view', 'wall',
   ],
@@ -31,7 +31,7 @@ async function dropOld() {
 self.addEventListener('fetch', (event) => {
   const { request } = event, { pathname, origin } = new URL(request.url);
   if (request.method !== 'GET' || origin !== location.origin) return;
-  const key = /^\/station\/[^/]+$/.test(pathname) ? PAGE : pathname;
+  const key = /^(\/s\/[^/]+)?\/station\/[^/]+$/.test(pathname) ? PAGE : pathname;
   if (FILES.includes(key)) event.respondWith(freshOrKept(request, key));
 });
 

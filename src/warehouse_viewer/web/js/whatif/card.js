@@ -2,6 +2,7 @@
 // A scenario in the list. Its elements stay while what they say changes, and so does the focus.
 
 import { make } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { pathOf } from './server.js';
 import { BADGES, describe, duration, interval, limitOf, plural } from './words.js';
 
@@ -36,26 +37,26 @@ export class Card {
     this.element.dataset.name = name;
   }
 
-  update(told, isPicked) {
+  update(scenario, isPicked) {
     this.pick.checked = isPicked;
     this.element.classList.toggle('picked', isPicked);
     this.pick.title = 'Compare';
-    const text = JSON.stringify(told);
+    const text = JSON.stringify(scenario);
     if (text === this.shown) return;
     this.shown = text;
-    this.told = told;
-    const [kind, words] = BADGES[told.state];
+    this.scenario = scenario;
+    const [kind, words] = BADGES[scenario.state];
     Object.assign(this.badge, { className: `badge ${kind}`, textContent: words });
-    this.about.textContent = told.settings ? describe(told.settings, told.site) : '';
-    this.showFigures(told.summary);
-    this.showProgress(told);
-    this.showTrouble(told);
-    this.showRuns(told);
-    const runs = told.state === 'runs', isWhole = told.state === 'done';
-    this.buttons.run.hidden = runs || isWhole || told.state === 'wrong';
-    this.buttons.run.textContent = told.state === 'none' ? 'Run' : 'Run what is missing';
+    this.about.textContent = scenario.settings ? describe(scenario.settings, scenario.site) : '';
+    this.showFigures(scenario.summary);
+    this.showProgress(scenario);
+    this.showTrouble(scenario);
+    this.showRuns(scenario);
+    const runs = scenario.state === 'runs', isWhole = scenario.state === 'done';
+    this.buttons.run.hidden = runs || isWhole || scenario.state === 'wrong';
+    this.buttons.run.textContent = scenario.state === 'none' ? 'Run' : 'Run what is missing';
     this.buttons.cancel.hidden = !runs;
-    this.buttons.change.hidden = this.buttons.duplicate.hidden = told.state === 'wrong';
+    this.buttons.change.hidden = this.buttons.duplicate.hidden = scenario.state === 'wrong';
     this.buttons.change.disabled = this.buttons.rename.disabled = runs;
   }
 
@@ -92,7 +93,7 @@ export class Card {
 
 function reportOf(name, run) {
   if (run.state === 'done') {
-    return [make('a', { href: `/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
+    return [make('a', { href: `${ROOT}/whatif${pathOf(name, `/seeds/${run.seed}/report.html`)}`, target: '_blank', rel: 'noopener', textContent: 'report' })];
   }
   if (run.state === 'runs') return [`${Math.floor(100 * run.share)} %`];
   return [REASONS[run.state] ?? (run.state === 'waits' ? 'waits' : 'not run yet')];

@@ -20,7 +20,7 @@ function group(label, options) {
 
 /** Chooses a value; one that is not offered is, so that a person sees what is gone. */
 export function choose(select, value) {
-  if (value && ![...select.options].some((one) => one.value === value)) select.append(option(value));
+  if (value && ![...select.options].some((choice) => choice.value === value)) select.append(option(value));
   if (value) select.value = value;
 }
 

@@ -2,6 +2,7 @@
 // Scenarios side by side: a chart with intervals, what differs, and a table of figures.
 
 import { $, make, on } from '../base/dom.js';
+import { ROOT } from '../base/root.js';
 import { queryOf } from './server.js';
 import { chartOf, draw, unitOf } from './whiskers.js';
 import { differences, interval, limitOf, number, plural } from './words.js';
@@ -12,25 +13,25 @@ export class Comparison {
   /** choose(name): is called where a person makes another scenario the reference. */
   constructor(choose) {
     this.choose = choose;
-    this.told = this.chart = null;
+    this.figures = this.chart = null;
     on($('figure'), 'change', () => this.draw());
     on(matchMedia('(prefers-color-scheme: light)'), 'change', () => this.draw());
   }
 
   /** Says why there is nothing to show. */
   clear(text) {
-    this.told = null;
+    this.figures = null;
     $('side-told').textContent = text;
     $('compared').hidden = $('report').hidden = true;
   }
 
   /** told: the server's comparison; scenarios: those that are compared, in its order. */
-  show(told, scenarios, defaults) {
-    Object.assign(this, { told, scenarios });
+  show(figures, scenarios, defaults) {
+    Object.assign(this, { figures, scenarios });
     const left = scenarios.filter(({ state }) => state !== 'done').map(({ name }) => name);
     $('side-told').textContent = left.length ? `Of ${left.join(', ')} not all runs are over; figures are of those that are.` : '';
     $('compared').hidden = $('report').hidden = false;
-    $('report').href = `/whatif/report.html?${queryOf(told.names)}`;
+    $('report').href = `${ROOT}/whatif/report.html?${queryOf(figures.names)}`;
     this.fillFigures();
     this.showTable(defaults);
     this.showNotes();
@@ -39,25 +40,25 @@ export class Comparison {
 
   fillFigures() {
     const select = $('figure'), chosen = select.value || 'pieces';
-    select.replaceChildren(...this.told.rows.map(({ key, title }) => make('option', { value: key, textContent: title })));
+    select.replaceChildren(...this.figures.rows.map(({ key, title }) => make('option', { value: key, textContent: title })));
     select.value = chosen;
   }
 
   draw() {
-    if (!this.told) return;
-    const row = this.told.rows.find(({ key }) => key === $('figure').value);
-    const shown = chartOf(this.told.names, row);
-    $('chart').setAttribute('aria-label', `${row.title}: ${this.told.names.map((name, i) => `${name} ${interval(row.cells[i], row.digits)}`).join(', ')} ${row.unit}`);
+    if (!this.figures) return;
+    const row = this.figures.rows.find(({ key }) => key === $('figure').value);
+    const shown = chartOf(this.figures.names, row);
+    $('chart').setAttribute('aria-label', `${row.title}: ${this.figures.names.map((name, i) => `${name} ${interval(row.cells[i], row.digits)}`).join(', ')} ${row.unit}`);
     this.chart = draw($('chart'), shown, this.chart);
   }
 
   showTable(defaults) {
-    const { names, rows } = this.told;
+    const { names, rows } = this.figures;
     const head = make('tr', {}, make('td'), ...names.map((name, i) => this.header(name, i)));
     const differs = differences(this.scenarios, defaults)
       .map(([what, texts]) => make('tr', {}, rowHead(what), ...texts.map((text) => make('td', { textContent: text }))));
     const figures = rows.map((row) => make('tr', {}, rowHead(row.title, row.unit), ...row.cells.map((cell, i) => cellOf(row, cell, i))));
-    const limit = make('tr', {}, rowHead('What limits it'), ...this.told.limits.map((one) => make('td', { textContent: limitOf(one) })));
+    const limit = make('tr', {}, rowHead('What limits it'), ...this.figures.limits.map((cause) => make('td', { textContent: limitOf(cause) })));
     $('table').replaceChildren(make('thead', {}, head),
       make('tbody', {}, title('What differs', names.length), ...(differs.length ? differs : [nothing(names.length)])),
       make('tbody', {}, title('What came of it', names.length), ...figures, limit));
@@ -70,11 +71,11 @@ export class Comparison {
   }
 
   showNotes() {
-    const { warm_up: warmUp, rows } = this.told;
+    const { warm_up: warmUp, rows } = this.figures;
     const counts = [...new Set(rows[0].cells.map(({ count }) => count))];
     const few = Math.min(...counts) < 3 ? ' Fewer than three runs have no interval and say nothing about chance: give each scenario three repetitions or more.' : '';
     const after = rows.filter(({ note }) => note !== 'the whole shift').map(({ title: text }) => text.toLowerCase()).join('; ');
-    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.told.names[0]}: the difference seed by seed is above chance`
+    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.figures.names[0]}: the difference seed by seed is above chance`
       + ` (p < 0.05, corrected for all differences in the table; its interval is, too).${few}`
       + ` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
   }

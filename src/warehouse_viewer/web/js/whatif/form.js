@@ -8,7 +8,7 @@ import { dayOf, duration, layoutOf, plural } from './words.js';
 
 const PAUSE = 350; // [ms] after a change, until the server is asked about it
 const count = (what) => $(`own-${what}`).valueAsNumber || 0;
-const KINDS = { fill: 'never run out', mix: 'so many an hour', file: 'of a CSV file' };
+const KINDS = { fill: 'never run out', mix: 'arrive at a rate', file: 'of a CSV file' };
 
 export class Form {
   /** keep(name, settings, runs, old): makes or changes a scenario; rejects with the reason. */

@@ -42,7 +42,7 @@ export class Intro {
     };
   }
 
-  /** [name, settings] of both; the names tell their robots apart where the layout is the same. */
+  /** [name, settings] of both; the names have the count of robots where the layout is the same. */
   pairs() {
     const both = SIDES.map((side) => this.settings(side));
     const isSame = both[0].layout === both[1].layout;

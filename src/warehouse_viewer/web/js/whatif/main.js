@@ -4,7 +4,7 @@
 import { reloadIfLockedOut } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
 import { ask as asked, confirmed } from '../base/question.js';
-import { Told } from './told.js';
+import { Notice } from './notice.js';
 import { Card } from './card.js';
 import { Comparison } from './comparison.js';
 import { Form } from './form.js';
@@ -21,7 +21,7 @@ class Page {
     this.about = about;
     this.cards = new Map();
     this.scenarios = null;
-    this.told = new Told($('told'));
+    this.notice = new Notice($('told'));
     this.picks = new Picks(about.most.compared, () => this.showPicks());
     this.comparison = new Comparison((name) => this.picks.makeFirst(name));
     this.form = new Form(about, (...kept) => this.keep(...kept));
@@ -54,13 +54,13 @@ class Page {
       rename: (name) => this.rename(name),
       remove: (name) => this.remove(name),
       pick: (name) => {
-        if (!this.picks.toggle(name)) this.told.say(`${this.about.most.compared} scenarios are compared at most; take one away first.`);
+        if (!this.picks.toggle(name)) this.notice.say(`${this.about.most.compared} scenarios are compared at most; take one away first.`);
         this.showPicks();
       },
     };
   }
 
-  // --- what the server tells
+  // --- what the server sends
   /** Asks for all scenarios, and again after a while. */
   async look() {
     clearTimeout(this.timer);
@@ -98,10 +98,10 @@ class Page {
       card.element.remove();
       this.cards.delete(name);
     }
-    this.scenarios.forEach((told, i) => {
-      if (!this.cards.has(told.name)) this.cards.set(told.name, new Card(told.name, this.actions));
-      const card = this.cards.get(told.name);
-      card.update(told, this.picks.has(told.name));
+    this.scenarios.forEach((scenario, i) => {
+      if (!this.cards.has(scenario.name)) this.cards.set(scenario.name, new Card(scenario.name, this.actions));
+      const card = this.cards.get(scenario.name);
+      card.update(scenario, this.picks.has(scenario.name));
       if ($('list').children[i] !== card.element) $('list').insertBefore(card.element, $('list').children[i] ?? null);
     });
   }
@@ -124,7 +124,7 @@ class Page {
 
   /** Shows those that are picked side by side, as far as they have run. */
   async compare() {
-    const chosen = this.picks.names.map((name) => this.scenarios.find((one) => one.name === name)).filter(Boolean);
+    const chosen = this.picks.names.map((name) => this.scenarios.find((scenario) => scenario.name === name)).filter(Boolean);
     const bare = chosen.filter(({ summary }) => !summary);
     if (chosen.length < 2) this.comparison.clear('Tick two to six scenarios to see them side by side.');
     else if (bare.length) this.comparison.clear(`${bare.map(({ name }) => name).join(', ')}: no run is over yet.`);
@@ -133,11 +133,11 @@ class Page {
 
   async fetchComparison(chosen) {
     const state = JSON.stringify(chosen.map(({ name, summary, state: all }) => [name, summary, all]));
-    if (state === this.compared && this.comparison.told) return;
+    if (state === this.compared && this.comparison.figures) return;
     this.compared = state;
     try {
-      const told = await ask('GET', `/compare?${queryOf(chosen.map(({ name }) => name))}`);
-      if (state === this.compared) this.comparison.show(told, chosen, this.about.default_policies);
+      const figures = await ask('GET', `/compare?${queryOf(chosen.map(({ name }) => name))}`);
+      if (state === this.compared) this.comparison.show(figures, chosen, this.about.default_policies);
     } catch (error) {
       this.compared = null;
       this.comparison.clear(error.message);
@@ -149,7 +149,7 @@ class Page {
     try {
       await act();
     } catch (error) {
-      this.told.say(error.message);
+      this.notice.say(error.message);
     }
   }
 
@@ -173,7 +173,7 @@ class Page {
   }
 
   change(name) {
-    const { settings, summary } = this.scenarios.find((one) => one.name === name);
+    const { settings, summary } = this.scenarios.find((scenario) => scenario.name === name);
     this.form.open(settings, { old: name, hasRuns: Boolean(summary) });
   }
 
@@ -188,14 +188,14 @@ class Page {
     if (await asked($('renamer')) !== 'yes') return;
     await this.attempt(async () => {
       const { name: to } = await ask('POST', pathOf(name, '/rename'), { to: $('new-name').value });
-      this.scenarios.find((one) => one.name === name).name = to;
+      this.scenarios.find((scenario) => scenario.name === name).name = to;
       this.picks.rename(name, to);
       await this.look();
     });
   }
 
   async remove(name) {
-    const { runs } = this.scenarios.find((one) => one.name === name);
+    const { runs } = this.scenarios.find((scenario) => scenario.name === name);
     const done = runs.filter(({ state }) => state === 'done').length;
     const text = done ? `Its ${plural(done, 'run')} with their reports are deleted with it.` : 'It has no runs yet.';
     if (!await confirmed(`Delete ${name}?`, text, 'Delete', 'Keep it')) return;

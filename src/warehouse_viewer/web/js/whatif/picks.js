@@ -43,12 +43,12 @@ export class Picks {
   toggle(name) {
     const isNew = !this.has(name);
     if (isNew && this.names.length >= this.most) return false;
-    this.set(isNew ? [...this.names, name] : this.names.filter((one) => one !== name));
+    this.set(isNew ? [...this.names, name] : this.names.filter((other) => other !== name));
     return true;
   }
 
   makeFirst(name) {
-    this.set([name, ...this.names.filter((one) => one !== name)]);
+    this.set([name, ...this.names.filter((other) => other !== name)]);
   }
 
   rename(from, to) {

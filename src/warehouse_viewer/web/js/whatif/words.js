@@ -73,7 +73,7 @@ export function describe(settings, site) {
 
 /** [what, a text for each scenario] of what is not the same in all. */
 export function differences(scenarios, defaults) {
-  const told = {
+  const texts = {
     Layout: ({ settings }) => layoutOf(settings.layout),
     Robots: ({ site }) => number(site.robots),
     'Picking stations': ({ site }) => number(site.stations),
@@ -82,7 +82,7 @@ export function differences(scenarios, defaults) {
     Repetitions: ({ settings }) => number(settings.seeds),
     'Robots are': ({ settings }) => DAYS_SHORT[dayOf(settings)],
   };
-  for (const [role, text] of Object.entries(ROLES)) told[text] = ({ settings }) => settings.policies[role] ?? defaults[role];
-  return Object.entries(told).map(([what, tell]) => [what, scenarios.map(tell)])
-    .filter(([, texts]) => new Set(texts).size > 1);
+  for (const [role, name] of Object.entries(ROLES)) texts[name] = ({ settings }) => settings.policies[role] ?? defaults[role];
+  return Object.entries(texts).map(([what, tell]) => [what, scenarios.map(tell)])
+    .filter(([, row]) => new Set(row).size > 1);
 }

@@ -88,8 +88,8 @@ class Shift:
 
     def told_stations(self, message):
         self.watch.update(60.0, message.stations, None)
-        told = operations_json.stations(message)
-        return [row | self.watch.told(one) for row, one in zip(told, message.stations)]
+        result = operations_json.stations(message)
+        return [row | self.watch.told(item) for row, item in zip(result, message.stations)]
 
 
 def test_a_follower_gets_what_stands_first_and_then_what_changes():
@@ -115,8 +115,8 @@ def test_a_follower_gets_what_stands_first_and_then_what_changes():
         assert orders["orders"][1]["lines"] == [{"sku": "sku-1", "quantity": 2, "picked": 2}]
         assert stock["stock"][0]["quantity"] == 4 and not stock["missed"]
         # What OpenAPI says of it is so.
-        for kind, told in ((changes.OrdersChanged, orders), (changes.StockChanged, stock)):
-            assert json.loads(as_json(kind(**told))) == told
+        for kind, result in ((changes.OrdersChanged, orders), (changes.StockChanged, stock)):
+            assert json.loads(as_json(kind(**result))) == result
         changes.StationsNow(**socket.texts[1])
 
     asyncio.run(scenario())
@@ -164,17 +164,17 @@ def test_prometheus_gets_every_figure_that_the_dashboard_shows():
     text, kind = Metrics(feed, shift.work).text()
     assert kind.startswith("text/plain")
     families = list(text_string_to_metric_families(text.decode()))
-    told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
-    assert told["warehouse_items_picked_total",] == 42
-    assert told["warehouse_orders", "open"] == 7
-    assert told["warehouse_orders_late",] == 3
-    assert told["warehouse_robots", "bringing"] == 5
-    assert told["warehouse_plan_seconds", "99"] == pytest.approx(0.02)
-    assert told["warehouse_alarms",] == 2 and told["warehouse_real_time_factor",] == 0.9
-    assert told["warehouse_station_queue", "PICK", "pick2"] == 2
+    samples = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
+    assert samples["warehouse_items_picked_total",] == 42
+    assert samples["warehouse_orders", "open"] == 7
+    assert samples["warehouse_orders_late",] == 3
+    assert samples["warehouse_robots", "bringing"] == 5
+    assert samples["warehouse_plan_seconds", "99"] == pytest.approx(0.02)
+    assert samples["warehouse_alarms",] == 2 and samples["warehouse_real_time_factor",] == 0.9
+    assert samples["warehouse_station_queue", "PICK", "pick2"] == 2
     panels = json.loads(DASHBOARD.read_text())["panels"]
     asked = {name for p in panels for t in p["targets"] for name in names_in(t["expr"])}
-    assert asked == {name for name, *_ in told}
+    assert asked == {name for name, *_ in samples}
 
 
 def names_in(expression):
@@ -201,10 +201,10 @@ def test_a_shift_that_ends_meanwhile_costs_its_own_figures_alone():
 
 
 def test_the_description_has_the_web_sockets_with_their_messages():
-    told = description.described(FastAPI(title="x", version="1"))
-    kinds = told["components"]["schemas"]
-    messages = told["x-websockets"]["/api/v1/changes"]["messages"]
+    api = description.described(FastAPI(title="x", version="1"))
+    kinds = api["components"]["schemas"]
+    messages = api["x-websockets"]["/api/v1/changes"]["messages"]
     types = [kinds[m["$ref"].rsplit("/", 1)[-1]]["properties"]["type"] for m in messages]
     # pydantic 2 tells a single value as a constant.
-    named = [told["const"] if "const" in told else told["enum"][0] for told in types]
+    named = [api["const"] if "const" in api else api["enum"][0] for api in types]
     assert sorted(named) == sorted(["shift", *changes.TOPICS])

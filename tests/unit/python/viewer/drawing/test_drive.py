@@ -43,10 +43,12 @@ def test_a_drive_is_reported_and_recorded(plan, tmp_path):
     out = tmp_path / "out"
     done = run(*plan, "--out", out, "--record")
     assert done.returncode == 0, done.stderr
-    told = json.loads((out / "drive.json").read_text())
-    assert (told["robots"], told["at_their_ends"], told["contacts"]) == (2, 2, 0)
-    assert 1.0 < told["executed_over_planned"] < 1.2, "nothing is in their way"
-    assert sum(told["robot_seconds"].values()) == pytest.approx(2 * told["simulated_s"], abs=0.5)
+    report = json.loads((out / "drive.json").read_text())
+    assert (report["robots"], report["at_their_ends"], report["contacts"]) == (2, 2, 0)
+    assert 1.0 < report["executed_over_planned"] < 1.2, "nothing is in their way"
+    assert sum(report["robot_seconds"].values()) == pytest.approx(
+        2 * report["simulated_s"], abs=0.5
+    )
     assert all(words in done.stdout for words in WORDS.values())
     assert "tick 29 of 29" in done.stderr
     assert (out / "drive.png").read_bytes().startswith(b"\x89PNG")
@@ -58,8 +60,8 @@ def test_a_drive_is_reported_and_recorded(plan, tmp_path):
 def test_ticks_drive_the_begin_of_a_plan(plan, tmp_path):
     done = run(*plan, "--out", tmp_path, "--ticks", 5)
     assert done.returncode == 0, done.stderr
-    told = json.loads((tmp_path / "drive.json").read_text())
-    assert (told["ticks"], told["cells"]) == (5, 10)
+    report = json.loads((tmp_path / "drive.json").read_text())
+    assert (report["ticks"], report["cells"]) == (5, 10)
 
 
 def test_ctrl_c_reports_what_was_driven(plan, tmp_path):
@@ -77,11 +79,11 @@ def test_ctrl_c_reports_what_was_driven(plan, tmp_path):
     assert driving.returncode == 130
     assert "Traceback" not in err
     assert "executed over planned" in out
-    told = json.loads((tmp_path / "drive.json").read_text())
-    assert told["interrupted"]
-    assert 0 < told["simulated_s"] < 29 * rounds
-    assert 0 < told["cells"] < 2 * 29 * rounds
-    assert 1.0 < told["executed_over_planned"] < 2.0, "as far as robots have come"
+    report = json.loads((tmp_path / "drive.json").read_text())
+    assert report["interrupted"]
+    assert 0 < report["simulated_s"] < 29 * rounds
+    assert 0 < report["cells"] < 2 * 29 * rounds
+    assert 1.0 < report["executed_over_planned"] < 2.0, "as far as robots have come"
 
 
 def test_a_damaged_plan_is_refused_in_a_sentence(plan, tmp_path):
@@ -95,10 +97,10 @@ def test_a_damaged_plan_is_refused_in_a_sentence(plan, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("option", "told"),
+    ("option", "reason"),
     [("--ticks 0", "--ticks: 0; a whole number from 1 was"), ("--threads 257", "from 1 to 256")],
 )
-def test_options_out_of_range_are_refused(plan, option, told):
+def test_options_out_of_range_are_refused(plan, option, reason):
     done = run(*plan, *option.split())
     assert done.returncode == 2
-    assert told in done.stderr
+    assert reason in done.stderr

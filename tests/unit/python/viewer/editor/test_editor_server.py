@@ -63,23 +63,25 @@ def test_a_good_layout_has_no_faults():
 
 def test_faults_have_sentences_and_cells():
     text = SMALL.replace("robots: [[", "robots: [[0, 12], [")
-    _, told = ask("/layout/check", {"text": text.replace("storage_units: 24", "storage_units: 99")})
-    assert told["faults"] and all(f["text"] and "cells" in f for f in told["faults"])
-    _, told = ask("/layout/check", {"text": "layout: 1\nfloor: |\n  .?\n"})
-    assert told["faults"][0]["text"].startswith("3:4: '?' is not a cell")
+    _, result = ask(
+        "/layout/check", {"text": text.replace("storage_units: 24", "storage_units: 99")}
+    )
+    assert result["faults"] and all(f["text"] and "cells" in f for f in result["faults"])
+    _, result = ask("/layout/check", {"text": "layout: 1\nfloor: |\n  .?\n"})
+    assert result["faults"][0]["text"].startswith("3:4: '?' is not a cell")
 
 
 def test_lanes_that_are_found_leave_room_for_each_other():
-    told = checking.checked(TWO_ON_A_LINE)
-    lanes = {key: {tuple(cell) for cell in cells} for key, cells in told["lanes"].items()}
+    result = checking.checked(TWO_ON_A_LINE)
+    lanes = {key: {tuple(cell) for cell in cells} for key, cells in result["lanes"].items()}
     assert set(lanes) == {"A", "B"} and not lanes["A"] & lanes["B"]
-    assert not told["faults"]
+    assert not result["faults"]
 
 
 def test_a_file_is_opened_as_it_is():
-    status, told = ask("/layout/read", files(small_layout_yaml=SMALL))
-    assert status == 200 and told["told"] == []
-    assert told["drawing"] == json.loads(
+    status, result = ask("/layout/read", files(small_layout_yaml=SMALL))
+    assert status == 200 and result["told"] == []
+    assert result["drawing"] == json.loads(
         json.dumps(drawing_json.of_file(layout_file.parse(SMALL, "small.layout.yaml")))
     )
 
@@ -94,8 +96,8 @@ def test_a_file_is_opened_as_it_is():
     ],
 )
 def test_a_wrong_file_is_refused_with_the_reason(sent, reason):
-    status, told = ask("/layout/read", sent)
-    assert status == 409 and told["detail"].startswith(reason), told
+    status, result = ask("/layout/read", sent)
+    assert status == 409 and result["detail"].startswith(reason), result
 
 
 @pytest.mark.parametrize("body", [None, [], {"txt": ""}, {"text": 3}])

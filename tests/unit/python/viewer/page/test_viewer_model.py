@@ -25,9 +25,9 @@ def test_a_newcomer_gets_all_and_then_what_changed():
     world = World()
     assert world.turn()
     assert rows(world.model.encode_update(-1)) == [2, 1, 1, 1]
-    seen = world.model.tick
+    tick = world.model.tick
     assert world.turn(fleet=fleet(x=(0.0, 1.5)))
-    assert rows(world.model.encode_update(seen)) == [1, 0, 0, 0]
+    assert rows(world.model.encode_update(tick)) == [1, 0, 0, 0]
     assert rows(world.model.encode_update(world.model.tick)) == [0, 0, 0, 0]
 
 
@@ -86,12 +86,12 @@ def test_a_carried_unit_costs_nothing_while_it_is_driven():
     world.turn()
     world.turn(fleet=fleet(shelf=(1, 0)), states=states(x=0.0, z=0.1, carrier=1))
     assert unit_row(world.model)["pose"][:3] == pytest.approx([0, 0, 0.1])
-    seen = world.model.tick
+    tick = world.model.tick
     world.turn(
         fleet=fleet(x=(0.7, 1.0), vx=(1.0, 0.0), shelf=(1, 0)),
         states=states(x=0.55, z=0.1, carrier=1),  # of another moment
     )
-    assert rows(world.model.encode_update(seen)) == [1, 0, 0, 0]
+    assert rows(world.model.encode_update(tick)) == [1, 0, 0, 0]
 
 
 def test_a_unit_first_seen_under_way_sits_on_its_robot():
@@ -132,10 +132,10 @@ def test_a_new_scene_when_something_comes():
 def test_scenery_that_moves_is_no_new_scene():
     world = World()
     world.turn()
-    before, seen = world.model.revision, world.model.tick
+    before, tick = world.model.revision, world.model.tick
     world.turn(scenery=scenery(x=8.0))
     assert world.model.revision == before
-    assert rows(world.model.encode_update(seen)) == [0, 0, 0, 1]
+    assert rows(world.model.encode_update(tick)) == [0, 0, 0, 1]
 
 
 def test_looks_come_by_link():

@@ -62,8 +62,8 @@ class Run:
 
 def told(recording, number, kind=chunk.TEXT):
     """[(stamp, message)] of a kind in a chunk."""
-    found = messages(unpacked(recording.chunk_data(number)))
-    return [(s, json.loads(m) if kind == chunk.TEXT else m) for k, s, m in found if k == kind]
+    rows = messages(unpacked(recording.chunk_data(number)))
+    return [(s, json.loads(m) if kind == chunk.TEXT else m) for k, s, m in rows if k == kind]
 
 
 def robots(update):
@@ -87,7 +87,7 @@ def test_a_recording_is_read_as_it_was_written(file):
     recording = FileRecording(file)
     assert recording.about == {"name": "small"}
     assert recording.cut == ""
-    begins = [one.begin for one in recording.chunks]
+    begins = [chunk.begin for chunk in recording.chunks]
     assert begins == [0, LENGTH, 2 * LENGTH]
     second = recording.chunks[1]
     assert second.marks == (Mark(40.1, "COLLISION", "kiva1", "x"),)
@@ -104,7 +104,7 @@ def test_a_chunk_alone_tells_the_figures_and_the_events_before_it(file):
     recording = FileRecording(file)
     texts = told(recording, recording.chunks[2].number)
     assert texts[0][1]["type"] == "past"
-    assert [one["kind"] for one in texts[0][1]["events"]] == ["COLLISION"]
+    assert [text["kind"] for text in texts[0][1]["events"]] == ["COLLISION"]
     assert texts[1] == (60, {"type": "figures", "kpis": {"orders_completed": 7}})
 
 
@@ -137,7 +137,7 @@ def test_what_was_undone_is_not_played(kind, tmp_path):
     store = MemoryStore() if kind == "memory" else FileWriter(tmp_path / NAME, {})
     Run(store).go(0, 70).go(45, 50).recorder.close()
     recording = store if kind == "memory" else FileRecording(tmp_path / NAME)
-    times = [(one.begin, one.end) for one in recording.chunks]
+    times = [(chunk.begin, chunk.end) for chunk in recording.chunks]
     assert times == [(0, 29.5), (30, 45), (45, 49.5)]
 
 
@@ -170,8 +170,8 @@ def damaged(file, at):
 def test_a_damaged_chunk_says_so_and_the_others_play(file):
     second = FileRecording(file).chunks[1].number
     with file.open("rb") as opened:
-        found, _ = blocks.read_blocks(opened, "")
-    block = [one for one in found if one.what == blocks.CHUNK][1]
+        parts, _ = blocks.read_blocks(opened, "")
+    block = [part for part in parts if part.what == blocks.CHUNK][1]
     damaged(file, block.at + block.json_length + 20)
     recording = FileRecording(file)
     with pytest.raises(RecordingError, match=rf"{NAME}: byte {block.at}: the block is damaged"):
@@ -301,7 +301,7 @@ def test_a_bag_is_converted_with_its_events(tmp_path):
         bag.write("/warehouse/events", blocked, rospy.Time(20))
     recording = open_recording(path, tmp_path)
     assert (recording.chunks[0].begin, recording.chunks[-1].end) == (1, 39)
-    assert [mark.kind for one in recording.chunks for mark in one.marks] == ["BLOCKED"]
+    assert [mark.kind for chunk in recording.chunks for mark in chunk.marks] == ["BLOCKED"]
 
 
 def test_a_bag_with_nothing_to_play_says_what_is_missing(tmp_path):
@@ -375,14 +375,16 @@ def test_a_shift_is_simulated_recorded_and_served(tmp_path):
     assert (index["begin"], round(index["end"])) == (0, 60)
     first = FileRecording(tmp_path / NAME).chunks[0]
     kinds = {
-        one["kind"]
+        item["kind"]
         for _, m in told(FileRecording(tmp_path / NAME), first.number)
         if m["type"] == "events"
-        for one in m["events"]
+        for item in m["events"]
     }
     assert "ACCEPTED" in kinds
     figures = [m for _, m in told(FileRecording(tmp_path / NAME), first.number) if "fleet" in m]
-    assert set(figures[-1]["fleet"]["queues"]) == {one["name"] for one in figures[-1]["stations"]}
+    assert set(figures[-1]["fleet"]["queues"]) == {
+        figure["name"] for figure in figures[-1]["stations"]
+    }
     assert sum(figures[-1]["fleet"]["work"].values()) == figures[-1]["fleet"]["robots"]["automatic"]
 
 

@@ -42,26 +42,23 @@ def paths(stamp=1.0):
 
 
 def test_ways_are_of_the_wanted_robots_and_as_described():
-    whole, one = protocol.ways(paths()), protocol.ways(paths(), {2})
+    whole, part = protocol.ways(paths()), protocol.ways(paths(), {2})
     assert struct.unpack_from("<II", whole) == (protocol.WAYS, 2)
     assert len(whole) == 8 + 2 * 24 + 5 * 8
-    assert struct.unpack_from("<II", one) == (protocol.WAYS, 1)
-    row = np.frombuffer(one, protocol.WAY, 1, 8)[0]
+    assert struct.unpack_from("<II", part) == (protocol.WAYS, 1)
+    row = np.frombuffer(part, protocol.WAY, 1, 8)[0]
     assert (row["kiva_id"], row["waits_for"], row["released"], row["planned"]) == (2, 1, 1, 0)
     assert np.isnan(row["goal"]).all()
-    assert np.frombuffer(one, "<f4", 2, 8 + 24).tolist() == [5, 5]
+    assert np.frombuffer(part, "<f4", 2, 8 + 24).tolist() == [5, 5]
 
 
 def test_a_page_is_told_of_the_fleet_once_and_of_its_end():
     async def scenario():
         socket, hub = Socket(), hub_of(World())
         page = Page(socket, 0)
-        for told in (
-            None,
-            coordinator_state(manual_kiva=[3], waiting_kiva=[4], waiting_for=[0]),
-            None,
-        ):
-            hub._feed.coordinator = told
+        running = coordinator_state(manual_kiva=[3], waiting_kiva=[4], waiting_for=[0])
+        for newest in (None, running, None):
+            hub._feed.coordinator = newest
             await hub._send_changes(page)
             await hub._send_changes(page)
         first, last = socket.texts
@@ -74,15 +71,15 @@ def test_a_page_is_told_of_the_fleet_once_and_of_its_end():
 def test_a_page_gets_the_ways_that_it_wants():
     async def scenario():
         socket, hub = Socket(), hub_of(World())
-        page, wanted = Page(socket, 0), []
+        page, asked = Page(socket, 0), []
         hub._pages.add(page)
         hub._feed = FakeFeed(ways=paths())
-        hub._feed.subscribe_extras = lambda paths, ways, scans: wanted.append(ways)
+        hub._feed.subscribe_extras = lambda paths, ways, scans: asked.append(ways)
         for wish in ([], [2], "all"):
             await hub._handle(page, {"watch": {"ways": wish}})
             await hub._send_changes(page)
             await hub._send_changes(page)
-        assert wanted == [False, True, True]
+        assert asked == [False, True, True]
         assert socket.updates == [protocol.ways(paths(), {2}), protocol.ways(paths())]
 
     asyncio.run(scenario())

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from warehouse_layout.file.request import PRESETS, resolve
-from warehouse_layout.place.layout import plan
+from warehouse_layout.generate.generated import plan
 from warehouse_viewer.rviz import first_view
 from warehouse_viewer.shared_files import RVIZ_CONFIG
 
@@ -33,8 +33,8 @@ def seen(view, points):
 
 
 def view_of(points, floor=(-5, 5, -5, 5)):
-    told = yaml.safe_load(first_view.config(CONFIG, first_view.around(points, floor)))
-    return told["Visualization Manager"]["Views"]["Current"]
+    result = yaml.safe_load(first_view.config(CONFIG, first_view.around(points, floor)))
+    return result["Visualization Manager"]["Views"]["Current"]
 
 
 def points_of(name):

@@ -42,8 +42,8 @@ def test_labels_of_totes_buttons_and_goods_are_printed():
 
 
 def test_the_screen_knows_the_codes_that_are_printed():
-    told = re.search(r"COMMANDS = \[(.*?)\]", CODES.read_text())
-    assert re.findall(r"'(\w+)'", told.group(1)) == list(labels.COMMANDS)
+    result = re.search(r"COMMANDS = \[(.*?)\]", CODES.read_text())
+    assert re.findall(r"'(\w+)'", result.group(1)) == list(labels.COMMANDS)
 
 
 def test_a_name_of_no_station_is_told():
@@ -65,5 +65,5 @@ def test_a_name_of_no_station_is_told():
     ids=["good", "empty", "long", "line", "many"],
 )
 def test_what_is_no_sku_gets_no_label(skus, fault):
-    told = labels.fault_of(skus)
-    assert told.endswith(fault) if fault else told == ""
+    result = labels.fault_of(skus)
+    assert result.endswith(fault) if fault else result == ""

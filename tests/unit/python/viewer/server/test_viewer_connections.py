@@ -137,7 +137,7 @@ def test_a_machine_that_fell_asleep_is_no_error(caplog):
         writer.close()
         await asyncio.wait_for(gone.wait(), PATIENCE)
 
-    application = Starlette(routes=[WebSocketRoute("/", lambda one: sockets.admit(one, tell))])
+    application = Starlette(routes=[WebSocketRoute("/", lambda s: sockets.admit(s, tell))])
     serving(visit, application, ws="websockets", ws_ping_interval=0.1, ws_ping_timeout=0.1)
     assert "Exception" not in caplog.text
 

@@ -24,8 +24,8 @@ def test_of_a_file(tmp_path):
 
 def test_of_the_environment(tmp_path):
     environment = {"WAREHOUSE_TOKEN": SECRET, "ROS_HOME": str(tmp_path)}
-    found, where = token.find(needed=True, environment=environment)
-    assert found == SECRET
+    secret, where = token.find(needed=True, environment=environment)
+    assert secret == SECRET
     assert "WAREHOUSE_TOKEN" in where
     assert not list(tmp_path.iterdir())
 
@@ -36,10 +36,10 @@ def test_none_is_needed_on_this_machine_alone(tmp_path):
 
 def test_one_that_is_needed_is_made_once_for_its_owner_alone(tmp_path):
     environment = {"ROS_HOME": str(tmp_path)}
-    found, where = token.find(needed=True, environment=environment)
-    assert len(found) >= 32
+    secret, where = token.find(needed=True, environment=environment)
+    assert len(secret) >= 32
     assert os.stat(where).st_mode & 0o777 == 0o600
-    assert token.find(needed=True, environment=environment) == (found, where)
+    assert token.find(needed=True, environment=environment) == (secret, where)
 
 
 @pytest.mark.parametrize(

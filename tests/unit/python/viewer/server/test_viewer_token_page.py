@@ -83,16 +83,16 @@ def test_without_a_token_there_is_no_form():
 def test_the_owner_s_terminal_tells_the_whole_address():
     here = "localhost", 8080
     assert invitation.text(*here) == "\nWatch it in a browser: http://localhost:8080/\n"
-    told = invitation.text(*here, "abc", "/home/me/token", is_private=True)
-    assert "http://localhost:8080/#token=abc\n" in told and "▀" not in told
+    result = invitation.text(*here, "abc", "/home/me/token", is_private=True)
+    assert "http://localhost:8080/#token=abc\n" in result and "▀" not in result
     # A log does not.
     hidden = invitation.text("0.0.0.0", 8080, "abcdefgh", "/home/me/token")
     assert "abcdefgh" not in hidden and "/home/me/token" in hidden
-    assert "…" not in told + hidden
+    assert "…" not in result + hidden
 
 
 def test_a_phone_can_read_the_address():
     pytest.importorskip("segno")
-    told = invitation.text("0.0.0.0", 8080, "abc", "/home/me/token", is_private=True)
-    assert "Or on a phone:" in told and "▀" in told
-    assert max(map(len, told.splitlines())) < 80
+    result = invitation.text("0.0.0.0", 8080, "abc", "/home/me/token", is_private=True)
+    assert "Or on a phone:" in result and "▀" in result
+    assert max(map(len, result.splitlines())) < 80

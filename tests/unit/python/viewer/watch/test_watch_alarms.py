@@ -4,8 +4,8 @@
 import pytest
 from sample_messages import fleet
 
+from warehouse_layout.message_enums import EventKind
 from warehouse_msgs.msg import CoordinatorState, StationState
-from warehouse_viewer.message_enums import EventKind
 from warehouse_viewer.watch import troubles
 from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
@@ -44,7 +44,7 @@ def test_the_worst_comes_first_and_of_those_the_oldest():
     book.update(10, [NOTICE])
     book.update(20, [NOTICE, BROKEN])
     book.update(30, [NOTICE, BROKEN, BROKEN._replace(subject="kiva1", since=15.0)])
-    assert [(one["kind"], one["subject"]) for one in book.told()][:2] == [
+    assert [(item["kind"], item["subject"]) for item in book.told()][:2] == [
         ("ROBOT_BROKEN", "kiva1"),
         ("ROBOT_BROKEN", "kiva3"),
     ]
@@ -106,19 +106,19 @@ def test_a_robot_that_waits_for_long_is_told_with_its_reason():
 def test_robots_that_need_help_are_told():
     message = fleet()
     message.failures, message.last_end = bytes([0, 2]), bytes([EventKind.BLOCKED] * 2)
-    kinds = [(one.kind, one.subject) for one in troubles.of_fleet(message)]
+    kinds = [(trouble.kind, trouble.subject) for trouble in troubles.of_fleet(message)]
     assert kinds == [("ROBOT_BROKEN", "kiva2"), ("ROBOT_BLOCKED", "kiva1")]
 
 
 def test_a_station_that_waits_says_for_whom():
     manual = StationState(name="pick1", kind="PICK", shelf_id=4, waiting=80.0)
     empty = StationState(name="pick2", kind="PICK", orders=[1, 2], inbound=[7])
-    found = list(troubles.of_stations([manual, empty], 300.0, {"pick2": 10.0}))
-    assert [(one.kind, one.since) for one in found] == [
+    pending = list(troubles.of_stations([manual, empty], 300.0, {"pick2": 10.0}))
+    assert [(trouble.kind, trouble.since) for trouble in pending] == [
         ("STATION_UNATTENDED", 220.0),
         ("STATION_STARVED", 10.0),
     ]
-    assert "unit 4" in found[0].text and "1 on their way" in found[1].text
+    assert "unit 4" in pending[0].text and "1 on their way" in pending[1].text
 
 
 def test_what_happened_in_a_moment_is_told_for_a_while_and_counted():
@@ -127,8 +127,8 @@ def test_what_happened_in_a_moment_is_told_for_a_while_and_counted():
     moments.take_event(event)
     moments.take_event(event | {"time": 150.0})
     moments.take_event(event | {"kind": "DONE"})
-    (one,) = moments.lasting(200.0)
-    assert (one.kind, one.text) == ("COLLISION", "kiva1: touched wall (2 times)")
+    (trouble,) = moments.lasting(200.0)
+    assert (trouble.kind, trouble.text) == ("COLLISION", "kiva1: touched wall (2 times)")
     assert moments.lasting(150.0 + troubles.LASTING) == []
 
 
@@ -137,4 +137,4 @@ def test_the_watchdog_is_told_when_it_acts_again():
     moments.take_watchdog(4, 10.0)
     assert moments.lasting(11.0) == []
     moments.take_watchdog(5, 20.0)
-    assert [one.kind for one in moments.lasting(21.0)] == ["WATCHDOG"]
+    assert [trouble.kind for trouble in moments.lasting(21.0)] == ["WATCHDOG"]

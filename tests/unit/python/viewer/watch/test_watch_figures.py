@@ -9,9 +9,9 @@ from sample_messages import fleet
 
 from warehouse_msgs.msg import Kpis, StationState, Throughput
 from warehouse_viewer.api import order_sheet
-from warehouse_viewer.page.activities import Activity
+from warehouse_viewer.page.activities import QUEUED_TOO_LONG, Activity
 from warehouse_viewer.watch.figures import Figures
-from warehouse_viewer.watch.station_watch import QUEUED_TOO_LONG, StationWatch, state_of
+from warehouse_viewer.watch.station_watch import StationWatch, state_of
 
 ORDER = {
     "order_id": 7,
@@ -59,8 +59,8 @@ def test_pieces_an_hour_are_of_the_last_quarter():
     watch = StationWatch()
     for now in range(0, 1800, 30):
         watch.update(float(now), [StationState(name="pick1", pieces=now // 30)], None)
-    told = watch.told(StationState(name="pick1", pieces=1770 // 30))
-    assert told["pieces_per_hour"] == 120
+    result = watch.told(StationState(name="pick1", pieces=1770 // 30))
+    assert result["pieces_per_hour"] == 120
 
 
 def test_a_station_tells_since_when_it_has_had_no_unit():
@@ -83,10 +83,10 @@ def test_four_figures_have_targets_and_their_last_hour():
             item_upper_bound_per_hour=1000,
         )
         figures.update(float(now), kpis, 0.9)
-    told = Throughput(
+    throughput = Throughput(
         interval=60, begin=0, end=630, items_picked=[10] * 10 + [3], orders_completed=[5] * 11
     )
-    four = figures.told(kpis, told, 0.9, 20)
+    four = figures.told(kpis, throughput, 0.9, 20)
     assert (four["pieces"]["value"], four["pieces"]["target"]) == (600, 900)
     assert len(four["pieces"]["values"]) == 10  # the interval that goes on is none yet
     assert four["orders"]["target"] == pytest.approx(360, abs=1)

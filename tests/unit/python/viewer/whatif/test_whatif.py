@@ -45,8 +45,10 @@ def until(holds, what):
 
 
 def states(workshop, name):
-    one = next(one for one in workshop.scenarios()["scenarios"] if one["name"] == name)
-    return one["state"], [run["state"] for run in one["runs"]]
+    row = next(
+        scenario for scenario in workshop.scenarios()["scenarios"] if scenario["name"] == name
+    )
+    return row["state"], [run["state"] for run in row["runs"]]
 
 
 @pytest.fixture
@@ -61,19 +63,22 @@ def workshop(tmp_path):
 def compared(tmp_path_factory):
     """The folder of two scenarios that have run."""
     folder = tmp_path_factory.mktemp("whatif")
-    one = Workshop(folder, processes=2)
-    one.open()
-    one.create("four", SHORT)
-    one.create("two robots", SHORT | {"robots": 2, "orders": "mix:900:1.55x1.05"})
-    one.run("four")
-    one.run("two robots")
-    until(lambda: all(s["state"] == "done" for s in one.scenarios()["scenarios"]), "two runs each")
-    one.close()
+    workshop = Workshop(folder, processes=2)
+    workshop.open()
+    workshop.create("four", SHORT)
+    workshop.create("two robots", SHORT | {"robots": 2, "orders": "mix:900:1.55x1.05"})
+    workshop.run("four")
+    workshop.run("two robots")
+    until(
+        lambda: all(s["state"] == "done" for s in workshop.scenarios()["scenarios"]),
+        "two runs each",
+    )
+    workshop.close()
     return folder
 
 
 def test_runs_are_what_simulate_writes_and_sweep_reads(compared):
-    assert {one.name for one in (compared / "four" / "seed-1").iterdir()} == {
+    assert {item.name for item in (compared / "four" / "seed-1").iterdir()} == {
         "kpis.json",
         "run.json",
         "run.db",
@@ -91,39 +96,39 @@ def test_runs_are_what_simulate_writes_and_sweep_reads(compared):
 
 
 def test_scenarios_are_compared(compared):
-    one = Workshop(compared)
-    told = one.compare(["four", "two robots"])
-    pieces = told["rows"][0]
-    assert told["names"] == ["four", "two robots"] and pieces["key"] == "pieces"
+    workshop = Workshop(compared)
+    result = workshop.compare(["four", "two robots"])
+    pieces = result["rows"][0]
+    assert result["names"] == ["four", "two robots"] and pieces["key"] == "pieces"
     kpis = [runs.read(compared / "four" / f"seed-{n}").kpis for n in (1, 2)]
     mean = sum(each["item_throughput_per_hour"] for each in kpis) / 2
     assert pieces["cells"][0]["mean"] == pytest.approx(mean)
     assert pieces["cells"][0]["count"] == 2 and "verdict" not in pieces["cells"][0]
     # Two runs have no interval, and tell no difference from chance.
     assert "difference" not in pieces["cells"][1] and pieces["cells"][0]["half"] is None
-    assert pieces["cells"][1]["mean"] < mean and len(told["limits"]) == 2
-    shown = one.scenarios()["scenarios"][0]
+    assert pieces["cells"][1]["mean"] < mean and len(result["limits"]) == 2
+    shown = workshop.scenarios()["scenarios"][0]
     assert shown["summary"]["figures"]["pieces"]["mean"] == pytest.approx(mean)
     assert shown["site"] == {"name": "small", "robots": 4, "stations": 2}
-    assert "<html" in one.report(["four", "two robots"]).lower()
-    assert "<html" in one.report_of("four", 2).lower()
+    assert "<html" in workshop.report(["four", "two robots"]).lower()
+    assert "<html" in workshop.report_of("four", 2).lower()
     for names in (["four"], ["four", "four"], ["four", "none"]):
         with pytest.raises(ScenarioError):
-            one.compare(names)
+            workshop.compare(names)
 
 
 def test_a_change_keeps_the_runs_that_are_still_its_own(compared):
-    one = Workshop(compared)
-    one.duplicate("four")
-    assert states(one, "four 2") == ("none", ["none", "none"])
-    one.delete("four 2")
-    one.rename("two robots", "two")
-    assert states(one, "two") == ("done", ["done", "done"])
-    one.rename("two", "two robots")
-    one.change("four", SHORT | {"seeds": 3})
-    assert states(one, "four") == ("part", ["done", "done", "none"])
-    one.change("four", SHORT | {"minutes": 3})
-    assert states(one, "four") == ("none", ["none", "none"])
+    workshop = Workshop(compared)
+    workshop.duplicate("four")
+    assert states(workshop, "four 2") == ("none", ["none", "none"])
+    workshop.delete("four 2")
+    workshop.rename("two robots", "two")
+    assert states(workshop, "two") == ("done", ["done", "done"])
+    workshop.rename("two", "two robots")
+    workshop.change("four", SHORT | {"seeds": 3})
+    assert states(workshop, "four") == ("part", ["done", "done", "none"])
+    workshop.change("four", SHORT | {"minutes": 3})
+    assert states(workshop, "four") == ("none", ["none", "none"])
     assert not list((compared / "four").glob("seed-*"))
 
 
@@ -132,8 +137,8 @@ def test_runs_wait_go_on_and_are_cancelled(workshop):
     workshop.create("b", SHORT)
     assert workshop.run("a") == {"runs": 2} and workshop.run("a") == {"runs": 0}
     workshop.run("b")
-    told = until(lambda: _half_way(workshop), "progress")
-    assert told["runs"][1]["state"] == "waits"
+    result = until(lambda: _half_way(workshop), "progress")
+    assert result["runs"][1]["state"] == "waits"
     for refused in (lambda: workshop.change("a", SHORT), lambda: workshop.rename("a", "c")):
         with pytest.raises(ScenarioError, match="'a' runs; cancel that first"):
             refused()
@@ -141,12 +146,12 @@ def test_runs_wait_go_on_and_are_cancelled(workshop):
     assert states(workshop, "a") == ("cancelled", ["cancelled", "cancelled"])
     until(lambda: states(workshop, "b")[1] == ["runs", "waits"], "the next scenario runs")
     workshop.delete("b")
-    assert [one["name"] for one in workshop.scenarios()["scenarios"]] == ["a"]
+    assert [scenario["name"] for scenario in workshop.scenarios()["scenarios"]] == ["a"]
 
 
 def _half_way(workshop):
-    one = workshop.scenarios()["scenarios"][0]
-    return one if one["runs"][0].get("share") == 0.5 else None
+    scenario = workshop.scenarios()["scenarios"][0]
+    return scenario if scenario["runs"][0].get("share") == 0.5 else None
 
 
 def test_what_was_cut_off_is_told_and_runs_again(tmp_path, workshop):
@@ -175,8 +180,8 @@ def test_a_run_ends_with_its_server(tmp_path):
     file = tmp_path / "long" / "scenario.yaml"
     pipe = subprocess.PIPE
     with subprocess.Popen([*command, file, "1"], stdin=pipe, stdout=pipe, text=True) as process:
-        told = json.loads(process.stdout.readline())
-        assert told["of"] == 60000 and told["time"] < told["of"]
+        result = json.loads(process.stdout.readline())
+        assert result["of"] == 60000 and result["time"] < result["of"]
         process.stdin.close()
         assert process.wait(PATIENCE) == 3
     assert not (tmp_path / "long" / "seed-1" / "kpis.json").exists()
@@ -225,7 +230,7 @@ def test_a_layout_with_its_stock_is_taken(tmp_path):
 
 def test_the_queue_is_bounded(tmp_path):
     ended = []
-    queue = Queue(lambda *told: ended.append(told), 1, WAITS)
+    queue = Queue(lambda *end: ended.append(end), 1, WAITS)
     jobs = [Job("a", seed, tmp_path) for seed in range(MOST_WAITING + 1)]
     with pytest.raises(QueueError, match=f"{MOST_WAITING} runs wait at most"):
         queue.add(jobs)
@@ -256,9 +261,9 @@ def test_the_queue_is_bounded(tmp_path):
     ],
 )
 def test_a_wrong_scenario_is_refused(workshop, settings, reason):
-    with pytest.raises(ScenarioError) as told:
+    with pytest.raises(ScenarioError) as error:
         workshop.create("a", settings)
-    assert str(told.value).startswith(reason), told.value
+    assert str(error.value).startswith(reason), error.value
     assert workshop.scenarios()["scenarios"] == []
 
 
@@ -301,20 +306,20 @@ def test_a_damaged_file_is_told_and_hinders_no_other(workshop):
     bad.mkdir()
     (bad / "scenario.yaml").write_text("out: .\nminutes: long\n")
     (bad / "state.json").write_text("{")
-    told = {one["name"]: one for one in workshop.scenarios()["scenarios"]}
-    assert told["bad"]["state"] == "wrong"
-    assert told["bad"]["error"].startswith("bad/scenario.yaml: minutes is 'long'")
-    assert told["good"]["state"] == "none"
+    result = {scenario["name"]: scenario for scenario in workshop.scenarios()["scenarios"]}
+    assert result["bad"]["state"] == "wrong"
+    assert result["bad"]["error"].startswith("bad/scenario.yaml: minutes is 'long'")
+    assert result["good"]["state"] == "none"
 
 
 def test_a_scenario_is_what_its_file_says(tmp_path):
     policies = {"orders": "random", "idle": "park"}
-    for one in (
+    for scenario in (
         Scenario(),
         Scenario("north.layout.yaml", 3, 1, "monday.csv", 12.5, 7, True, "bad_day", policies),
     ):
-        one.write(tmp_path)
-        assert Scenario.read(tmp_path) == one
+        scenario.write(tmp_path)
+        assert Scenario.read(tmp_path) == scenario
     (tmp_path / "scenario.yaml").write_text("grid: {orders: [fill]}\nout: .\n")
     with pytest.raises(ScenarioError, match="without a grid"):
         Scenario.read(tmp_path)
@@ -347,19 +352,19 @@ def test_differences_are_told_where_they_are_above_chance():
     first = [run(seed, [10] * 30) for seed in (1, 2, 3)]
     more = [run(seed, [12 + 0.01 * seed] * 30) for seed in (1, 2, 3)]
     wild = [run(seed, [pieces] * 30) for seed, pieces in ((1, 5), (2, 12), (3, 15))]
-    told = figures.comparison({"first": first, "more": more, "wild": wild, "again": first})
-    row = {one["key"]: one["cells"] for one in told["rows"]}
+    result = figures.comparison({"first": first, "more": more, "wild": wild, "again": first})
+    row = {item["key"]: item["cells"] for item in result["rows"]}
     verdicts = [cell["verdict"] for cell in row["pieces"][1:]]
     assert verdicts == ["better", "no difference shown", "no difference shown"]
     assert row["pieces"][1]["relative"] == pytest.approx(0.202)
     assert row["metres"][1]["verdict"] == "better" and row["waiting"][1]["mean"] == 50
     # The interval of a difference leaves out 0 where it is shown, and nowhere else.
-    for cell in (one for cells in row.values() for one in cells[1:]):
+    for cell in (cell for cells in row.values() for cell in cells[1:]):
         difference = cell.get("difference")
         if difference and difference["half"] is not None and difference["mean"]:
             is_apart = abs(difference["mean"]) > difference["half"]
             assert is_apart == (cell["verdict"] != "no difference shown"), cell
-    assert told["limits"][0] == {"what": "the orders and the stock", "when": ""}
+    assert result["limits"][0] == {"what": "the orders and the stock", "when": ""}
     turned = figures.comparison({"more": more, "first": first})
     assert turned["rows"][0]["cells"][1]["verdict"] == "worse"
     for count in (1, 2):
@@ -370,8 +375,8 @@ def test_differences_are_told_where_they_are_above_chance():
 
 def test_figures_come_after_the_warm_up():
     slow = [run(seed, [0] * 10 + [10 + seed % 2, 10] * 10) for seed in (1, 2)]
-    told = figures.summary(slow)
-    assert told["warm_up"] == 10 and told["figures"]["pieces"]["mean"] > 600
+    result = figures.summary(slow)
+    assert result["warm_up"] == 10 and result["figures"]["pieces"]["mean"] > 600
 
 
 def test_the_time_that_runs_took_tells_how_long_others_take():

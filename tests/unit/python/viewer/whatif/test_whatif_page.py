@@ -68,7 +68,7 @@ def test_two_layouts_are_compared(page):
     page.until(f"{CARDS}.length === 2")
     assert page.read(CARDS) == ["small", "small 2 robots"]
     page.until(DONE)
-    page.until("Boolean(page.comparison.told && page.comparison.chart)")
+    page.until("Boolean(page.comparison.figures && page.comparison.chart)")
     assert page.read(COLUMNS) == ["small", "small 2 robots"]
     rows = page.read("[...document.querySelectorAll('#table tbody th')].map((c) => c.textContent)")
     assert "Robots " in rows and "Layout " not in rows and "Pieces picked an hour" in rows
@@ -82,9 +82,9 @@ def test_the_comparison_is_for_all(page):
 
 def test_the_comparison_is_in_the_address(page):
     page.driver.refresh()
-    page.until("page.comparison?.told")
+    page.until("page.comparison?.figures")
     page.driver.find_element("css selector", "thead .text-button").click()
-    page.until("page.comparison.told.names[0] === 'small 2 robots'")
+    page.until("page.comparison.figures.names[0] === 'small 2 robots'")
     assert page.read("location.hash") == "#compare=small%202%20robots,small"
 
 
@@ -93,8 +93,8 @@ def test_a_scenario_is_duplicated_changed_renamed_and_deleted(page):
     page.until("document.getElementById('editor').open")
     write(page, "own-stations", "9")
     page.click_on("editor-save")
-    told = "document.getElementById('editor-told').textContent"
-    page.until(f"{told}.startsWith('stations is 9; small has 2 for picking')")
+    result = "document.getElementById('editor-told').textContent"
+    page.until(f"{result}.startsWith('stations is 9; small has 2 for picking')")
     write(page, "own-stations", "1")
     page.driver.find_element("css selector", "#own-orders [value=mix]").click()
     page.click_on("editor-save")

@@ -1,34 +1,52 @@
 # SPDX-License-Identifier: Apache-2.0
 """Admits units to stations: lifts those for which there is room."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-from warehouse_fleet.transports.dispatch import carry
-from warehouse_fleet.transports.transport_book import LIFTING, READY, Transport
+from warehouse_fleet.robots.robot_table import RobotTable
+from warehouse_fleet.transports.lifts import Lifts
+from warehouse_fleet.transports.streets import Streets
+from warehouse_fleet.transports.transport_book import LIFTING, READY, Transport, TransportBook
 
-if TYPE_CHECKING:
-    from warehouse_fleet.transports.transports import Transports
 
+class Admission:
+    """Lifts units whose robots wait beneath them. `capacity`: the largest number of units that are
+    inbound to each station, by its name."""
 
-def run(work: "Transports") -> None:
-    """Lifts units for whose station there is room, in the order in which their robots came. None is
-    lifted for a station whose lane can't be entered, passed and left now."""
-    book = work.book
-    if not book.ready:
-        return
-    waiting, book.ready = book.ready, []
-    for transport in waiting:
-        if transport.step != READY:
-            continue
+    def __init__(
+        self,
+        book: TransportBook,
+        robots: RobotTable,
+        lifts: Lifts,
+        streets: Streets,
+        capacity: Mapping[str, int],
+    ) -> None:
+        self._book, self._robots, self._lifts = book, robots, lifts
+        self._streets, self._capacity = streets, capacity
+
+    def run(self) -> None:
+        """Lifts units for whose station there is room, in the order in which their robots came.
+        Lifts none for a station whose lane can't be entered, passed and left now."""
+        book = self._book
+        if not book.ready:
+            return
+        waiting, book.ready = book.ready, []
+        for transport in waiting:
+            if transport.step != READY:
+                continue
+            if self._may_lift(transport):
+                self._lifts.begin(transport, LIFTING)
+            else:
+                book.ready.append(transport)
+
+    def _may_lift(self, transport: Transport) -> bool:
         station = transport.station
-        is_full = station and book.inbound[station] >= work.capacity[station]
-        if is_full or not _is_beneath(work, transport) or work.is_cut_off(transport):
-            book.ready.append(transport)
-            continue
-        transport.attempts = 0
-        carry.begin_lift(work, transport, LIFTING)
+        if station and self._book.inbound[station] >= self._capacity[station]:
+            return False
+        return self._is_beneath(transport) and not self._streets.is_cut_off(
+            station, transport.shelf
+        )
 
-
-def _is_beneath(work: "Transports", transport: Transport) -> bool:
-    robots, robot = work.robots, transport.robot
-    return bool(robots.stands[robot] and robots.cell[robot] == robots.goal[robot])
+    def _is_beneath(self, transport: Transport) -> bool:
+        robots, robot = self._robots, transport.robot
+        return bool(robots.stands[robot] and robots.cell[robot] == robots.goal[robot])

@@ -1,53 +1,74 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Assigns robots to open transports."""
+"""Gives open transports to robots without work."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 
-from warehouse_fleet.robots.robot_table import NOWHERE
-from warehouse_fleet.transports.dispatch import carry
-from warehouse_fleet.transports.transport_book import Kind, Transport
-
-if TYPE_CHECKING:
-    from warehouse_fleet.transports.transports import Transports
+from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
+from warehouse_fleet.transports.dispatch.idle import idle_robots
+from warehouse_fleet.transports.distances import Distances
+from warehouse_fleet.transports.journeys import Journeys
+from warehouse_fleet.transports.transport_book import Kind, Transport, TransportBook
+from warehouse_fleet.transports.unit_map import UnitMap
 
 FETCHED = 4  # units of a station that are fetched before they may be lifted
 
-
-def run(work: "Transports") -> None:
-    """Gives open transports to robots without work, a few more than stations have room for."""
-    if not work.book.open:
-        return
-    robots = work.robots
-    able = ~robots.stalled & ~robots.lifts_not & ~work.charging.kept()
-    free = np.flatnonzero(work.without_work() & able)
-    asked = _fetchable(work) if free.size else []
-    for transport, robot in work.match_robots(asked, free) if asked else ():
-        work.book.assign(transport, int(robot), work.traffic.time)
-        work.publish_event(transport, Kind.ASSIGNED)
-        carry.send(work, transport, work.units.cell_of[transport.shelf])
+# (open transports, indices (m,) of free robots) -> pairs of both
+Matching = Callable[[list[Transport], np.ndarray], Iterable[tuple[Transport, int]]]
 
 
-def _fetchable(work: "Transports") -> list[Transport]:
-    """Returns the transports that may have a robot now, the most urgent first."""
-    found, fetched = [], work.book.fetched.copy()
-    for transport in work.book.open:
-        station = transport.station
-        is_full = station and fetched[station] >= FETCHED
-        if not is_full and work.units.cell_of[transport.shelf] != NOWHERE:
-            fetched[station] += 1
-            found.append(transport)
-    return found
+class Assignment:
+    """Assigns robots to transports, as `match_robots` chooses. `kept` returns (n,) bool: robots
+    that get no work now."""
+
+    def __init__(
+        self,
+        book: TransportBook,
+        robots: RobotTable,
+        units: UnitMap,
+        journeys: Journeys,
+        kept: Callable[[], np.ndarray],
+        match_robots: Matching,
+    ) -> None:
+        self._book, self._robots, self._units = book, robots, units
+        self._journeys, self._kept, self._match_robots = journeys, kept, match_robots
+
+    def run(self) -> None:
+        """Gives open transports to robots without work, a few more than stations have room for."""
+        if not self._book.open:
+            return
+        robots = self._robots
+        able = ~robots.stalled & ~robots.lifts_not & ~self._kept()
+        free = np.flatnonzero(idle_robots(robots, self._book) & able)
+        asked = self._fetchable() if free.size else []
+        for transport, robot in self._match_robots(asked, free) if asked else ():
+            self._book.assign(transport, int(robot))
+            self._book.publish_event(transport, Kind.ASSIGNED)
+            self._journeys.begin(transport.robot, self._units.cell_of[transport.shelf])
+
+    def _fetchable(self) -> list[Transport]:
+        """Returns the transports that may have a robot now, the most urgent first."""
+        fetchable, fetched = [], self._book.fetched.copy()
+        for transport in self._book.open:
+            station = transport.station
+            is_full = station and fetched[station] >= FETCHED
+            if not is_full and self._units.cell_of[transport.shelf] != NOWHERE:
+                fetched[station] += 1
+                fetchable.append(transport)
+        return fetchable
 
 
 def nearest_robots(
-    work: "Transports", asked: list[Transport], free: np.ndarray
+    distances: Distances,
+    cell_of_unit: Mapping[int, int],
+    cell_of_robot: np.ndarray,
+    asked: list[Transport],
+    free: np.ndarray,
 ) -> Iterator[tuple[Transport, int]]:
     """Yields each transport with the nearest robot that is free, the most urgent first."""
     for transport in asked[: len(free)]:
-        cell = work.units.cell_of[transport.shelf]
-        robot = free[work.distance(cell, work.robots.cell[free]).argmin()]
+        cell = cell_of_unit[transport.shelf]
+        robot = free[distances(cell, cell_of_robot[free]).argmin()]
         free = free[free != robot]
         yield transport, int(robot)

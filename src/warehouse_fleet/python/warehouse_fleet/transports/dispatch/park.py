@@ -1,56 +1,52 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parks robots without work."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection
 
 import numpy as np
 
-from warehouse_fleet.robots.robot_table import NOWHERE
+from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
+from warehouse_fleet.transports.completion import Completion
+from warehouse_fleet.transports.dispatch.idle import idle_robots
+from warehouse_fleet.transports.transport_book import TransportBook
 
-if TYPE_CHECKING:
-    from warehouse_fleet.transports.transports import Transports
-
-
-def run(work: "Transports") -> None:
-    """Sends robots without work to where they are to wait; those that stand in a street or a lane
-    go beneath a stored unit."""
-    robots, idle = work.robots, work.without_work()
-    idle[list(work.charging.cell_of)] = False
-    robots.goal[idle & (robots.goal == robots.cell)] = NOWHERE
-    sent = idle & (robots.goal != NOWHERE)
-    if sent.any():  # a robot with work at a cell comes first, and stays
-        wanted = np.zeros(work.plan.passable.size, bool)
-        wanted[robots.goal[~idle & (robots.goal != NOWHERE)]] = True
-        robots.goal[sent & wanted[robots.goal]] = NOWHERE
-    if work.freed:
-        _send_freed(work, idle)
-    _clear_streets(work, idle & (robots.goal == NOWHERE) & ~work.aside[robots.cell])
+CellChoice = Callable[[int], int | None]  # robot -> the cell where it waits; None: where it is
 
 
-def _send_freed(work: "Transports", idle: np.ndarray) -> None:
-    """Asks the policy about robots that have ended a transport since the last tick."""
-    robots = work.robots
-    freed, work.freed = work.freed, []
-    for robot in freed:
-        cell = work.park(robot) if idle[robot] else None
+class Parking:
+    """Sends robots without work to where they are to wait. `aside`, (cells,) bool: the cells where
+    no robot passes. `charging`: the robots that have charging places, at any time. `choose_cell`
+    returns the cell for a robot that has ended a transport, or None: it waits where it is."""
+
+    def __init__(
+        self,
+        aside: np.ndarray,
+        book: TransportBook,
+        robots: RobotTable,
+        completion: Completion,
+        charging: Collection[int],
+        choose_cell: CellChoice,
+    ) -> None:
+        self._aside, self._book, self._robots = aside, book, robots
+        self._completion, self._charging, self._choose_cell = completion, charging, choose_cell
+
+    def run(self) -> None:
+        """Ends the drives of robots without work that have come to their goal, or at whose goal
+        another robot has work. Sends those that have ended a transport since the last call."""
+        robots, idle = self._robots, idle_robots(self._robots, self._book)
+        idle[list(self._charging)] = False
+        robots.goal[idle & (robots.goal == robots.cell)] = NOWHERE
+        sent = idle & (robots.goal != NOWHERE)
+        if sent.any():
+            needed = np.zeros(len(self._aside), bool)
+            needed[robots.goal[~idle & (robots.goal != NOWHERE)]] = True
+            robots.goal[sent & needed[robots.goal]] = NOWHERE
+        for robot in self._completion.take_freed():
+            self._send(robot, self._choose_cell(robot) if idle[robot] else None)
+
+    def _send(self, robot: int, cell: int | None) -> None:
+        robots = self._robots
         if cell is None or cell in robots.goal:
-            continue
-        if cell != robots.cell[robot] and work.aside[cell]:
-            robots.send(robot, cell)
-
-
-def _clear_streets(work: "Transports", in_the_way: np.ndarray) -> None:
-    if not in_the_way.any():
-        return
-    robots = work.robots
-    free = work.units.stands & work.aside
-    for cells in (robots.goal, robots.cell):
-        free[cells[cells != NOWHERE]] = False
-    places = np.flatnonzero(free)
-    for robot in np.flatnonzero(in_the_way).tolist():
-        if not len(places):
             return
-        far = work.distance(int(robots.cell[robot]), places)
-        place = work.units.first_in(places[far == far.min()])
-        places = places[places != place]
-        robots.send(robot, place)
+        if cell != robots.cell[robot] and self._aside[cell]:
+            robots.send(robot, cell)

@@ -96,13 +96,13 @@ class _Cells:
         if not anchors:
             walls = [s.points for s in self._drawing.shapes if s.kind == "walls"]
             return np.concatenate(walls).min(axis=0) if walls else np.zeros(2)
-        found = [straight.phase_of_centres(axis, self._spacing) for axis in np.array(anchors).T]
-        if min(agreement for _, agreement in found) < AGREE:
-            self._drawing.told.append(
+        phases = [straight.phase_of_centres(axis, self._spacing) for axis in np.array(anchors).T]
+        if min(agreement for _, agreement in phases) < AGREE:
+            self._drawing.notes.append(
                 f"places are not whole cells of {self._spacing:g} m apart: each went to the cell"
                 " that holds its middle"
             )
-        return np.array([phase for phase, _ in found])
+        return np.array([phase for phase, _ in phases])
 
     def _is_one(self, shape: Shape) -> bool:
         return bool((shape.size <= ONE * self._spacing).all())
@@ -148,7 +148,7 @@ class _Cells:
         if places and not without:
             return ~outside
         if (walls | outside).all() or without:
-            self._drawing.told.append(
+            self._drawing.notes.append(
                 "walls do not enclose all places: the floor is the rectangle about the drawing"
             )
             return self._about(places)
@@ -195,9 +195,9 @@ class _Cells:
                 twice += zip(column[again].tolist(), row[again].tolist())
             self._floor[row[is_free], column[is_free]] = character
         if blocked:
-            self._drawing.told.append(f"{kind} left out where a wall is: {named(blocked)}")
+            self._drawing.notes.append(f"{kind} left out where a wall is: {named(blocked)}")
         if twice:
-            self._drawing.told.append(f"{kind}: two fall into one cell at {named(twice)}")
+            self._drawing.notes.append(f"{kind}: two fall into one cell at {named(twice)}")
 
     def _taken(self, shape: Shape) -> tuple[np.ndarray, np.ndarray]:
         """Returns rows and columns of the cells of a place, an area or a line, each but once."""

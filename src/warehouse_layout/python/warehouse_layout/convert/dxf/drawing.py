@@ -40,12 +40,12 @@ def read(
         raise FormatError(f"{path}: {_unnamed(drawing)}")
     angle = _angle(drawing) if angle is None else angle
     if angle:
-        drawing.told.append(f"turned by {math.degrees(angle):.2f} degrees")
+        drawing.notes.append(f"turned by {math.degrees(angle):.2f} degrees")
         drawing.shapes = [
             replace(s, points=straight.turned(s.points, angle)) for s in drawing.shapes
         ]
         drawing.texts = [(straight.turned(at, angle), text) for at, text in drawing.texts]
-    return dxf_cells.layout_of(path, drawing, spacing), drawing.told
+    return dxf_cells.layout_of(path, drawing, spacing), drawing.notes
 
 
 def _unnamed(drawing: Drawing) -> str:

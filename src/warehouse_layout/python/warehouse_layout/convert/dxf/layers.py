@@ -92,14 +92,14 @@ def read(path: Path | None) -> Layers:
     if path is None:
         return Layers(NAMES)
     try:
-        told = yaml.safe_load(text_of(path))
+        mapping = yaml.safe_load(text_of(path))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f":{mark.line + 1}" if mark else ""
         raise FormatError(f"{path}{place}: is not YAML") from error
-    if not isinstance(told, dict):
+    if not isinstance(mapping, dict):
         raise FormatError(f"{path}: our names with layers were expected, like 'walls: A-WALL'")
-    return Layers({**NAMES, **{str(k): _patterns(path, str(k), v) for k, v in told.items()}})
+    return Layers({**NAMES, **{str(k): _patterns(path, str(k), v) for k, v in mapping.items()}})
 
 
 def _patterns(path: Path, kind: str, value: object) -> tuple[str, ...]:

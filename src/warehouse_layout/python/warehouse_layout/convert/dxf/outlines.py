@@ -46,9 +46,9 @@ class Shape:
 
 def joined(shapes: list[Shape]) -> list[Shape]:
     """Returns the shapes, those that are lines around a place as one outline each."""
-    out = [one for one in shapes if not _is_loose(one)]
-    for kind in dict.fromkeys(one.kind for one in shapes if _is_loose(one)):
-        out += _outlines([one for one in shapes if _is_loose(one) and one.kind == kind])
+    out = [shape for shape in shapes if not _is_loose(shape)]
+    for kind in dict.fromkeys(shape.kind for shape in shapes if _is_loose(shape)):
+        out += _outlines([shape for shape in shapes if _is_loose(shape) and shape.kind == kind])
     return out
 
 
@@ -62,7 +62,7 @@ def _outlines(lines: list[Shape]) -> list[Shape]:
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
-    ends = np.concatenate([one.points[[0, -1]] for one in lines])
+    ends = np.concatenate([segment.points[[0, -1]] for segment in lines])
     pairs = cKDTree(ends).query_pairs(JOIN, output_type="ndarray")
     graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(ends), len(ends)))
     _, corner = connected_components(graph, directed=False)
@@ -71,12 +71,12 @@ def _outlines(lines: list[Shape]) -> list[Shape]:
     for line, (begin, end) in enumerate(at.tolist()):
         around.setdefault(begin, []).append(line)
         around.setdefault(end, []).append(line)
-    out, seen = [], set[int]()
+    out, visited = [], set[int]()
     for first in range(len(lines)):
-        if first in seen:
+        if first in visited:
             continue
         ring = _ring(first, at, around)
-        seen |= set(ring)
+        visited |= set(ring)
         out += [_closed(lines, ring, at)] if len(ring) > 2 else [lines[i] for i in ring]
     return out
 

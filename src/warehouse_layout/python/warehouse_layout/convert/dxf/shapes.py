@@ -35,7 +35,7 @@ class Drawing:
 
     shapes: list[Shape] = field(default_factory=list)
     texts: list[tuple[np.ndarray, str]] = field(default_factory=list)  # where [m], what
-    told: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
     unknown: Counter[tuple[str, str]] = field(default_factory=Counter)
 
 
@@ -53,7 +53,7 @@ def read(path: PathName, layers: Layers) -> Drawing:
         ):
             out, unit = _drawing(path, document, layers, 1.0), "metres"
         flaws.append(f"$INSUNITS names no unit of length: {unit} were assumed")
-    out.told[:0] = flaws
+    out.notes[:0] = flaws
     return out
 
 
@@ -68,12 +68,12 @@ def _drawing(path: PathName, document: Any, layers: Layers, scale: float) -> Dra
         raise
     except Exception as error:  # ezdxf raises whatever its reading of a broken entity led to
         raise FormatError(f"{path}: an entity can't be read: {_sentence(error)}") from error
-    out.told += reader.left_out()
+    out.notes += reader.left_out()
     out.shapes = dxf_outlines.joined(out.shapes)
     return out
 
 
-def _document(path: Path, told: list[str]) -> Any:
+def _document(path: Path, notes: list[str]) -> Any:
     import ezdxf
     from ezdxf import recover
 
@@ -92,7 +92,7 @@ def _document(path: Path, told: list[str]) -> Any:
         except Exception as error:  # ezdxf stumbled: its words say nothing about the file
             raise FormatError(f"{path}: is not a DXF drawing: {_begin(path)}") from error
     faults = len(auditor.errors) + len(auditor.fixes)
-    told.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
+    notes.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
     return document
 
 
@@ -151,11 +151,11 @@ class _Reader:
     def _insert(self, insert: Any, layer: str, kind: str, depth: int) -> None:
         if depth > DEEP:
             raise FormatError(f"{self._path}: blocks lie in blocks, more than {DEEP} deep")
-        for one in insert.multi_insert() if insert.mcount > 1 else [insert]:
+        for copy in insert.multi_insert() if insert.mcount > 1 else [insert]:
             if kind in PLACES:
-                self._place(one, kind)
+                self._place(copy, kind)
                 continue
-            for part in one.virtual_entities():
+            for part in copy.virtual_entities():
                 inner = str(part.dxf.get("layer", "0"))
                 # What lies on layer 0 of a block takes the layer of its insert.
                 self.take(part, layer if inner == "0" else inner, depth + 1)
@@ -184,16 +184,20 @@ class _Reader:
             self._add(Shape(kind, self._metres([tuple(entity.dxf.location)[:2]], entity)))
             return
         try:
-            found = list(paths.from_hatch(entity)) if what == "HATCH" else [paths.make_path(entity)]
+            outlines = (
+                list(paths.from_hatch(entity)) if what == "HATCH" else [paths.make_path(entity)]
+            )
         except TypeError:
             self._unread[layer, what] += 1
             return
-        for one in found:
-            points = [(p.x, p.y) for p in one.flattening(FINE / self._scale)] if len(one) else []
+        for outline in outlines:
+            points = (
+                [(p.x, p.y) for p in outline.flattening(FINE / self._scale)] if len(outline) else []
+            )
             if points:
                 filled = what in ("HATCH", "SOLID", "TRACE")
                 metres = self._metres(points, entity)
-                self._add(Shape(kind, metres, closed=one.is_closed or filled, filled=filled))
+                self._add(Shape(kind, metres, closed=outline.is_closed or filled, filled=filled))
 
     def _metres(self, points: Iterable[Iterable[float]], entity: Any) -> np.ndarray:
         out = np.array([list(p) for p in points], float) * self._scale

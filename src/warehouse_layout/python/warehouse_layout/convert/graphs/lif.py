@@ -2,7 +2,7 @@
 """Reads layouts in VDMA's Layout Interchange Format, `.lif.json`, versions 1 and 2.
 
 Nodes become cells, edges the directions of streets; a long edge becomes a street of several cells.
-What stands at a node is told by its actions, its station, and the words with which these are named.
+A node's actions, its station, and the words in their names say what stands there.
 """
 
 from collections import Counter
@@ -37,10 +37,10 @@ class _Reading:
 def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     """Returns the layout of a LIF file, and what it can't hold. Raises FormatError."""
     root = json_fields.read(path)
-    layouts = [one for origin in _origins(root) for one in origin.each("layouts")]
+    layouts = [entry for origin in _origins(root) for entry in origin.each("layouts")]
     if not layouts:
         root.fail("layouts", "is missing or empty; a layout with nodes was expected")
-    levels = {one.text("layoutLevelId", "") for one in layouts}
+    levels = {entry.text("layoutLevelId", "") for entry in layouts}
     if len(levels) > 1:
         root.fail("layouts", f"have {len(levels)} levels; robots here drive on one floor")
     reading = _Reading()
@@ -52,8 +52,8 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     if not reading.graph.nodes:
         root.fail("layouts[0].nodes", "is missing or empty; nodes were expected")
     name = layouts[0].text("layoutName", layouts[0].text("layoutId", ""))
-    file, told = floor_of(path, reading.graph, name)
-    return file, [*told, *_unsaid(reading)]
+    file, notes = floor_of(path, reading.graph, name)
+    return file, [*notes, *_unsaid(reading)]
 
 
 def _origins(root: Fields) -> list[Fields]:
@@ -67,16 +67,16 @@ def _origins(root: Fields) -> list[Fields]:
 
 
 def _take_nodes(layout: Fields, reading: _Reading) -> None:
-    for one in layout.each("nodes"):
-        number = one.text("nodeId")
+    for node in layout.each("nodes"):
+        number = node.text("nodeId")
         if number in reading.graph.nodes:
-            one.fail("nodeId", f"is '{number}', as that of another node")
-        at = one.inner("nodePosition")
+            node.fail("nodeId", f"is '{number}', as that of another node")
+        at = node.inner("nodePosition")
         actions = set()
-        for types in one.each("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"):
+        for types in node.each("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"):
             reading.types |= set(_types(types))
             actions |= {a.text("actionType") for a in types.each("actions", "feasibleActions")}
-        words = f"{one.text('nodeName', '')} {one.text('nodeDescription', '')}"
+        words = f"{node.text('nodeName', '')} {node.text('nodeDescription', '')}"
         kind = kind_of(words, "")
         if actions & CHARGING:
             kind = "charging"
@@ -100,30 +100,30 @@ def kind_of(words: str, default: str) -> str:
 
 
 def _take_edges(layout: Fields, reading: _Reading) -> None:
-    for one in layout.each("edges"):
-        ends = [one.text(name) for name in ("startNodeId", "endNodeId")]
+    for edge in layout.each("edges"):
+        ends = [edge.text(name) for name in ("startNodeId", "endNodeId")]
         for name, number in zip(("startNodeId", "endNodeId"), ends):
             if number not in reading.graph.nodes:
-                one.fail(name, f"is '{number}', which is not a node")
+                edge.fail(name, f"is '{number}', which is not a node")
         loaded = False
-        for types in one.each("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"):
+        for types in edge.each("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"):
             reading.types |= set(_types(types))
             reading.extras.update(name for name in EDGE_EXTRAS if name in types)
             restricted = "loadRestriction" in types
             loaded |= not restricted or types.inner("loadRestriction").flag("loaded", True)
-        reading.graph.edges.append(Edge(one.text("edgeId", "?"), ends[0], ends[1], loaded))
+        reading.graph.edges.append(Edge(edge.text("edgeId", "?"), ends[0], ends[1], loaded))
 
 
 def _take_stations(layout: Fields, reading: _Reading) -> None:
     """Marks the nodes of stations: charging, parking and storage, or adds one to serve units."""
-    for one in layout.each("stations"):
-        number = one.text("stationId")
-        name = one.text("stationName", "") or number
-        about = one.text("stationDescription", one.text("stationDescriptor", ""))
-        nodes = one.texts("interactionNodeIds")
+    for station in layout.each("stations"):
+        number = station.text("stationId")
+        name = station.text("stationName", "") or number
+        about = station.text("stationDescription", station.text("stationDescriptor", ""))
+        nodes = station.texts("interactionNodeIds")
         if not nodes or not set(nodes) <= reading.graph.nodes.keys():
-            one.fail("interactionNodeIds", "name no node that there is")
-        height = f" at {one.number('stationHeight'):g} m" if "stationHeight" in one else ""
+            station.fail("interactionNodeIds", "name no node that there is")
+        height = f" at {station.number('stationHeight'):g} m" if "stationHeight" in station else ""
         for node in nodes:
             reading.stations.setdefault(node, []).append(name + height)
         kinds = {reading.graph.nodes[n].kind for n in nodes}

@@ -63,7 +63,7 @@ def floor_of(path: PathName, graph: Graph, name: str) -> tuple[LayoutFile, list[
 
 class _Floor:
     def __init__(self, path: PathName, graph: Graph) -> None:
-        self._graph, self._told = graph, list[str]()
+        self._graph, self._notes = graph, list[str]()
         at = np.array([(n.x, n.y) for n in graph.nodes.values()])
         self._spacing = self._found_spacing(at)
         phase = np.array([straight.phase_of_centres(v, self._spacing)[0] for v in at.T])
@@ -98,7 +98,7 @@ class _Floor:
             stations=entries,
             at=on_grid(self._corner, self._spacing),
         )
-        return with_letters(file), self._told
+        return with_letters(file), self._notes
 
     # --- the grid
 
@@ -122,7 +122,7 @@ class _Floor:
         taken: dict[Cell, str] = {}
         for number, cell in self._cells.items():
             if cell in taken:
-                self._told.append(
+                self._notes.append(
                     f"nodes {taken[cell]} and {number} fall into one cell: {named([cell])}"
                 )
             taken.setdefault(cell, number)
@@ -130,7 +130,7 @@ class _Floor:
         names = [n for n, far in zip(self._cells, off) if far > OFF]
         if names:
             more = f" and {len(names) - 6} more" if len(names) > 6 else ""
-            self._told.append(
+            self._notes.append(
                 f"nodes were moved to the middle of their cells of {self._spacing:g} m:"
                 f" {', '.join(names[:6])}{more}"
             )
@@ -139,7 +139,7 @@ class _Floor:
         """Lets robots leave the cells of an edge along it: first along x, then along y."""
         here, there = self._cells[edge.start], self._cells[edge.end]
         if here[0] != there[0] and here[1] != there[1]:
-            self._told.append(f"edge {edge.name} is neither along x nor along y: it got a corner")
+            self._notes.append(f"edge {edge.name} is neither along x nor along y: it got a corner")
         while here != there:
             axis = 0 if here[0] != there[0] else 1
             heading = axis if there[axis] > here[axis] else axis + 2
@@ -166,27 +166,27 @@ class _Floor:
 
     def _before(self, cell: Cell, free: np.ndarray) -> Iterator[Cell]:
         """Yields the cells of a queue, from the service cell back: those that lead on alone."""
-        seen = {cell}
+        passed = {cell}
         for _ in range(LONGEST):
             into = self._into(cell)
-            if len(into) != 1 or into[0] in seen or not free[into[0][::-1]]:
+            if len(into) != 1 or into[0] in passed or not free[into[0][::-1]]:
                 return
             if len(self._out_of(into[0])) != 1:
                 return
             cell = into[0]
-            seen.add(cell)
+            passed.add(cell)
             yield cell
 
-    def _after(self, cell: Cell, free: np.ndarray, seen: set[Cell]) -> Iterator[Cell]:
+    def _after(self, cell: Cell, free: np.ndarray, passed: set[Cell]) -> Iterator[Cell]:
         """Yields the cells of a way out: those that can be entered from the one before alone."""
         for _ in range(LONGEST):
             out = self._out_of(cell)
-            if len(out) != 1 or out[0] in seen or not free[out[0][::-1]]:
+            if len(out) != 1 or out[0] in passed or not free[out[0][::-1]]:
                 return
             if len(self._into(out[0])) != 1:
                 return
             cell = out[0]
-            seen.add(cell)
+            passed.add(cell)
             yield cell
 
     def _out_of(self, cell: Cell) -> list[Cell]:
@@ -220,8 +220,8 @@ class _Floor:
             exits=exits,
             stations=stations,
         )
-        out, told = arrows.draw(plan, floor)
-        self._told += told
+        out, notes = arrows.draw(plan, floor)
+        self._notes += notes
         return out
 
 

@@ -46,7 +46,7 @@ def write(file: LayoutFile, path: PathName) -> list[str]:
         ("edges", _edges(plan)),
         ("stations", _stations(file)),
     ):
-        lines = ",\n".join(json.dumps(one, ensure_ascii=False) for one in part)
+        lines = ",\n".join(json.dumps(entry, ensure_ascii=False) for entry in part)
         text += f',\n"{name}": [\n{lines}\n]'
     write_text(path, text + "}]}\n")
     return [fault.text for fault in faults] + _lost(file)

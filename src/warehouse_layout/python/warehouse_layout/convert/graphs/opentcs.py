@@ -22,21 +22,21 @@ IGNORED = ("block", "staticRoute", "group")
 def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     """Returns the layout of a plant model, and what it can't hold. Raises FormatError."""
     root = read_root(path, "model")
-    graph, told = Graph(), list[str]()
+    graph, notes = Graph(), list[str]()
     for point in root.findall("point"):
         _take_point(path, point, graph)
     if not graph.nodes:
         raise FormatError(f"{path}: no point; a plant model of openTCS was expected")
     for each in root.findall("path"):
-        _take_path(path, each, graph, told)
+        _take_path(path, each, graph, notes)
     operations = {
-        _name(path, one): " ".join(a.get("name", "") for a in one.findall("allowedOperation"))
-        for one in root.findall("locationType")
+        _name(path, kind): " ".join(a.get("name", "") for a in kind.findall("allowedOperation"))
+        for kind in root.findall("locationType")
     }
     for location in root.findall("location"):
-        _take_location(path, location, operations, graph, told)
+        _take_location(path, location, operations, graph, notes)
     file, unsaid = floor_of(path, graph, root.get("name", ""))
-    return file, [*told, *unsaid, *_left_out(root)]
+    return file, [*notes, *unsaid, *_left_out(root)]
 
 
 def _take_point(path: PathName, point: Element, graph: Graph) -> None:
@@ -47,14 +47,14 @@ def _take_point(path: PathName, point: Element, graph: Graph) -> None:
     graph.nodes[name] = Node(x, y, "parking" if point.get("type") == PARKING else "")
 
 
-def _take_path(path: PathName, each: Element, graph: Graph, told: list[str]) -> None:
+def _take_path(path: PathName, each: Element, graph: Graph, notes: list[str]) -> None:
     name = _name(path, each)
     begin, end = each.get("sourcePoint", ""), each.get("destinationPoint", "")
     for point in (begin, end):
         if point not in graph.nodes:
             raise FormatError(f"{path}: path '{name}': there is no point '{point}'")
     if each.get("locked") == "true":
-        told.append(f"path '{name}' is locked: left out")
+        notes.append(f"path '{name}' is locked: left out")
         return
     ways = (("maxVelocity", begin, end), ("maxReverseVelocity", end, begin))
     for speed, a, b in ways:
@@ -64,22 +64,22 @@ def _take_path(path: PathName, each: Element, graph: Graph, told: list[str]) -> 
 
 
 def _take_location(
-    path: PathName, one: Element, operations: dict[str, str], graph: Graph, told: list[str]
+    path: PathName, element: Element, operations: dict[str, str], graph: Graph, notes: list[str]
 ) -> None:
-    name, sort = _name(path, one), one.get("type", "")
-    points = [link.get("point", "") for link in one.findall("link")]
+    name, sort = _name(path, element), element.get("type", "")
+    points = [link.get("point", "") for link in element.findall("link")]
     unknown = [point for point in points if point not in graph.nodes]
     if unknown:
         raise FormatError(f"{path}: location '{name}': there is no point '{unknown[0]}'")
     if not points:
-        told.append(f"location '{name}' has no link to a point: left out")
+        notes.append(f"location '{name}' has no link to a point: left out")
         return
     kind = kind_of(f"{name} {sort} {operations.get(sort, '')}", "pick")
     if kind in ("pick", "replenish"):
         graph.nodes[points[0]].kind = ""
         graph.stations.append((name, kind, points[0]))
         if len(points) > 1:
-            told.append(f"location '{name}': of {len(points)} points the first serves it")
+            notes.append(f"location '{name}': of {len(points)} points the first serves it")
         return
     for point in points:
         graph.nodes[point].kind = kind

@@ -41,7 +41,7 @@ LOST = {
 
 def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     """Returns the layout of a .map file, and what it can't hold. Raises FormatError."""
-    told: list[str] = []
+    notes: list[str] = []
     grid = _grid(path)
     floor = np.full(grid.shape, lf.FLOOR, "<U1")
     for character, drawn in MEANING.items():
@@ -51,9 +51,9 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         shelves = _enclosed(np.isin(grid, list(BLOCKED)), service, stations)
         floor[shelves if shelves.any() else service] = lf.STORAGE
     elif service.any():
-        told.append(f"{plural(int(service.sum()), 'cell')} of swamp 'S' became floor")
+        notes.append(f"{plural(int(service.sum()), 'cell')} of swamp 'S' became floor")
     if (grid == "W").any():
-        told.append(f"{plural(int((grid == 'W').sum()), 'cell')} of water 'W' became keep-out 'x'")
+        notes.append(f"{plural(int((grid == 'W').sum()), 'cell')} of water 'W' became keep-out 'x'")
     places = cells_of(stations)
     names = [f"E{number}" for number in range(1, len(places) + 1)]
     file = LayoutFile(
@@ -61,7 +61,7 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         stations=station_entries(names, places, ["pick"] * len(places)),
         path="",
     )
-    return with_letters(file), told
+    return with_letters(file), notes
 
 
 def _grid(path: PathName) -> np.ndarray:

@@ -49,7 +49,7 @@ def _pgm(path: Path, data: bytes) -> np.ndarray:
 
 def _header(path: Path, data: bytes) -> tuple[int, int, int, int]:
     """Returns width, height, the value of white, and where the header ends."""
-    found, at = [], 2
+    numbers, at = [], 2
     for what, most in (("width", MOST_PIXELS), ("height", MOST_PIXELS), ("white", 65535)):
         match = _TOKEN.match(data, at)
         text = match.group(1) if match else b""
@@ -59,10 +59,10 @@ def _header(path: Path, data: bytes) -> tuple[int, int, int, int]:
                 " expected"
             )
         assert match
-        found.append(int(text))
+        numbers.append(int(text))
         at = match.end()
-    _check_pixels(path, found[0], found[1])
-    return found[0], found[1], found[2], at
+    _check_pixels(path, numbers[0], numbers[1])
+    return numbers[0], numbers[1], numbers[2], at
 
 
 def _numbers(path: Path, text: bytes) -> np.ndarray:

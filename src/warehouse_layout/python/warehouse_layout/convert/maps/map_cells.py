@@ -93,7 +93,7 @@ class _Cells:
         corner = self._low
         for axis in np.eye(2):
             tried = [corner + self._spacing * i / phases * axis for i in range(phases)]
-            corner = max(tried, key=lambda one: self._free_cells(one, every))
+            corner = max(tried, key=lambda candidate: self._free_cells(candidate, every))
         fine = self._free_cells(on_grid, every) >= NEARLY * self._free_cells(corner, every)
         return on_grid if fine else corner
 

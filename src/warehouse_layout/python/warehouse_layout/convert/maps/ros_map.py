@@ -69,9 +69,9 @@ def read(
         angle, within = _angle(picture)
     floor, centre = map_cells.floor_of(path, picture, angle, spacing)
     floor, islands = _without_islands(floor)
-    told = [f"turned by {math.degrees(angle):.2f} degrees{_doubt(within)}"] if angle else []
-    told += [f"{plural(specks, 'speck')} of noise left out"] if specks else []
-    told += (
+    remarks = [f"turned by {math.degrees(angle):.2f} degrees{_doubt(within)}"] if angle else []
+    remarks += [f"{plural(specks, 'speck')} of noise left out"] if specks else []
+    remarks += (
         [f"{plural(islands, 'cell')} of floor without a way to the others left out"]
         if islands
         else []
@@ -81,26 +81,26 @@ def read(
     at = np.round(centre / spacing) * spacing
     if (shift := np.round(at - centre, 4)).any():
         x, y = shift.tolist()
-        told.append(f"poses of the map are moved by ({x:+g}, {y:+g}) m, to the middle of cells")
+        remarks.append(f"poses of the map are moved by ({x:+g}, {y:+g}) m, to the middle of cells")
     x, y = np.round(at, 6).tolist()
-    return trimmed(LayoutFile(floor=floor, spacing=spacing, at=(x, y))), [*told, *notes]
+    return trimmed(LayoutFile(floor=floor, spacing=spacing, at=(x, y))), [*remarks, *notes]
 
 
 # --- the file
 
 
 def _picture(path: Path) -> tuple[Picture, list[Note]]:
-    told = _mapping(path)
-    resolution = _number(path, told, "resolution", None, 1e-4, 10)
+    fields = _mapping(path)
+    resolution = _number(path, fields, "resolution", None, 1e-4, 10)
     thresholds = Thresholds(
-        _number(path, told, "occupied_thresh", 0.65, 0, 1),
-        _number(path, told, "free_thresh", 0.196, 0, 1),
+        _number(path, fields, "occupied_thresh", 0.65, 0, 1),
+        _number(path, fields, "free_thresh", 0.196, 0, 1),
     )
-    negate = bool(_number(path, told, "negate", 0, 0, 1))
-    mode = told.get("mode", TRINARY)
+    negate = bool(_number(path, fields, "negate", 0, 0, 1))
+    mode = fields.get("mode", TRINARY)
     if mode not in MODES:
         raise FormatError(f"{path}: mode is {mode!r}; {', '.join(MODES)} are known")
-    image, notes = _image(path, told)
+    image, notes = _image(path, fields)
     pixels = images.read(image)
     values = occupancy(pixels, mode, negate, thresholds)
     if mode == TRINARY and not negate and (unseen := _saved_as_unknown(pixels)) is not None:
@@ -108,7 +108,7 @@ def _picture(path: Path) -> tuple[Picture, list[Note]]:
             notes.append(Note(SAVED.format(count=int(unseen.sum()), free=thresholds.free)))
         values[unseen] = UNKNOWN
     notes.append(Note(_counted(values)))
-    x, y, yaw = _origin(path, told)
+    x, y, yaw = _origin(path, fields)
     values = values[::-1]
     free = (values >= 0) & (values < HALF)
     return Picture(resolution, yaw, values >= HALF, free, (x, y)), notes
@@ -154,21 +154,21 @@ def _counted(values: np.ndarray) -> str:
 def _mapping(path: Path) -> dict[str, Any]:
     text = text_of(path)
     try:
-        told = yaml.safe_load(text)
+        fields = yaml.safe_load(text)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f":{mark.line + 1}" if mark else ""
         raise FormatError(f"{path}{place}: is not YAML: {error.problem}") from error
     except (yaml.YAMLError, ValueError) as error:
         raise FormatError(f"{path}: is not YAML: {' '.join(str(error).split())}") from error
-    if not isinstance(told, dict) or "image" not in told:
+    if not isinstance(fields, dict) or "image" not in fields:
         raise FormatError(f"{path}: image is missing; a map.yaml of map_server was expected")
-    return told
+    return fields
 
 
-def _image(path: Path, told: dict[str, Any]) -> tuple[Path, list[Note]]:
+def _image(path: Path, fields: dict[str, Any]) -> tuple[Path, list[Note]]:
     """Returns the picture of a map: where it says, or of another computer's path beside it."""
-    name = told["image"]
+    name = fields["image"]
     if not isinstance(name, str) or not name or "\0" in name:
         raise FormatError(f"{path}: image is {name!r}; the name of a file was expected")
     image = path.parent / Path(name)
@@ -179,9 +179,9 @@ def _image(path: Path, told: dict[str, Any]) -> tuple[Path, list[Note]]:
 
 
 def _number(
-    path: Path, told: dict[str, Any], name: str, default: float | None, low: float, high: float
+    path: Path, fields: dict[str, Any], name: str, default: float | None, low: float, high: float
 ) -> float:
-    value = told.get(name, default)
+    value = fields.get(name, default)
     if not isinstance(value, (int, float)) or not low <= value <= high:
         raise FormatError(
             f"{path}: {name} is {value!r}; a number from {low:g} to {high:g} was expected"
@@ -189,9 +189,9 @@ def _number(
     return float(value)
 
 
-def _origin(path: Path, told: dict[str, Any]) -> tuple[float, float, float]:
+def _origin(path: Path, fields: dict[str, Any]) -> tuple[float, float, float]:
     """Returns x, y [m] and yaw [rad] of the lower left corner."""
-    origin = told.get("origin", [0, 0, 0])
+    origin = fields.get("origin", [0, 0, 0])
     fine = isinstance(origin, list) and len(origin) == 3
     if not fine or not all(isinstance(v, (int, float)) and math.isfinite(v) for v in origin):
         hint = ""

@@ -17,9 +17,9 @@ def first_sheet(path: PathName) -> list[list[str]]:
     try:
         with zipfile.ZipFile(path) as archive:
             sheets = sorted(
-                (int(found[1]), name)
+                (int(sheet[1]), name)
                 for name in archive.namelist()
-                if (found := _SHEET.fullmatch(name))
+                if (sheet := _SHEET.fullmatch(name))
             )
             if not sheets:
                 raise FormatError(f"{path}: the workbook has no sheet")
@@ -51,7 +51,7 @@ def _shared(path: PathName, archive: zipfile.ZipFile) -> list[str]:
     name = "xl/sharedStrings.xml"
     if name not in archive.namelist():
         return []
-    return [_text(one) for one in _part(path, archive, name).iterfind("{*}si")]
+    return [_text(item) for item in _part(path, archive, name).iterfind("{*}si")]
 
 
 def _text(element: Element) -> str:
@@ -59,18 +59,18 @@ def _text(element: Element) -> str:
 
 
 def _rows(path: PathName, sheet: Element, texts: list[str]) -> list[list[str]]:
-    found: dict[tuple[int, int], str] = {}
+    values: dict[tuple[int, int], str] = {}
     for row_number, row in enumerate(sheet.iterfind("{*}sheetData/{*}row")):
         at_row = int(row.get("r", row_number + 1)) - 1
         for number, cell in enumerate(row.iterfind("{*}c")):
             column = _column(cell.get("r", ""), number)
             if text := _value(cell, texts):
-                found[at_row, column] = text
-    height = max((row for row, _ in found), default=-1) + 1
-    width = max((column for _, column in found), default=-1) + 1
+                values[at_row, column] = text
+    height = max((row for row, _ in values), default=-1) + 1
+    width = max((column for _, column in values), default=-1) + 1
     if height * width > MOST_CELLS:
         raise FormatError(f"{path}: a sheet of {width} x {height} cells; {MOST_CELLS} at most")
-    return [[found.get((row, column), "") for column in range(width)] for row in range(height)]
+    return [[values.get((row, column), "") for column in range(width)] for row in range(height)]
 
 
 def _column(reference: str, default: int) -> int:

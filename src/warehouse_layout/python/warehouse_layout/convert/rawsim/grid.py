@@ -49,11 +49,11 @@ def read_waypoints(path: PathName, root: Element) -> dict[str, Waypoint]:
         )
     if not result:
         raise InstanceError(f"{path}: there is no Waypoint")
-    for one in result.values():
-        for other in one.paths:
+    for waypoint in result.values():
+        for other in waypoint.paths:
             if other not in result:
                 raise InstanceError(
-                    f"{path}: Waypoint {one.number} has a path to {other}, which is not there"
+                    f"{path}: Waypoint {waypoint.number} has a path to {other}, which is not there"
                 )
     return result
 
@@ -66,8 +66,8 @@ class Grid:
     """
 
     def __init__(self, path: PathName, waypoints: Mapping[str, Waypoint]) -> None:
-        self.columns, self.step_x = _lines(sorted({one.x for one in waypoints.values()}))
-        self.rows, self.step_y = _lines(sorted({one.y for one in waypoints.values()}))
+        self.columns, self.step_x = _lines(sorted({waypoint.x for waypoint in waypoints.values()}))
+        self.rows, self.step_y = _lines(sorted({waypoint.y for waypoint in waypoints.values()}))
         if not self.step_x and not self.step_y:
             raise InstanceError(f"{path}: two waypoints or more were expected")
         self.step_x, self.step_y = self.step_x or self.step_y, self.step_y or self.step_x
@@ -78,7 +78,7 @@ class Grid:
                 f"{path}: waypoints make a floor of {self.width} by {self.height} cells; "
                 f"{MOST_CELLS} cells at most were expected"
             )
-        self.cell = {n: self._cell(one.x, one.y) for n, one in waypoints.items()}
+        self.cell = {n: self._cell(waypoint.x, waypoint.y) for n, waypoint in waypoints.items()}
         taken: dict[int, str] = {}
         for number, cell in self.cell.items():
             if cell in taken:
@@ -101,8 +101,8 @@ class Grid:
         """Returns the cell of a bot or pod, in the nearest row and column."""
         x, y = number_of(path, element, "X"), number_of(path, element, "Y")
         return self._cell(
-            min(self.columns, key=lambda one: abs(one - x)),
-            min(self.rows, key=lambda one: abs(one - y)),
+            min(self.columns, key=lambda line: abs(line - x)),
+            min(self.rows, key=lambda line: abs(line - y)),
         )
 
     def _cell(self, x: float, y: float) -> int:

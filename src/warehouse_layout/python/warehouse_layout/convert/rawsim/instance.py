@@ -79,7 +79,7 @@ def _stations(
             number = _id(path, element)
             name = f"{'pick' if kind == PICK else 'replenish'}{number}"
             lane, service = _lane(path, element, waypoints)
-            cells = np.array([grid.cell[one] for one in lane], np.int32)
+            cells = np.array([grid.cell[waypoint] for waypoint in lane], np.int32)
             result.append(Station(name, kind, cells, service))
             elements[name] = element
     return result, elements
@@ -90,12 +90,12 @@ def _lane(
 ) -> tuple[list[str], int]:
     """Returns the waypoints of a station's lane in driving order, and the index of its own one."""
     key = element.tag, element.get("ID")
-    own = next((one for one in waypoints.values() if one.station == key), None)
+    own = next((named for named in waypoints.values() if named.station == key), None)
     what = f"{element.tag} {element.get('ID')}"
     if own is None:
         raise InstanceError(f"{path}: {what} has no Waypoint")
-    listed = [(one.text or "").strip() for one in element.findall("Queues/Queues")]
-    listed += [(one.text or "").strip() for one in element.findall("Queue/Queue")]
+    listed = [(named.text or "").strip() for named in element.findall("Queues/Queues")]
+    listed += [(named.text or "").strip() for named in element.findall("Queue/Queue")]
     lane = [own.number]
     for text in listed:
         number = text.rpartition("/")[2]
@@ -118,9 +118,9 @@ def _lane(
 def _paths(path: PathName, waypoints: Mapping[str, Waypoint], grid: Grid) -> np.ndarray:
     exits = np.zeros((grid.height, grid.width), np.uint8)
     headings = {dx + dy * grid.width: heading for heading, (dx, dy) in enumerate(STEPS)}
-    for number, one in waypoints.items():
+    for number, waypoint in waypoints.items():
         cell = grid.cell[number]
-        for other in one.paths:
+        for other in waypoint.paths:
             heading = headings.get(grid.cell[other] - cell)
             if heading is None:
                 raise InstanceError(
@@ -134,9 +134,9 @@ def _plan(
     waypoints: Mapping[str, Waypoint], grid: Grid, stations: Sequence[Station], exits: np.ndarray
 ) -> FloorPlan:
     passable, storage = np.zeros(exits.shape, bool), np.zeros(exits.shape, bool)
-    for number, one in waypoints.items():
+    for number, waypoint in waypoints.items():
         passable.flat[grid.cell[number]] = True
-        storage.flat[grid.cell[number]] = one.storage
+        storage.flat[grid.cell[number]] = waypoint.storage
     return FloorPlan.laid_out(
         origin=grid.origin,
         spacing=grid.spacing,

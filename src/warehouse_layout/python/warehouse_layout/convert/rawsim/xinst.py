@@ -32,7 +32,7 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     floor = np.full(plan.shape, lf.NO_FLOOR, "<U1")
     floor[plan.passable] = lf.FLOOR
     floor[plan.storage] = lf.STORAGE
-    floor, told = arrows.draw(plan, floor)
+    floor, notes = arrows.draw(plan, floor)
     file = LayoutFile(
         floor=floor,
         name=instance.name,
@@ -43,7 +43,7 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         items=_items(path, instance),
         at=on_grid(np.array(plan.origin), plan.spacing),
     )
-    return with_letters(file), [*told, *_unsaid(path, instance)]
+    return with_letters(file), [*notes, *_unsaid(path, instance)]
 
 
 def _cells(numbers: object, plan: FloorPlan) -> tuple[Cell, ...]:

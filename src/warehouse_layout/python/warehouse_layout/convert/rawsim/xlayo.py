@@ -82,19 +82,21 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     parameters = _parameters(numbers)
     check_size(path, "a floor", *parameters.shape)
     floor = xlayo_floor.of(parameters)
-    drawn, told = arrows.draw(floor.plan, floor.drawing)
+    drawn, notes = arrows.draw(floor.plan, floor.drawing)
     places = int(floor.plan.storage.sum())
     units = int(numbers.number("PodAmount", 0.85, 0, 1) * places + 1e-9)
     held = round(numbers.number("PodCapacity", 5 * BIN, 0, 1e9) / BIN)
     file = LayoutFile(
         floor=drawn,
         name=numbers.root.findtext("NameLayout", "").strip(),
-        stations=tuple(_entry(numbers, one, parameters.shape[1]) for one in floor.plan.stations),
+        stations=tuple(
+            _entry(numbers, station, parameters.shape[1]) for station in floor.plan.stations
+        ),
         storage_units=units,
         robots=numbers.count("BotCount", 32),
         items=units * min(max(1, held), shelves.CAPACITY),
     )
-    return with_letters(file), [*told, *_unsaid(numbers, parameters)]
+    return with_letters(file), [*notes, *_unsaid(numbers, parameters)]
 
 
 def _parameters(numbers: _Numbers) -> Parameters:
@@ -141,9 +143,9 @@ def _check(numbers: _Numbers, p: Parameters) -> None:
         )
     for side in SIDES:
         room = (p.rows if side in ("East", "West") else p.columns) // 2
-        wanted = p.picks[side] + p.replenishments[side]
-        if wanted > room:
-            numbers.fail(f"{wanted} stations {side}; there is room for {room}")
+        count = p.picks[side] + p.replenishments[side]
+        if count > room:
+            numbers.fail(f"{count} stations {side}; there is room for {room}")
     if not sum(p.picks.values()) or not sum(p.replenishments.values()):
         numbers.fail("a station to pick and one to replenish, or more, were expected")
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: its state, modes of robots, and transports."""
 
-from typing import Any
-
 from fastapi import APIRouter, HTTPException, Path
 
 from warehouse_viewer.api import catalogue
@@ -26,22 +24,24 @@ TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
 
 
 @router.get("/coordinator", response_model=Coordinator, responses=problems(404))
-async def get_coordinator(backend: ApiBackend = BACKEND) -> Any:
+async def get_coordinator(backend: ApiBackend = BACKEND) -> object:
     """The fleet at a glance."""
     return catalogue.coordinator(await backend.coordinator(), backend.feed["fleet"])
 
 
 @router.get("/vda5050", response_model=list[Vda5050Robot], responses=problems())
-async def get_vda5050(backend: ApiBackend = BACKEND) -> Any:
+async def get_vda5050(backend: ApiBackend = BACKEND) -> object:
     """Robots at a broker by VDA 5050: whose they are, connection, order and errors."""
-    return [one for told in backend.feed.vda5050.messages for one in catalogue.at_broker(told)]
+    return [
+        robot for message in backend.feed.vda5050.messages for robot in catalogue.at_broker(message)
+    ]
 
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))
-async def set_mode(wanted: NewMode, number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def set_mode(body: NewMode, number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """Gives a robot to the coordinator or to a person, or takes it out of service."""
     await backend.robot(number)
-    return {"message": await backend.coordinate("set_mode", number, wanted.mode)}
+    return {"message": await backend.coordinate("set_mode", number, body.mode)}
 
 
 @router.get("/transports", response_model=Transports, responses=problems())
@@ -50,19 +50,19 @@ async def get_transports(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """How far each is, the newest first; those since the viewer began."""
-    found = backend.transports.newest_first(state)
-    return {"total": len(found), "transports": found[offset : offset + limit]}
+    rows = backend.transports.newest_first(state)
+    return {"total": len(rows), "transports": rows[offset : offset + limit]}
 
 
 @router.get("/transports/{number}", response_model=Transport, responses=problems(404))
-async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> Any:
+async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> object:
     """How far it is."""
-    found = backend.transports.get(number)
-    if found is None:
+    row = backend.transports.get(number)
+    if row is None:
         raise HTTPException(404, f"no transport {number}")
-    return found
+    return row
 
 
 @router.post(
@@ -71,9 +71,9 @@ async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) 
     response_model=TransportNumber,
     responses=problems(*SENT),
 )
-async def submit_transport(wanted: NewTransport, backend: ApiBackend = BACKEND) -> Any:
+async def submit_transport(body: NewTransport, backend: ApiBackend = BACKEND) -> object:
     """Has a storage unit brought somewhere. It waits there to be released."""
-    return {"transport_id": await backend.coordinate("submit", *as_dict(wanted).values())}
+    return {"transport_id": await backend.coordinate("submit", *as_dict(body).values())}
 
 
 @router.post(
@@ -81,6 +81,6 @@ async def submit_transport(wanted: NewTransport, backend: ApiBackend = BACKEND) 
     response_model=Done,
     responses=problems(409),
 )
-async def release_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> Any:
+async def release_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> object:
     """The station is done with the unit: it may leave."""
     return {"message": await backend.coordinate("release", number)}

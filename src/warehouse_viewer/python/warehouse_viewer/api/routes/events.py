@@ -22,7 +22,7 @@ async def get_events(
     model: str = Query("", max_length=100, description="of this model alone"),
     limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """The newest events, oldest first."""
     return {"events": backend.journal.since(since, model or None, limit)}
 

@@ -14,25 +14,25 @@ router = APIRouter()
 
 
 @router.get("/kpis", response_model=None, responses=problems())
-async def get_kpis(backend: ApiBackend = BACKEND) -> Any:
-    """The figures of the shift so far, named as in kpis.json."""
+async def get_kpis(backend: ApiBackend = BACKEND) -> object:
+    """The figures of the running shift, named as in kpis.json."""
     return await _latest(backend, "kpis")
 
 
 @router.get("/throughput", response_model=Throughput, responses=problems())
-async def get_throughput(backend: ApiBackend = BACKEND) -> Any:
+async def get_throughput(backend: ApiBackend = BACKEND) -> object:
     """The last hour, a minute a row."""
     return await _latest(backend, "throughput")
 
 
 @router.get("/notices", response_model=Notices, responses=problems())
-async def get_notices(backend: ApiBackend = BACKEND) -> Any:
+async def get_notices(backend: ApiBackend = BACKEND) -> object:
     """What the shift could not take, and why; why there is none."""
     return {"notices": await _latest(backend, "notices")}
 
 
 @router.get("/heat", response_model=Heat, responses=problems())
-async def get_heat(backend: ApiBackend = BACKEND) -> Any:
+async def get_heat(backend: ApiBackend = BACKEND) -> object:
     """Traffic and waiting over the floor."""
     return await _latest(backend, "heat")
 

@@ -17,7 +17,7 @@ UNIT = Query("", max_length=100, description="that lie on this unit")
 
 
 @router.post("/items/{number}/pick_up", response_model=Done, responses=problems(*SENT))
-async def pick_up_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def pick_up_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """Puts an item that fell back on its storage unit."""
     return {"message": await backend.simulate("pick_up", number)}
 
@@ -29,13 +29,13 @@ async def get_storage_units(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Those with a fitting name, and where each is."""
     return _page(await backend.things("storage_units"), name, storage_unit, limit, offset)
 
 
 @router.get("/storage_units/{number}", response_model=Thing, responses=problems(404))
-async def get_storage_unit(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def get_storage_unit(number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """One, and where it is."""
     return _one(await backend.things("storage_units"), f"storage_unit{number}")
 
@@ -47,21 +47,21 @@ async def get_items(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Those with a fitting name, and where each is."""
     return _page(await backend.things("items"), name, storage_unit, limit, offset)
 
 
 @router.get("/items/{number}", response_model=Thing, responses=problems(404))
-async def get_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def get_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """One, and where it is."""
     return _one(await backend.things("items"), f"item{number}")
 
 
 def _page(tracked: Tracked, name: str, unit: str, limit: int, offset: int) -> dict[str, Any]:
-    found = catalogue.find(tracked, name, unit)
-    rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
-    return {"total": len(found), "things": rows}
+    indices = catalogue.find(tracked, name, unit)
+    rows = [catalogue.thing(tracked, i) for i in indices[offset : offset + limit]]
+    return {"total": len(indices), "things": rows}
 
 
 def _one(tracked: Tracked, name: str) -> Thing:

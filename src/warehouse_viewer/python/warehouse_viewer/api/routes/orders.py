@@ -30,7 +30,10 @@ from warehouse_viewer.ros.operations_client import ANY
 router = APIRouter()
 ORDER = Path(ge=1, le=2**53)
 SEARCH = Query(
-    "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
+    "",
+    max_length=200,
+    regex=r"^[ -~]*$",
+    description="a part of the reference, a SKU, or the number of an order",
 )
 LATE = Query(False, description="those past their due time alone")
 AT_ONCE, MOST_EXPORTED = 5_000, 100_000  # orders
@@ -51,13 +54,13 @@ async def get_orders(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Orders, the newest first."""
     which = ANY if state is None else STATES.index(state)
-    found = await backend.call(
+    answer = await backend.call(
         backend.operations.find_orders, 0, search, which, late, limit, offset
     )
-    return {"total": found.total, "orders": [order(one) for one in found.orders]}
+    return {"total": answer.total, "orders": [order(row) for row in answer.orders]}
 
 
 async def exported(
@@ -69,16 +72,16 @@ async def exported(
     """Returns all orders of a search as JSON has them; 409 if they are more than a sheet should
     have."""
     which = ANY if state is None else STATES.index(state)
-    found: list[Any] = []
+    orders: list[Any] = []
     while True:
-        fields = 0, search, which, late, AT_ONCE, len(found)
+        fields = 0, search, which, late, AT_ONCE, len(orders)
         some = await backend.call(backend.operations.find_orders, *fields)
         if some.total > MOST_EXPORTED:
             text = f"{some.total} orders; {MOST_EXPORTED} or fewer were expected: search for some"
             raise HTTPException(409, text)
-        found += map(order, some.orders)
-        if len(found) >= some.total or not some.orders:
-            return found
+        orders += map(order, some.orders)
+        if len(orders) >= some.total or not some.orders:
+            return orders
 
 
 EXPORTED = Depends(exported)
@@ -97,15 +100,15 @@ async def export_xlsx(orders: list[Any] = EXPORTED) -> Any:
     return _file("orders.xlsx", sheet, SPREADSHEET)
 
 
-def _file(name, content, kind):
+def _file(name: str, content: str | bytes, kind: str) -> Response:
     headers = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(content, media_type=kind, headers=headers)
 
 
 @router.post("/orders/table", response_model=TableAnswer, responses=problems(*SENT))
-async def submit_orders(wanted: OrderTable, backend: ApiBackend = BACKEND) -> Any:
+async def submit_orders(body: OrderTable, backend: ApiBackend = BACKEND) -> object:
     """New orders as a table in CSV: all of them, or none. `faults` says what is wrong where."""
-    fields = wanted.table, wanted.check_only
+    fields = body.table, body.check_only
     answer = await backend.call(
         backend.operations.request, "submit_orders", srv.SubmitOrders, *fields
     )
@@ -125,34 +128,34 @@ async def get_skus(
     search: str = Query("", max_length=80, description="a part of the name"),
     limit: int = LIMIT,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """SKUs by name, with their pieces in stock: those that begin with the text first."""
     fields = "find_skus", srv.FindSkus, search, limit
-    found = await backend.call(backend.operations.request, *fields)
-    pairs = zip(found.sku, found.available)
-    return {"total": found.total, "skus": [{"sku": s, "available": n} for s, n in pairs]}
+    answer = await backend.call(backend.operations.request, *fields)
+    pairs = zip(answer.sku, answer.available)
+    return {"total": answer.total, "skus": [{"sku": s, "available": n} for s, n in pairs]}
 
 
 @router.get("/orders/{number}", response_model=Order, responses=problems(404))
-async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> Any:
+async def get_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
     """One order."""
-    found = await backend.call(backend.operations.find_orders, number)
-    if not found.orders:
+    answer = await backend.call(backend.operations.find_orders, number)
+    if not answer.orders:
         raise HTTPException(404, f"no order {number}")
-    return order(found.orders[0])
+    return order(answer.orders[0])
 
 
 @router.post("/orders", status_code=201, response_model=Accepted, responses=problems(*SENT))
-async def submit_order(wanted: NewOrder, backend: ApiBackend = BACKEND) -> Any:
+async def submit_order(body: NewOrder, backend: ApiBackend = BACKEND) -> object:
     """A new order; kept when this answers."""
-    lines = [msg.OrderLine(line.sku, line.quantity) for line in wanted.lines]
-    fields = wanted.reference, lines, backend.operations.time(wanted.due), wanted.priority
+    lines = [msg.OrderLine(line.sku, line.quantity) for line in body.lines]
+    fields = body.reference, lines, backend.operations.time(body.due), body.priority
     answer = await backend.call(backend.operations.call, "submit_order", srv.SubmitOrder, *fields)
     return {"order_id": answer.order_id, "message": answer.message}
 
 
 @router.delete("/orders/{number}", response_model=Done, responses=problems(409))
-async def cancel_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> Any:
+async def cancel_order(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
     """Cancels an order that is not complete."""
     answer = await backend.call(backend.operations.call, "cancel_order", srv.CancelOrder, number)
     return {"message": answer.message}
@@ -164,7 +167,7 @@ async def get_stock(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Where pieces of a SKU lie, the most first."""
     return plain(
         await backend.call(backend.operations.call, "find_stock", srv.FindStock, sku, limit, offset)

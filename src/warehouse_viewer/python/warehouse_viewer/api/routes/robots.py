@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Robots: where they are, adding, removing and commanding them; and people."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from fastapi import APIRouter, Body, Depends, HTTPException, Query, Request
 
@@ -18,12 +18,12 @@ ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wa
 COMMAND = Body(discriminator="command")
 
 
-async def _check_command(request: Request):
+async def _check_command(request: Request) -> None:
     """Raises 422 where `command` is not text, for which pydantic 1 would fail an assertion."""
     try:
         body = await request.json()
     except (ValueError, RecursionError):
-        return  # FastAPI tells what is wrong with it
+        return  # FastAPI answers what is wrong with it
     if isinstance(body, dict) and not isinstance(body.get("command", ""), str):
         raise no_text("body", "command")
 
@@ -35,27 +35,27 @@ async def get_robots(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Robots with their poses and status."""
-    found = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
-    return {"total": len(found), "robots": found[offset : offset + limit]}
+    rows = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
+    return {"total": len(rows), "robots": rows[offset : offset + limit]}
 
 
 @router.get("/robots/{number}", response_model=Robot, responses=problems(404))
-async def get_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def get_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """One robot."""
     return await backend.robot(number)
 
 
 @router.post("/robots", status_code=201, response_model=Robot, responses=problems(*SENT))
-async def add_robot(wanted: NewRobot, backend: ApiBackend = BACKEND) -> Any:
+async def add_robot(body: NewRobot, backend: ApiBackend = BACKEND) -> object:
     """Puts a robot on a free grid point; it gets the lowest free number."""
-    number = await backend.change("add_robot", wanted.x, wanted.y, wanted.heading)
+    number = await backend.change("add_robot", body.x, body.y, body.heading)
     return await backend.robot(number)
 
 
 @router.delete("/robots/{number}", response_model=Done, responses=problems(404, 409))
-async def remove_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+async def remove_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """Takes away a robot that carries nothing."""
     if (await backend.robot(number)).storage_unit:
         raise HTTPException(409, f"kiva{number} carries a storage unit; have it put down first")
@@ -79,10 +79,10 @@ async def command_robot(
         description=f"[s, wall]; {ANSWER:g} for the answer, {END:g} for the end if not given",
     ),
     backend: ApiBackend = BACKEND,
-) -> Any:
+) -> object:
     """Sends a command. A refused one answers 409 with the reason.
 
-    202 tells that what was waited for has not come in time.
+    202: what was waited for has not come in time.
     """
     await backend.robot(number)
     fields = as_dict(command, exclude={"command"})
@@ -100,6 +100,6 @@ async def command_robot(
 
 
 @router.post("/people", status_code=201, response_model=Walker, responses=problems(*SENT))
-async def send_person(wanted: NewWalk, backend: ApiBackend = BACKEND) -> Any:
+async def send_person(body: NewWalk, backend: ApiBackend = BACKEND) -> object:
     """Has a person walk over the floor, around obstacles and never into them."""
-    return {"name": await backend.simulate("walk", *as_dict(wanted).values())}
+    return {"name": await backend.simulate("walk", *as_dict(body).values())}

@@ -38,6 +38,6 @@ async def json_changes(socket: WebSocket, of: str = "", rate: float = 2.0) -> No
     await state.sockets.admit(socket, lambda s: changes.serve(s, state.backend, topics, rate))
 
 
-def _bounded(rate):
+def _bounded(rate: float) -> float:
     """Returns the rate that a client gets, in messages per second."""
     return min(10.0, max(0.1, rate)) if rate == rate else 2.0

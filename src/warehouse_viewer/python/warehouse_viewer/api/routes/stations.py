@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stations of a shift, and what people there confirm and report."""
 
-from typing import Any
-
 from fastapi import APIRouter, Path
 
 from warehouse_msgs import srv
@@ -27,15 +25,15 @@ AT_PICK = "/stations/{name}/picks/{sequence}"
 
 
 @router.get("/stations", response_model=Stations, responses=problems())
-async def get_stations(backend: ApiBackend = BACKEND) -> Any:
+async def get_stations(backend: ApiBackend = BACKEND) -> object:
     """The stations: what unit is there, what is to be done with it, what is on its way."""
     return {"stations": backend.stations(await backend.call(backend.operations.latest, "stations"))}
 
 
 @router.put("/stations/{name}", response_model=Done, responses=problems(*SENT))
-async def set_station(wanted: SetStation, name: str = NAME, backend: ApiBackend = BACKEND) -> Any:
+async def set_station(body: SetStation, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
     """Opens or closes a station; MANUAL: it waits for confirmations."""
-    fields = name, wanted.open, MODES.index(wanted.mode)
+    fields = name, body.open, MODES.index(body.mode)
     return {
         "message": (
             await backend.call(backend.operations.call, "set_station", srv.SetStation, *fields)
@@ -44,7 +42,9 @@ async def set_station(wanted: SetStation, name: str = NAME, backend: ApiBackend 
 
 
 @router.post("/stations/{name}/confirm", response_model=Done, responses=problems(*SENT))
-async def confirm_pick(done: Confirmation, name: str = NAME, backend: ApiBackend = BACKEND) -> Any:
+async def confirm_pick(
+    done: Confirmation, name: str = NAME, backend: ApiBackend = BACKEND
+) -> object:
     """A person has picked, or put in."""
     fields = name, done.sku, done.quantity
     return {
@@ -55,10 +55,10 @@ async def confirm_pick(done: Confirmation, name: str = NAME, backend: ApiBackend
 
 
 @router.post("/stations/{name}/short", response_model=Done, responses=problems(*SENT))
-async def report_short(found: Short, name: str = NAME, backend: ApiBackend = BACKEND) -> Any:
+async def report_short(body: Short, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
     """Pieces are missing or damaged: they are written off and brought from elsewhere, or, where
     they should be put in, stay out."""
-    fields = name, found.sku, found.quantity, found.damaged
+    fields = name, body.sku, body.quantity, body.damaged
     return {
         "message": (
             await backend.call(backend.operations.call, "report_short", srv.ReportShort, *fields)
@@ -69,8 +69,8 @@ async def report_short(found: Short, name: str = NAME, backend: ApiBackend = BAC
 @router.post(AT_PICK, response_model=Reported, responses=problems(*SENT))
 async def report_pick(
     done: PickReport, name: str = NAME, sequence: int = SEQUENCE, backend: ApiBackend = BACKEND
-) -> Any:
-    """What became of a pick that the station tells of: of that one, or of none. Sent again it
+) -> object:
+    """Takes the outcome of that pick, or refuses it. Sent again it
     changes nothing."""
     which = done.order_id, done.item, sequence
     fields = name, *which, done.quantity, OUTCOMES.index(done.outcome), done.id
@@ -81,7 +81,7 @@ async def report_pick(
 @router.delete(AT_PICK, response_model=Done, responses=problems(409))
 async def undo_report(
     name: str = NAME, sequence: int = SEQUENCE, backend: ApiBackend = BACKEND
-) -> Any:
+) -> object:
     """Takes a report back: pieces that were picked or put in, while the storage unit is still at
     the station; pieces that were written off a moment ago. They lie where they lay before."""
     answer = await backend.call(

@@ -18,7 +18,7 @@ router = APIRouter()
 
 
 @router.get("/warehouse", response_model=Warehouse, responses=problems())
-async def get_warehouse(backend: ApiBackend = BACKEND) -> Any:
+async def get_warehouse(backend: ApiBackend = BACKEND) -> object:
     """What stands there, and how time passes."""
     await backend.wait_for_positions()
     objects, performance = backend.feed["objects"], backend.feed["performance"]
@@ -39,28 +39,28 @@ async def get_warehouse(backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.get("/warehouse/sizes", response_model=Sizes, responses=problems())
-async def get_sizes(backend: ApiBackend = BACKEND) -> Any:
+async def get_sizes(backend: ApiBackend = BACKEND) -> object:
     """Presets, and the limits of counts of one's own."""
     presets = {name: vars(counts) for name, counts in PRESETS.items()}
     return {"presets": presets, "limits": LIMITS}
 
 
-async def _build_layout(wanted: NewWarehouse, backend: ApiBackend) -> Any:
-    if wanted.robots or wanted.items or wanted.shelves:
+async def _build_layout(body: NewWarehouse, backend: ApiBackend) -> Any:
+    if body.robots or body.items or body.shelves:
         raise HTTPException(
             422, "counts and a layout: the layout has its own counts; give one of them"
         )
     try:
-        path = await asyncio.to_thread(layout_store.kept, wanted.layout, wanted.name)
+        path = await asyncio.to_thread(layout_store.kept, body.layout, body.name)
     except LayoutFileError as error:
         raise HTTPException(422, str(error)) from error
-    return await backend.change("create", path, wanted.id, 0, 0, 0)
+    return await backend.change("create", path, body.id, 0, 0, 0)
 
 
 @router.post("/warehouse", response_model=Done, responses=problems(*SENT))
-async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> Any:
+async def create_warehouse(body: NewWarehouse, backend: ApiBackend = BACKEND) -> object:
     """Builds a warehouse in place of the one that stands."""
-    if wanted.layout:
-        return {"message": await _build_layout(wanted, backend)}
-    counts = (wanted.robots, wanted.items, wanted.shelves)
-    return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}
+    if body.layout:
+        return {"message": await _build_layout(body, backend)}
+    counts = (body.robots, body.items, body.shelves)
+    return {"message": await backend.change("create", body.name, body.id, *counts)}

@@ -14,14 +14,14 @@ from warehouse_viewer.watch.alarm_kinds import KINDS
 router = APIRouter()
 ALARM = Path(ge=1, le=2**53)
 COUNT = Query(0, ge=0, le=2**53)
-NO_FIGURES = "no shift tells figures; is one running (operations.launch)?"
+NO_FIGURES = "there are no figures; is a shift running (operations.launch)?"
 BYTES: dict[int | str, dict[str, Any]] = {
     200: {"content": {"application/octet-stream": {"schema": {"type": "string"}}}}
 }
 
 
 @router.get("/alarms", response_model=Alarms, responses=problems())
-async def get_alarms(backend: ApiBackend = BACKEND) -> Any:
+async def get_alarms(backend: ApiBackend = BACKEND) -> object:
     """The alarms: since when each holds, its cause, what to do, and the person that saw it."""
     alarms = backend.monitor.alarms.told()
     kinds = {name: kind._asdict() for name, kind in KINDS.items()}
@@ -29,16 +29,16 @@ async def get_alarms(backend: ApiBackend = BACKEND) -> Any:
 
 
 @router.post("/alarms/{number}/seen", response_model=Alarm, responses=problems(404, *SENT))
-async def see_alarm(seen: Seen, number: int = ALARM, backend: ApiBackend = BACKEND) -> Any:
+async def see_alarm(body: Seen, number: int = ALARM, backend: ApiBackend = BACKEND) -> object:
     """A person has seen an alarm; all clients show who it was for as long as the alarm lasts."""
-    alarm = backend.monitor.see(number, seen.by.strip())
+    alarm = backend.monitor.see(number, body.by.strip())
     if alarm is None:
         raise HTTPException(404, f"alarm {number} has ended, or never was")
     return alarm
 
 
 @router.get("/figures", response_model=LeadingFigures, responses=problems())
-async def get_figures(backend: ApiBackend = BACKEND) -> Any:
+async def get_figures(backend: ApiBackend = BACKEND) -> object:
     """Pieces and orders an hour, late orders, available robots: now, their last hour, targets."""
     figures = backend.monitor.figures()
     if figures is None:
@@ -55,6 +55,6 @@ async def get_spans(
     long the head in JSON is that follows; of `moments` times after `origin` [s] as float32; of
     each how many changes it has as uint32; the changes as uint32, the row times 8 plus the state:
     0 to 4 as the activities of robots, 7 unknown."""
-    told = backend.monitor.spans.encode(epoch, since, known)
+    data = backend.monitor.spans.encode(epoch, since, known)
     headers = {"cache-control": "no-store"}
-    return Response(told, media_type="application/octet-stream", headers=headers)
+    return Response(data, media_type="application/octet-stream", headers=headers)

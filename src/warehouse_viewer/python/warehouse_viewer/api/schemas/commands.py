@@ -93,7 +93,7 @@ class Events(BaseModel):
 
 
 class Outcome(BaseModel):
-    """What became of a command so far."""
+    """The state of a command."""
 
     outcome: Literal["accepted", "done", "blocked", "pending"]
     events: list[Event]

@@ -123,7 +123,7 @@ class RobotsByWork(BaseModel):
 
 
 class RobotsByActivity(BaseModel):
-    """Numbers of robots by what they do at a glance, as lists, floor and figures tell it."""
+    """Numbers of robots by what they do at a glance, as lists, floor and figures show it."""
 
     needs_help: int
     waiting: int
@@ -135,7 +135,7 @@ class RobotsByActivity(BaseModel):
 class TransportCounts(BaseModel):
     """Numbers of transports by state."""
 
-    open: int = Field(description="transports without a robot so far")
+    open: int = Field(description="transports without a robot yet")
     under_way: int
     delivered: int
     stored: int

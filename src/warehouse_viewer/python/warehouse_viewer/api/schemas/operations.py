@@ -18,7 +18,7 @@ from warehouse_viewer.api.schemas.pydantic_versions import (
 State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
 Mode = Literal["AUTOMATIC", "MANUAL"]
 PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
-# By the numbers of the messages.
+# Names by the numbers of the messages.
 Activity = Literal["RESTING", "MOVING", "WORKING", "WAITING", "NEEDS_HELP"]
 STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
 
@@ -104,7 +104,7 @@ class Skus(BaseModel):
 
 
 class OrderLine(BaseModel):
-    """A line of an order, and the pieces picked for it so far."""
+    """A line of an order, and the count of pieces already picked for it."""
 
     sku: str
     quantity: int
@@ -179,7 +179,7 @@ class Queued(BaseModel):
 
     unit: int
     robot: int = Field(description="that carries it; 0: none does yet")
-    stands: float = Field(description="for so long the robot has stood [s]")
+    stands: float = Field(description="how long the robot has stood [s]")
     is_long: bool = Field(description="whether that is too long")
 
 
@@ -223,18 +223,18 @@ class SetStation(Body):
 
 
 class Confirmation(Line):
-    """So many pieces were taken out, or a bundle of so many was put in."""
+    """Confirms that a number of pieces was taken out, or a bundle was put in."""
 
 
 class Short(Line):
-    """So many pieces are not there, or are damaged; those to be put in stay out."""
+    """Reports a number of pieces as missing or damaged; those to be put in stay out."""
 
     damaged: StrictBool = False
 
 
 class PickReport(Body):
-    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
-    bin is empty; DAMAGED: so many are. A report that comes again under its id gets the first
+    """The outcome of a pick at a station. SHORT: `quantity` pieces are missing, 0 if the
+    bin is empty; DAMAGED: `quantity` are. A report that comes again under its id gets the first
     answer."""
 
     order_id: OrderNumber = 0
@@ -259,7 +259,7 @@ class Throughput(BaseModel):
     begin: float = Field(
         description="begin of the first interval [s], simulated; the shift's begin if that is later"
     )
-    end: float = Field(description="end of the last interval so far [s]")
+    end: float = Field(description="end of the last complete interval [s]")
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the API takes from pydantic, of which Debian 12 has version 1 and Debian 13 version 2."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any
 
 import pydantic
@@ -57,10 +57,10 @@ def as_json(model: BaseModel) -> str:
 def faults_of(error: RequestValidationError) -> list[dict[str, Any]]:
     """Returns what is wrong with a request, for its answer.
 
-    pydantic 2 also tells what was given, which JSON may not be able to hold.
+    pydantic 2 adds the input, which JSON may not be able to hold.
     """
-    told = ("loc", "msg", "type", "ctx") if IS_1 else ("loc", "msg", "type")
-    return [{key: one[key] for key in told if key in one} for one in error.errors()]
+    keys = ("loc", "msg", "type", "ctx") if IS_1 else ("loc", "msg", "type")
+    return [{key: fault[key] for key in keys if key in fault} for fault in error.errors()]
 
 
 def _finite(value: Any) -> Any:
@@ -80,18 +80,18 @@ if IS_1:
         allow_inf_nan = False
 
         @classmethod
-        def __get_validators__(cls):
+        def __get_validators__(cls) -> Iterator[Callable[..., Any]]:
             yield _finite
             yield from super().__get_validators__()
 
     def number(least: float = -MOST, most: float = MOST) -> Any:
-        """Returns the type of finite numbers from `least` to `most`; a text is none."""
+        """Returns the type of finite numbers from `least` to `most`; a text is refused."""
         return type("Number", (_Number,), {"ge": least, "le": most})
 
     def check_all(check: Callable[[Mapping[str, Any]], None]) -> Any:
         """Returns what, as a class attribute, calls check(values) for each model that is valid."""
 
-        def validate(cls, values):
+        def validate(cls: type, values: dict[str, Any]) -> Any:
             check(values)
             return values
 
@@ -110,14 +110,14 @@ else:
     from pydantic.json_schema import models_json_schema
 
     def number(least: float = -MOST, most: float = MOST) -> Any:
-        """Returns the type of finite numbers from `least` to `most`; a text is none."""
+        """Returns the type of finite numbers from `least` to `most`; a text is refused."""
         field = Field(ge=least, le=most, allow_inf_nan=False)
         return Annotated[float, field, BeforeValidator(_finite)]
 
     def check_all(check: Callable[[Mapping[str, Any]], None]) -> Any:
         """Returns what, as a class attribute, calls check(values) for each model that is valid."""
 
-        def validate(model):
+        def validate(model: BaseModel) -> BaseModel:
             check(vars(model))
             return model
 

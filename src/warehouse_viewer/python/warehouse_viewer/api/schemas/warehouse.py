@@ -72,7 +72,7 @@ class Reset(Body):
 
 
 class Step(Body):
-    """Advances a paused world by so many steps."""
+    """Advances a paused world by a number of steps."""
 
     steps: Steps = Field(1, description="of the physics")
 

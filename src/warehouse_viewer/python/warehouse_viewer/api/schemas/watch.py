@@ -36,7 +36,7 @@ class AlarmKind(BaseModel):
     severity: Severity
     title: str
     to_do: str
-    after: float = Field(description="it counts once it has lasted so long [s], simulated")
+    after: float = Field(description="duration from which it counts [s], simulated")
 
 
 class Alarms(BaseModel):

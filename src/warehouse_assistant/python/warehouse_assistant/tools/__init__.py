@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tools, chosen by what people ask for and not by the paths of the HTTP API.
+
+simulations    what runs; start, stop, pause; logs
+overview       a warehouse in words; what stands where; why something waits; alarms, events
+floor          the picture of the floor
+robots         commands to robots, transports of storage units
+orders         orders and stock
+stations       stations, and picks that are confirmed
+whatif         what-if runs
+reading        the documentation; the rest of long replies
+"""

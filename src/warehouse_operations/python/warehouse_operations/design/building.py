@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A building to be filled: its free cells, and rectangles of them in which a floor has room."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from scipy import ndimage
+
+from warehouse_layout.file import layout_file as lf
+from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
+from warehouse_layout.place import file_check
+
+LEAST, MOST = 8, 1000  # cells of an edge
+PILLAR = 9  # cells of the largest thing that a floor may be laid around
+TRIES = 24  # places in which a floor is tried
+
+
+class BuildingError(ValueError):
+    """Says what is wrong with a building."""
+
+
+@dataclass(frozen=True)
+class Building:
+    """A layout file of walls, pillars, doors and what else is fixed; plain floor is free."""
+
+    file: LayoutFile
+
+    @classmethod
+    def read(cls, text: str) -> "Building":
+        """Reads a layout file, or WIDTHxHEIGHT in cells. Raises BuildingError, LayoutFileError."""
+        if match := re.fullmatch(r"(\d+)\s*[xX×]\s*(\d+)", text.strip()):
+            width, height = int(match[1]), int(match[2])
+            if not all(LEAST <= edge <= MOST for edge in (width, height)):
+                raise BuildingError(f"building is {text}; edges of {LEAST} to {MOST} cells")
+            floor = np.full((height, width), lf.FLOOR, "<U1")
+            return cls(LayoutFile(floor=floor, name=f"{width} x {height}"))
+        if not Path(text).is_file():
+            raise BuildingError(f"building is {text}; a layout file or WIDTHxHEIGHT was expected")
+        file = lf.read(text)
+        if not (file.floor == lf.FLOOR).any():
+            raise BuildingError(f"{text}: no plain floor ({lf.FLOOR}) is drawn to be filled")
+        return cls(file)
+
+    @property
+    def free(self) -> np.ndarray:
+        """Which cells are to be filled, (h, w) bool."""
+        return np.asarray(self.file.floor == lf.FLOOR)
+
+    @property
+    def square_metres(self) -> float:
+        """The area of its floor: all but walls and what is outside."""
+        inside = ~np.isin(self.file.floor, [lf.NO_FLOOR, lf.WALL])
+        return float(inside.sum()) * self.file.spacing**2
+
+    def room(self) -> tuple[int, int, int, int]:
+        """Returns the largest rectangle, (column, row, width, height), with pillars in it."""
+        return largest_rectangle(self._without_pillars())
+
+    def _without_pillars(self) -> np.ndarray:
+        """Returns the free cells, small things within them included."""
+        taken = ~self.free
+        labels, count = ndimage.label(taken, np.ones((3, 3)))
+        sizes = ndimage.sum_labels(taken, labels, np.arange(count + 1))
+        edge = np.unique(np.r_[labels[0], labels[-1], labels[:, 0], labels[:, -1]])
+        small = sizes <= PILLAR
+        small[edge] = small[0] = False
+        return self.free | small[labels]
+
+    def filled(self, floor: LayoutFile) -> LayoutFile | None:
+        """Returns the building with a floor in it where a fleet can work there; None if nowhere."""
+        column, row, width, height = self.room()
+        rows, columns = floor.floor.shape
+        if columns > width or rows > height:
+            return None
+        slack = [(x, y) for y in range(height - rows + 1) for x in range(width - columns + 1)]
+        middle = (width - columns) / 2, (height - rows) / 2
+        slack.sort(key=lambda at: (abs(at[0] - middle[0]) + abs(at[1] - middle[1]), at))
+        step = max(len(slack) // TRIES, 1)
+        for x, y in slack[::step][:TRIES]:
+            file = self._with(floor, column + x, row + y)
+            if file is not None and not file_check.faults(file):
+                return file
+        return None
+
+    def _with(self, floor: LayoutFile, x: int, y: int) -> LayoutFile | None:
+        """Returns the building with a floor whose corner is at a cell."""
+        rows, columns = floor.floor.shape
+        out = self.file.floor.copy()
+        out[self.free] = lf.KEEP_OUT
+        part, free = out[y : y + rows, x : x + columns], self.free[y : y + rows, x : x + columns]
+        drawn = (floor.floor != lf.NO_FLOOR) & free
+        part[drawn] = floor.floor[drawn]
+        names = {station.key for station in self.file.stations}
+        stations = []
+        for station in floor.stations:
+            cells = [station.service, *station.queue, *station.exit]
+            if station.key in names or not all(free[cell[1], cell[0]] for cell in cells):
+                return None
+            stations.append(_moved(station, x, y))
+        return replace(
+            floor,
+            floor=out,
+            stations=(*self.file.stations, *stations),
+            spacing=self.file.spacing,
+            building=self.file.building,
+            at=self.file.at,
+            stock=self.file.stock,
+            items=0 if self.file.stock else floor.items,
+            path=self.file.path,
+        )
+
+
+def _moved(station: StationEntry, x: int, y: int) -> StationEntry:
+    def cell(place: Cell) -> Cell:
+        return place[0] + x, place[1] + y
+
+    return replace(
+        station,
+        service=cell(station.service),
+        queue=tuple(map(cell, station.queue)),
+        exit=tuple(map(cell, station.exit)),
+    )
+
+
+def largest_rectangle(free: np.ndarray) -> tuple[int, int, int, int]:
+    """Returns the largest rectangle of free cells, (column, row, width, height)."""
+    best = (0, 0, 0, 0)
+    heights = np.zeros(free.shape[1], int)
+    for row, line in enumerate(free):
+        heights = np.where(line, heights + 1, 0)
+        for column, width, height in _under(heights.tolist()):
+            if width * height > best[2] * best[3]:
+                best = (column, row - height + 1, width, height)
+    return best
+
+
+def _under(heights: list[int]) -> Iterator[tuple[int, int, int]]:
+    """Yields the largest rectangles under a skyline: (column, width, height)."""
+    stack: list[tuple[int, int]] = []  # (column, height), ascending
+    for column, height in enumerate([*heights, 0]):
+        begin = column
+        while stack and stack[-1][1] >= height:
+            begin, top = stack.pop()
+            yield begin, column - begin, top
+        stack.append((begin, height))

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Batteries, charging, failures and repair of ideal robots: how much of their time they can work.
+
+The parameters are those of the realism of simulated robots (doc/explanation/realism.md), by the
+same names and files; what else a realism has (localisation, radio, people …) ideal robots lack.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from warehouse_fleet.transports.charging import FULL, Opportunity, Policy
+from warehouse_operations.stock.yaml_file import read_yaml
+
+HOUR = 3600.0  # [s]
+UNDER_WAY = 90.0  # what driving takes beside the electronics, loaded or not, on the average [W]
+TAPERED = 0.05  # of the charging power, that is left when a battery is full
+SECTIONS = ("energy", "failures")
+KINDS = ("motor", "lift_stuck", "laser_blind", "radio_lost", "wheel_slips")
+
+
+class RealismError(ValueError):
+    """Says what is wrong with a realism: its file and field."""
+
+
+@dataclass(frozen=True)
+class Energy:
+    """A battery: capacity [Wh], the share of it that is left, its charge at first, powers [W]."""
+
+    capacity: float = 960.0
+    health: float = 1.0
+    initial_least: float = 0.6
+    initial_most: float = 1.0
+    electronics: float = 80.0
+    charge_power: float = 1500.0
+    charge_taper: float = 0.8
+
+    @property
+    def joules(self) -> float:
+        """The energy of a full battery [J]."""
+        return self.capacity * self.health * HOUR
+
+    def used(self, seconds: float, is_under_way: bool) -> float:
+        """Returns the part of a full battery that a robot uses."""
+        return seconds * (self.electronics + UNDER_WAY * is_under_way) / self.joules
+
+    def charged(self, charge: float, seconds: float) -> float:
+        """Returns the state of charge after so long at a charger, from one before."""
+        rate = (self.charge_power - self.electronics) / self.joules
+        constant = max(self.charge_taper - charge, 0.0) / rate
+        if seconds <= constant:
+            return charge + rate * seconds
+        charge = max(charge, self.charge_taper)
+        # From the taper on the power falls evenly with the charge: an exponential approach.
+        slope = rate * (1 - TAPERED) / max(1 - self.charge_taper, 1e-9)
+        top = self.charge_taper + rate / slope
+        left = (top - charge) * np.exp(-slope * (seconds - constant))
+        return min(float(top - left), 1.0)
+
+    def seconds_to(self, charge: float, aim: float) -> float:
+        """Returns how long charging takes from one state of charge to another [s]."""
+        low, high = 0.0, 24 * HOUR
+        for _ in range(50):
+            middle = (low + high) / 2
+            low, high = (low, middle) if self.charged(charge, middle) >= aim else (middle, high)
+        return high
+
+
+@dataclass(frozen=True)
+class Failures:
+    """Failures by chance: how many a robot and hour, and how long a repair takes [s]."""
+
+    per_robot_hour: float = 0.01
+    repair_time: float = 300.0
+    motor: float = 0.3
+    lift_stuck: float = 0.15
+    laser_blind: float = 0.15
+    radio_lost: float = 0.25
+    wheel_slips: float = 0.15
+
+    @property
+    def down_share(self) -> float:
+        """The share of failures with which a robot can't work: all but slipping wheels."""
+        total = sum(getattr(self, kind) for kind in KINDS)
+        return 1 - self.wheel_slips / total if total else 0.0
+
+
+@dataclass(frozen=True)
+class Availability:
+    """What keeps ideal robots from work; None: nothing of that kind."""
+
+    energy: Energy | None = None
+    failures: Failures | None = None
+
+    def __bool__(self) -> bool:
+        return bool(self.energy or self.failures)
+
+
+def read(realism: str) -> Availability:
+    """Returns the availability that a realism gives ideal robots: the name of a preset, or a file;
+    "": nothing keeps them. Raises RealismError."""
+    if not realism:
+        return Availability()
+    data = read_yaml(_path(realism), RealismError)
+    if not isinstance(data, dict):
+        raise RealismError(f"{realism}: sections with parameters were expected")
+    energy, failures = (data.get(section, False) for section in SECTIONS)
+    return Availability(
+        Energy(**_section(realism, "energy", energy, Energy)) if energy else None,
+        Failures(**_section(realism, "failures", failures, Failures)) if failures else None,
+    )
+
+
+def _path(realism: str) -> Path:
+    from kiva_plugin_cpp import worlds_folder
+
+    path = worlds_folder() / "realism" / f"{realism}.yaml"
+    if "/" not in realism and path.exists():
+        return path
+    if not Path(realism).is_file():
+        raise RealismError(
+            f"realism is '{realism}'; ideal, typical, bad_day or a file was expected"
+        )
+    return Path(realism)
+
+
+def _section(
+    realism: str, name: str, values: Any, kind: type[Energy] | type[Failures]
+) -> Mapping[str, float]:
+    """Returns the parameters of a section that ideal robots have."""
+    if values is True:
+        return {}
+    if not isinstance(values, dict):
+        raise RealismError(f"{realism}: {name} is {values!r}; true, false or parameters")
+    known = {field.name for field in fields(kind)}
+    for key, value in values.items():
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if key in known and (not number or value < 0):
+            raise RealismError(f"{realism}: {name}: {key} is {value!r}; a number was expected")
+    return {key: float(values[key]) for key in values.keys() & known}
+
+
+class Upkeep:
+    """The batteries of a fleet of ideal robots, by index, and what was spent on them.
+
+    cells: charging places. charge: states of charge, (n,). down_s, charging_s: robot-seconds.
+    """
+
+    def __init__(
+        self,
+        availability: Availability,
+        robots: int,
+        cells: np.ndarray,
+        rng: np.random.Generator,
+        policy: Policy | None = None,
+    ) -> None:
+        energy = availability.energy
+        self.energy, self.failures, self.rng = energy, availability.failures, rng
+        self.policy, self._cells = policy or Opportunity(), [int(cell) for cell in cells]
+        least, most = (energy.initial_least, energy.initial_most) if energy else (1.0, 1.0)
+        self.charge = rng.uniform(least, most, robots)
+        self._noted = np.zeros(robots)  # until when the charge holds [s]
+        self.place: dict[int, int] = {}  # of charging robots
+        self._begins: dict[int, float] = {}  # when they are there [s]
+        self.down_s = self.charging_s = 0.0
+
+    def note(self, index: int, now: float, is_under_way: bool) -> None:
+        """Brings the charge of a robot up to date: it did that since the last note."""
+        if self.energy is None:
+            return
+        begin, charge = float(self._noted[index]), float(self.charge[index])
+        charging = max(now - max(begin, self._begins[index]), 0.0) if index in self.place else 0.0
+        charge -= self.energy.used(max(now - begin - charging, 0.0), is_under_way)
+        if charging:
+            charge = self.energy.charged(max(charge, 0.0), charging)
+            self.charging_s += charging
+        self.charge[index], self._noted[index] = max(charge, 0.0), max(now, begin)
+
+    def may_work(self, index: int) -> bool:
+        """Returns whether a robot without work may be given some."""
+        if self.energy is None:
+            return True
+        charge = self.charge[[index]]
+        if index in self.place and not self.policy.frees(charge)[0]:
+            return False
+        return not self.policy.spares(charge)[0]
+
+    def leave(self, index: int) -> None:
+        """Frees the charging place of a robot."""
+        self.place.pop(index, None)
+        self._begins.pop(index, None)
+
+    def wants(self, index: int, is_wanted: bool) -> bool:
+        """Returns whether a robot without work is to charge."""
+        if self.energy is None or index in self.place:
+            return False
+        return bool(self.policy.sends(self.charge[[index]], is_wanted)[0])
+
+    def is_full(self, index: int) -> bool:
+        """Returns whether charging gains nothing any more."""
+        return bool(self.charge[index] >= FULL)
+
+    def free_cells(self, index: int) -> list[int]:
+        """Returns the charging places that a robot may take: free ones, or that of the fullest
+        robot which could work, if it is low itself."""
+        kept = set(self.place.values())
+        free = [cell for cell in self._cells if cell not in kept]
+        if free or self.charge[index] >= self.policy.low or not self.place:
+            return free
+        others = np.array(list(self.place))
+        able = others[self.policy.frees(self.charge[others])]
+        if not len(able):
+            return []
+        fullest = int(able[self.charge[able].argmax()])
+        cell = self.place[fullest]
+        self.leave(fullest)
+        return [cell]
+
+    def begin(self, index: int, cell: int, there: float) -> float:
+        """Gives a robot a charging place; returns when it may work again [s]."""
+        self.place[index], self._begins[index] = cell, there
+        assert self.energy is not None
+        enough = getattr(self.policy, "enough", getattr(self.policy, "high", 1.0))
+        charge = max(float(self.charge[index]), 0.0)
+        if charge >= enough:
+            return there
+        return there + self.energy.seconds_to(charge, enough)
+
+    def next_failure(self, robots: int) -> float:
+        """Draws the time to the fleet's next failure [s]; infinity where there are none."""
+        rate = self.failures.per_robot_hour * robots / HOUR if self.failures else 0.0
+        return float(self.rng.exponential(1 / rate)) if rate else np.inf
+
+    def draw_failure(self, robots: int) -> tuple[int, float]:
+        """Draws which robot fails, and for how long it can't work [s]."""
+        assert self.failures is not None
+        index = int(self.rng.integers(robots))
+        repair = float(self.rng.exponential(self.failures.repair_time))
+        return index, repair if self.rng.random() < self.failures.down_share else 0.0

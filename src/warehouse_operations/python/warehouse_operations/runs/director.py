@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Carries out the events of a scenario in a shift, each at its time."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from warehouse_operations.runs.event_file import Event
+from warehouse_operations.stock.days import check_stock
+from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+
+if TYPE_CHECKING:
+    from warehouse_operations.runs.operations import Operations
+
+NAMED = 8  # names in a message
+
+
+class Director:
+    """Carries out events in a shift. spare: ids of robots that are out of service at first.
+
+    Raises EventError at once for an event that could not happen there: a station, a robot or a SKU
+    that there is not.
+    """
+
+    def __init__(
+        self, ops: "Operations", events: Sequence[Event], spare: Sequence[int] = (), seed: int = 1
+    ) -> None:
+        self._ops, self._shift = ops, ops.shift
+        self._rng = np.random.default_rng((seed, len(events)))
+        self._spare = list(spare)[::-1]  # the next one last
+        self._working = [robot for robot in sorted(ops.site.robots) if robot not in spare]
+        for robot in spare:
+            ops.fleet.set_in_service(robot, False)
+        for event in events:
+            self._check(event)
+            self._shift.context.clock.schedule(self._shift.began + event.at, self._carry_out, event)
+
+    def _check(self, event: Event) -> None:
+        """Raises EventError if an event could not happen."""
+        value = event.value
+        station = value["station"] if event.kind == "picker" else value
+        if event.kind in ("close", "open", "picker"):
+            self._check_station(event, station)
+        elif event.kind == "fail" and isinstance(value, int):
+            if value not in self._ops.site.robots:
+                raise event.fault(f"is robot {value}; there are 1 to {max(self._ops.site.robots)}")
+        elif event.kind == "speed" and not self._ops.ideal:
+            raise event.fault("holds for ideal robots; simulated ones have that of their model")
+        elif event.kind == "sku_out" and value not in self._shift.assortment.skus:
+            raise event.fault(f"is {value}; the stock has no such SKU")
+        elif event.kind == "orders":
+            asked = {sku: 0 for order in read_csv(value) for sku, _ in order.lines}
+            try:
+                check_stock(value, asked, self._shift.assortment.skus)
+            except DemandError as error:
+                raise event.fault(str(error)) from error
+
+    def _check_station(self, event: Event, name: str) -> None:
+        names = [station.name for station in self._shift.stations]
+        if name not in names:
+            more = " …" if len(names) > NAMED else ""
+            raise event.fault(f"is {name}; there are {', '.join(names[:NAMED])}{more}")
+
+    def _carry_out(self, event: Event) -> None:
+        self._shift.context.update_hash("event", event.kind, str(event.value))
+        getattr(self, f"_{event.kind}")(event)
+
+    def _close(self, event: Event) -> None:
+        self._set_open(event.value, False)
+
+    def _open(self, event: Event) -> None:
+        self._set_open(event.value, True)
+
+    def _set_open(self, name: str, is_open: bool) -> None:
+        self._shift.set_station(name, is_open, self._shift.station(name).mode)
+
+    def _robots(self, event: Event) -> None:
+        for _ in range(abs(event.value)):
+            source, target = self._spare, self._working
+            if event.value < 0:
+                source, target = target, source
+            if not source:
+                return
+            robot = source.pop()
+            target.append(robot)
+            self._ops.fleet.set_in_service(robot, event.value > 0)
+
+    def _fail(self, event: Event) -> None:
+        robots = [event.value]
+        if isinstance(event.value, float):
+            count = max(round(event.value * len(self._working)), 1)
+            count = min(count, len(self._working))
+            robots = self._rng.choice(self._working, count, replace=False).tolist()
+        for robot in robots:
+            self._ops.fleet.fail(int(robot), event.duration)
+
+    def _speed(self, event: Event) -> None:
+        fleet: Any = self._ops.fleet
+        fleet.set_speed(event.value)
+
+    def _sku_out(self, event: Event) -> None:
+        self._shift.take_out(event.value)
+
+    def _orders(self, event: Event) -> None:
+        now = self._shift.now
+        for order in read_csv(event.value):
+            self._shift.context.clock.schedule(now + order.at, self._submit, (order, now))
+
+    def _submit(self, argument: tuple[Wanted, float]) -> None:
+        order, begin = argument
+        due = order.due + begin if order.due else 0.0
+        _, text = self._shift.submit(order.lines, due, order.priority, order.reference)
+        if text and not text.startswith("waits"):
+            self._shift.notices.add(f"order {order.reference} is refused: {text}")
+
+    def _picker(self, event: Event) -> None:
+        station = self._shift.station(event.value["station"])
+        if "seconds_a_piece" in event.value:
+            station.set_pace(event.value["seconds_a_piece"])
+        if "pickers" in event.value:
+            station.set_pickers(event.value["pickers"], self._shift.now)
+        station.next_work()

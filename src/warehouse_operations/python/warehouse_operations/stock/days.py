@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A day of orders as it was, or drawn; with so many times the orders."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from warehouse_operations.stock import demand_file
+from warehouse_operations.stock.assortment import Assortment
+from warehouse_operations.stock.demand_file import DrawnDays
+from warehouse_operations.stock.order_file import DemandError, Wanted, lines_by_sku, read_csv
+from warehouse_operations.stock.orders_text import DAY, DayText
+
+HOUR = 3600.0  # [s]
+NEAR = 300.0  # an order that comes once more does so within [s] of the first
+MOST_NAMED = 20  # SKUs in a message
+
+
+def assortment_of(day: DayText) -> Assortment:
+    """Returns the SKUs of a day's file, by how often each is asked for. Raises DemandError."""
+    lines = lines_by_sku(day.file) if day.kind == DAY else demand_file.read(day.file).skus
+    if not lines:
+        raise DemandError(f"{day.file}: there is no order in it")
+    return Assortment.of_lines(lines)
+
+
+def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> None:
+    """Raises DemandError, which names each SKU once that the stock lacks."""
+    has = set(stock)
+    lacking = [sku for sku in asked if sku not in has]
+    if lacking:
+        named = ", ".join(lacking[:MOST_NAMED])
+        more = f" and {len(lacking) - MOST_NAMED} more" if len(lacking) > MOST_NAMED else ""
+        count = f"{len(lacking)} SKU{'' if len(lacking) == 1 else 's'}"
+        raise DemandError(f"{file}: the stock has none of {count} of {len(asked)}: {named}{more}")
+
+
+def scaled(orders: Sequence[Wanted], factor: float, rng: np.random.Generator) -> list[Wanted]:
+    """Returns so many times the orders: whole copies, and a part of them by chance.
+
+    A copy comes within NEAR of the order, has as long until it is due, and a reference of its own.
+    """
+    whole, part = divmod(factor, 1)
+    out = []
+    for order in orders:
+        copies = int(whole) + int(rng.random() < part)
+        for number in range(copies):
+            shift = float(rng.uniform(-NEAR, NEAR)) if number else 0.0
+            at = max(order.at + shift, 0.0)
+            due = order.due + at - order.at if order.due else 0.0
+            reference = f"{order.reference}-{number + 1}" if number else order.reference
+            out.append(replace(order, at=at, due=due, reference=reference))
+    return out
+
+
+def orders_of(
+    day: DayText,
+    skus: Collection[str] | None,
+    rng: np.random.Generator,
+    capacity: float,
+) -> list[Wanted]:
+    """Returns the orders of a day of a CSV file, those of its first hour first if it is to begin
+    at work. skus: in stock; None: any. Raises DemandError."""
+    orders = read_csv(day.file, None, capacity)
+    if not orders:
+        raise DemandError(f"{day.file}: there is no order in it")
+    if skus is not None:
+        asked = dict.fromkeys(sku for order in orders for sku, _ in order.lines)
+        check_stock(day.file, asked, skus)
+    orders, seconds = scaled(orders, day.factor, rng), 60 * day.run_in
+    later = [_moved(order, seconds) for order in orders]
+    return [*_before(orders, seconds), *later] if seconds else later
+
+
+def drawn(
+    day: DayText,
+    skus: Collection[str] | None,
+    rng: np.random.Generator,
+    now: float = 0.0,
+) -> DrawnDays:
+    """Returns days that are drawn from a description. Raises DemandError."""
+    demand = demand_file.read(day.file)
+    if skus is not None:
+        check_stock(day.file, demand.skus, skus)
+    return DrawnDays(demand, rng, day.factor, now, now + 60 * day.run_in)
+
+
+def _before(orders: Sequence[Wanted], seconds: float) -> list[Wanted]:
+    """Returns the orders of the first hour in which any come, again and again until the day."""
+    begin = HOUR * (min(order.at for order in orders) // HOUR)
+    first = [order for order in orders if begin <= order.at < begin + HOUR]
+    out, start, number = [], seconds - HOUR, 1
+    while start > -HOUR:
+        for order in first:
+            moved = _moved(order, start - begin)
+            if moved.at >= 0:
+                reference = f"{order.reference}-before-{number}"
+                out.append(replace(moved, reference=reference[-200:]))
+        start, number = start - HOUR, number + 1
+    return out
+
+
+def _moved(order: Wanted, seconds: float) -> Wanted:
+    due = max(order.due + seconds, 1.0) if order.due else 0.0
+    return replace(order, at=order.at + seconds, due=due)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The hub behind one address: its page, its API, and the pages of what runs."""
+
+import asyncio
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+
+from warehouse_sim.hub.assistant import Assistant
+from warehouse_sim.hub.routes import routes
+from warehouse_sim.hub.simulations import Simulations
+from warehouse_viewer.editor.routes import Editor
+from warehouse_viewer.server import documentation
+from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.server.http_server import Server, config_of
+from warehouse_viewer.server.site import DOCS, HUB, LAYOUT, WHATIF, Site
+from warehouse_viewer.whatif.routes import routes as whatif_routes
+from warehouse_viewer.whatif.workshop import Workshop
+
+
+class Hub:
+    """Simulations, what-if, editor and documentation; run() serves until it is stopped.
+
+    tokens: the one that every client needs, "" for none, and another that serves as well.
+    """
+
+    def __init__(
+        self,
+        simulations: Simulations,
+        workshop: Workshop,
+        assistant: Callable[[], Assistant],
+        tokens: tuple[str, str] = ("", ""),
+    ) -> None:
+        self._simulations, self._workshop = simulations, workshop
+        self._make_assistant = assistant
+        self._assistant: Assistant | None = None
+        application = Starlette(
+            routes=[
+                *routes(simulations, lambda: self._assistant or Assistant(None, "")),
+                *whatif_routes(workshop),
+                *Editor(compares=True).routes(),
+                *Site(HUB, LAYOUT, WHATIF, DOCS).routes(),
+                *documentation.routes(),
+            ]
+        )
+        token, other = tokens
+        access = AccessControl(application, token, other_token=other)
+        self.server = _HubServer(config_of(access), self._begin, self._end)
+
+    def _begin(self) -> None:
+        self._assistant = self._make_assistant()
+        self._watching = asyncio.create_task(self._simulations.watch())
+
+    async def _end(self) -> None:
+        self._watching.cancel()
+        await self._simulations.close()
+        if self._assistant:
+            await self._assistant.close()
+
+    def run(self, listener: Any) -> None:
+        """Serves at a listening socket until it is stopped; ends what runs."""
+        try:
+            self.server.run(sockets=[listener])
+        finally:
+            self._workshop.close()
+
+
+class _HubServer(Server):
+    """Ends the simulations before it ends; a second signal does not wait for them."""
+
+    def __init__(self, config: Any, on_start: Callable[[], None], on_end: Any) -> None:
+        super().__init__(config, on_start)
+        self._on_end = on_end
+
+    def handle_exit(self, sig: Any, frame: Any) -> None:
+        """Stops serving (uvicorn's hook)."""
+        self.stop()
+
+    async def shutdown(self, sockets: Any = None) -> None:
+        """Ends what runs (uvicorn's hook)."""
+        await super().shutdown(sockets)
+        await self._on_end()
+
+
+def folder_of(ros_home: str) -> Path:
+    """Returns the folder in which a hub keeps its simulations."""
+    return Path(ros_home) / "warehouse" / "hub"

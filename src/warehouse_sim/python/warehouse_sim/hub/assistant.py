@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The assistant's server, which answers at /mcp: it has a Python environment of its own."""
+
+import asyncio
+import hmac
+import os
+import secrets
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from warehouse_sim.hub.process import free_port
+
+MISSING = (
+    "the assistant's packages are not installed: `make serve` installs them where PyPI is reachable"
+)
+
+
+KEY, ALLOW, CLIENT = b"x-warehouse-key", b"x-warehouse-allow", b"x-warehouse-client"
+
+Headers = list[tuple[bytes, bytes]]
+
+
+@dataclass(frozen=True)
+class Permission:
+    """Who may have an assistant change something: all who use the hub, or who brings a token."""
+
+    everybody: bool = False
+    token: str = ""  # "": no request holds it
+
+    def holds(self, headers: Headers) -> bool:
+        """Returns whether a request with these headers has it."""
+        scheme, _, token = dict(headers).get(b"authorization", b"").partition(b" ")
+        brings = scheme.lower() == b"bearer" and hmac.compare_digest(token, self.token.encode())
+        return self.everybody or bool(self.token and brings)
+
+
+class Assistant:
+    """A process that ends with this program. Without `python` there is none.
+
+    hub: the address that it asks, with `token` where that needs one.
+    """
+
+    def __init__(
+        self,
+        python: Path | None,
+        hub: str,
+        token: str = "",
+        permission: Permission = Permission(),  # noqa: B008 (frozen)
+    ) -> None:
+        self.address, self.reason = "", MISSING
+        self._permission = permission
+        self._popen: subprocess.Popen | None = None
+        # The port is any program's of this machine; only the hub knows the key.
+        self._key = secrets.token_hex(16)
+        if python and python.exists():
+            port = free_port()
+            module = [str(python), "-m", "warehouse_assistant", "--port", str(port), "--hub", hub]
+            self._popen = subprocess.Popen(
+                ["setpriv", "--pdeathsig", "TERM", *module],
+                stdin=subprocess.DEVNULL,
+                stdout=sys.stderr,
+                env={**os.environ, "WAREHOUSE_TOKEN": token, "WAREHOUSE_ASSISTANT_KEY": self._key},
+                start_new_session=True,
+            )
+            self.address = f"http://127.0.0.1:{port}"
+        elif python:
+            self.reason = f"the assistant's environment has no {python}: `make serve` makes it"
+
+    def headers(self, headers: Headers, client: str) -> Headers:
+        """Returns a request's headers as its server expects them, with what its sender may do."""
+        own = [(KEY, self._key.encode()), (CLIENT, client.encode())]
+        if self._permission.holds(headers):
+            own.append((ALLOW, b"commands"))
+        return [pair for pair in headers if pair[0] not in (KEY, ALLOW, CLIENT)] + own
+
+    def fault(self) -> str:
+        """Returns why it can't answer; "" if it can."""
+        if self._popen is None:
+            return self.reason
+        code = self._popen.poll()
+        return "" if code is None else f"the assistant's server ended with exit code {code}"
+
+    async def close(self) -> None:
+        """Ends it."""
+        if self._popen and self._popen.poll() is None:
+            self._popen.terminate()
+            await asyncio.to_thread(self._popen.wait)

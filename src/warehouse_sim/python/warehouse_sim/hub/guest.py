@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A warehouse that was launched elsewhere and shows itself in the hub while it runs."""
+
+import time
+from contextlib import suppress
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from warehouse_sim.hub.simulation import Simulation, State, fetch
+from warehouse_sim.hub.wish import Wish, WishError
+
+PATIENCE = 10.0  # with pages that do not answer, before it is taken off the list [s, wall]
+
+
+class Guest(Simulation):
+    """Its pages are at `viewer`, of this machine. The hub neither starts nor stops it."""
+
+    def __init__(self, name: str, viewer: object) -> None:
+        """Raises WishError for an address that is not one of this machine."""
+        parts = urlsplit(viewer if isinstance(viewer, str) else "")
+        local = parts.scheme == "http" and parts.hostname in ("localhost", "127.0.0.1")
+        if not local or not parts.port or parts.path.strip("/"):
+            raise WishError("address", "http://localhost:PORT was expected")
+        super().__init__(Wish(name, arguments={"started": "elsewhere"}), Path())
+        self.viewer = f"http://localhost:{parts.port}"
+        self.state, self._begun = State.STARTING, time.monotonic()
+        self._heard = time.monotonic()
+
+    @property
+    def is_gone(self) -> bool:
+        """Whether its pages have not answered for PATIENCE."""
+        return time.monotonic() - self._heard > PATIENCE
+
+    def look(self, most_memory: int) -> None:
+        """Takes in how it is (`most_memory` is not the hub's to bound)."""
+        with suppress(OSError, ValueError, KeyError):
+            self._warehouse = fetch(f"{self.viewer}/api/v1/warehouse")
+            self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
+            self._heard = time.monotonic()

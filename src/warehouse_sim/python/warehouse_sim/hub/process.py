@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A roslaunch with a master, ports, a ROS_HOME and a log of its own."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import xmlrpc.client
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+from warehouse_sim.hub.wish import Wish
+
+PATIENCE = 8.0  # for roslaunch to end what it started [s, wall]
+TIMEOUT = 2.0  # for the master to answer [s, wall]
+COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\]2;[^\x07]*\x07")
+# Lines of roslaunch that name no cause.
+NOISE = re.compile(
+    r"\s*$|.*(log file|logging to|done checking|press ctrl-c|started roslaunch|REQUIRED process|"
+    r"Initiating shutdown|shutting down|killing on exit|shutting down processing monitor|^done$|"
+    r"The traceback for the exception|^\[[\w-]+\] (restarting|process has finished))",
+    re.IGNORECASE,
+)
+
+
+def free_port() -> int:
+    """Returns a port of this machine that nothing listens at."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Process:
+    """A roslaunch that runs: it ends with this program, also where that is killed."""
+
+    def __init__(self, wish: Wish, folder: Path, environment: Mapping[str, str]) -> None:
+        """Starts it. Raises OSError."""
+        port = free_port()
+        self.master = f"http://localhost:{port}"
+        self._log = folder / "log.txt"
+        self.environment = {
+            **environment,
+            "ROS_MASTER_URI": self.master,
+            "ROS_HOME": str(folder),
+            "ROS_LOG_DIR": str(folder / "log"),
+            "ROS_HOSTNAME": "localhost",
+            "PYTHONUNBUFFERED": "1",
+            "SETUPTOOLS_USE_DISTUTILS": "stdlib",
+        }
+        with self._log.open("ab") as log:
+            self._popen = self._start(wish, port, folder, log)
+
+    def _start(self, wish: Wish, port: int, folder: Path, log: IO[bytes]) -> subprocess.Popen:
+        arguments = {**wish.arguments, "viewer": "true", "viewer_port": "0"}
+        words = [f"{name}:={text}" for name, text in arguments.items()]
+        # roslaunch gets SIGTERM when this program ends in any way, and then ends its nodes.
+        dies_with_us = ["setpriv", "--pdeathsig", "TERM"]
+        options = ["-p", str(port), "--sigint-timeout=4", "--sigterm-timeout=2"]
+        return subprocess.Popen(
+            [*dies_with_us, "roslaunch", *options, "warehouse_sim", wish.file, *words],
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            cwd=folder,
+            env=self.environment,
+            start_new_session=True,  # Ctrl-C in the hub's terminal is for the hub
+        )
+
+    def exit_code(self) -> int | None:
+        """Returns its exit code, None while it runs."""
+        return self._popen.poll()
+
+    def ask_to_end(self) -> None:
+        """Asks it to end; what it started ends with it."""
+        if self.exit_code() is None:
+            self._popen.send_signal(signal.SIGINT)
+
+    def end(self) -> None:
+        """Waits until it has ended, and kills what is left after PATIENCE."""
+        tree = descendants(self._popen.pid)
+        self.ask_to_end()
+        try:
+            self._popen.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._popen.kill()
+            self._popen.wait()
+        for number, start in tree.items():
+            if _start_of(number) == start:
+                with suppress(ProcessLookupError):
+                    os.kill(number, signal.SIGKILL)
+
+    def viewer(self) -> str:
+        """Returns the address of its pages, "" while they are not served. Blocks for TIMEOUT."""
+        with suppress(OSError, xmlrpc.client.Error):
+            master: Any = xmlrpc.client.ServerProxy(self.master, transport=_Transport())
+            code, _, value = master.getParam("/hub", "/viewer/address")
+            return str(value).rstrip("/") if code == 1 else ""
+        return ""
+
+    def memory(self) -> int:
+        """Returns the memory of all that it started [bytes]; shared pages count for each."""
+        page = os.sysconf("SC_PAGE_SIZE")
+        return sum(_resident(number) * page for number in (self._popen.pid, *self.tree()))
+
+    def tree(self) -> dict[int, str]:
+        """Returns the processes that it started, as descendants() does."""
+        return descendants(self._popen.pid)
+
+    def reason(self) -> str:
+        """Returns the last lines of its log that may name a cause, as one text."""
+        with suppress(OSError):
+            text = COLOURS.sub("", self._log.read_text(errors="replace")[-20_000:])
+            lines = [line.strip() for line in text.splitlines() if not NOISE.match(line)]
+            return "\n".join(lines[-6:])[-1000:]
+        return ""
+
+
+class _Transport(xmlrpc.client.Transport):
+    def make_connection(self, host: Any) -> Any:
+        connection = super().make_connection(host)
+        connection.timeout = TIMEOUT
+        return connection
+
+
+def descendants(root: int) -> dict[int, str]:
+    """Returns the processes below a process: {number: time of start, its identity}."""
+    parents: dict[int, int] = {}
+    starts: dict[int, str] = {}
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit() and (fields := _fields(int(entry.name))):
+            parents[int(entry.name)], starts[int(entry.name)] = int(fields[1]), fields[19]
+    out: dict[int, str] = {}
+    level = {root}
+    while level:
+        level = {number for number, parent in parents.items() if parent in level}
+        out.update((number, starts[number]) for number in level)
+    return out
+
+
+def _fields(number: int) -> list[str]:
+    """Returns the fields of /proc/N/stat after the name; [] if there is no such process."""
+    with suppress(OSError):
+        return Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
+    return []
+
+
+def _start_of(number: int) -> str:
+    fields = _fields(number)
+    return fields[19] if fields and fields[0] != "Z" else ""
+
+
+def _resident(number: int) -> int:
+    with suppress(OSError, IndexError):
+        return int(Path(f"/proc/{number}/statm").read_text().split()[1])
+    return 0

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One simulation of the hub: what was asked for, its process, and its state."""
+
+import enum
+import json
+import time
+import urllib.request
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from warehouse_sim.hub.process import Process
+from warehouse_sim.hub.wish import Wish
+
+TIMEOUT = 3.0  # for the pages of a simulation to answer [s, wall]
+
+
+class State(enum.Enum):
+    """How far a simulation is.
+
+    STOPPED -> STARTING at start(); STARTING -> RUNNING <-> PAUSED as its pages say; all three ->
+    FAILED when its process ends by itself, or takes too much; any -> STOPPED at stop().
+    """
+
+    STARTING = "STARTING"
+    RUNNING = "RUNNING"
+    PAUSED = "PAUSED"
+    FAILED = "FAILED"
+    STOPPED = "STOPPED"
+
+
+class Simulation:
+    """Its files lie in `folder`: simulation.json, log.txt, recordings, databases.
+
+    Methods block; one thread at a time may call them, but row() and its fields any.
+    """
+
+    def __init__(self, wish: Wish, folder: Path) -> None:
+        self.wish, self.folder = wish, folder
+        self.state, self.reason = State.STOPPED, ""
+        self.viewer = ""  # the address of its pages, "" while there are none
+        self.process: Process | None = None
+        self.used = time.monotonic()  # when its pages were last asked for [s, wall]
+        self._begun = 0.0  # [s, wall]
+        self._warehouse: dict[str, Any] = {}
+
+    @property
+    def lives(self) -> bool:
+        """Whether a process of it runs."""
+        return self.state in (State.STARTING, State.RUNNING, State.PAUSED)
+
+    def row(self) -> dict[str, Any]:
+        """Returns the simulation as the API lists it."""
+        seen_now = self._warehouse if self.lives else {}
+        return {
+            "name": self.wish.name,
+            "state": self.state.value,
+            "arguments": self.wish.arguments | self._kind(),
+            "world": seen_now.get("name") or self.wish.arguments.get("world", ""),
+            "robots": seen_now.get("robots", 0),
+            "storage_units": seen_now.get("storage_units", 0),
+            "rtf": seen_now.get("real_time_factor", 0.0),
+            "uptime_s": round(time.monotonic() - self._begun, 1) if self.lives else 0.0,
+            "url": f"/s/{self.wish.name}/",
+            "reason": self.reason,
+        }
+
+    def _kind(self) -> dict[str, str]:
+        kinds = {"operations.launch": "shift", "empty_world.launch": "empty"}
+        return {kinds[self.wish.file]: "true"} if self.wish.file in kinds else {}
+
+    def start(self, environment: dict[str, str]) -> None:
+        """Starts its process. Raises OSError."""
+        (self.folder / "simulation.json").write_text(json.dumps(self.wish.as_json(), indent=1))
+        (self.folder / "log.txt").write_bytes(b"")
+        self._warehouse, self.viewer, self.reason = {}, "", ""
+        self.process = Process(self.wish, self.folder, environment)
+        self._begun = self.used = time.monotonic()
+        self.state = State.STARTING
+
+    def stop(self, state: State = State.STOPPED, reason: str = "") -> None:
+        """Ends its process, cleanly if that is quick; it is STOPPED or FAILED then."""
+        if self.process:
+            self.process.end()
+        self.process, self.viewer = None, ""
+        self.state, self.reason = state, reason
+
+    def look(self, most_memory: int) -> None:
+        """Takes in how it is. One that takes more than `most_memory` [bytes] is ended."""
+        if not self.lives or self.process is None:
+            return
+        if (code := self.process.exit_code()) is not None:
+            reason = self.process.reason() or f"roslaunch ended with exit code {code}"
+            self.stop(State.FAILED, reason)
+        elif (memory := self.process.memory()) > most_memory:
+            reason = f"it took {memory >> 20} MB; {most_memory >> 20} MB at most were expected"
+            self.stop(State.FAILED, reason)
+        else:
+            self._look_at_pages(self.process)
+
+    def _look_at_pages(self, process: Process) -> None:
+        self.viewer = self.viewer or process.viewer()
+        if not self.viewer:
+            return
+        with suppress(OSError, ValueError):
+            self._warehouse = fetch(f"{self.viewer}/api/v1/warehouse")
+            self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
+
+
+def fetch(url: str) -> dict[str, Any]:
+    """Returns the JSON that a server of this machine answers. Raises OSError, ValueError."""
+    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+    with opener.open(url, timeout=TIMEOUT) as answer:
+        return json.loads(answer.read())

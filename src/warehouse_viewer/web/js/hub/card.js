@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The card of one simulation in the list.
+
+import { make, tell } from '../base/dom.js';
+import { look, paint } from './picture.js';
+
+const PERIOD = 1000; // between two pictures [ms]
+const COLOURS = { STARTING: 'waiting', RUNNING: 'working', PAUSED: 'resting', FAILED: 'needs-help', STOPPED: 'resting' };
+
+/** A list item; `does` maps what a button is called to what it does with the simulation. */
+export class Card {
+  constructor(name, does) {
+    this.name = name;
+    this.badge = make('span', { className: 'badge' });
+    this.link = make('a', { textContent: name });
+    this.canvas = make('canvas', { role: 'img', ariaLabel: `the floor of ${name}` });
+    this.facts = make('dl');
+    this.reason = make('p', { className: 'reason dim' });
+    this.buttons = Object.fromEntries(Object.entries(does).map(([text, action]) =>
+      [text, make('button', { className: 'edged', textContent: text, click: () => action(this.row) })]));
+    this.open = make('a', { className: 'button strong', textContent: 'Open' });
+    this.element = make('li', { className: 'card simulation' },
+      make('h3', {}, this.link, this.badge), this.canvas, this.facts, this.reason,
+      make('div', { className: 'row' }, this.open, ...Object.values(this.buttons)));
+    this.looked = 0;
+  }
+
+  show(row) {
+    this.row = row;
+    const lives = ['RUNNING', 'PAUSED'].includes(row.state);
+    tell(this.badge, row.state.toLowerCase());
+    this.badge.className = `badge ${COLOURS[row.state]}`;
+    this.link.href = this.open.href = row.url;
+    this.open.hidden = !lives;
+    this.canvas.hidden = !lives;
+    this.showFacts(row);
+    tell(this.reason, row.reason);
+    this.reason.hidden = !row.reason;
+    for (const [text, button] of Object.entries(this.buttons)) button.hidden = !isOffered(text, row.state);
+    if (lives && performance.now() - this.looked > PERIOD) this.picture();
+  }
+
+  showFacts(row) {
+    const given = Object.entries(row.arguments).map(([name, value]) => `${name}:=${value}`).join(' ');
+    const lives = row.uptime_s > 0;
+    const facts = {
+      Robots: lives && row.robots, Speed: lives && row.rtf ? `${row.rtf.toFixed(2)} ×` : '',
+      Runs: lives && durationOf(row.uptime_s), Arguments: given,
+    };
+    const pairs = Object.entries(facts).filter(([, value]) => value);
+    const text = JSON.stringify(pairs);
+    if (text === this.shownFacts) return;
+    this.shownFacts = text;
+    this.facts.replaceChildren(...pairs.flatMap(([name, value]) => [make('dt', { textContent: name }), make('dd', { textContent: value })]));
+  }
+
+  async picture() {
+    this.looked = performance.now();
+    const places = await look(this.row.url).catch(() => null);
+    if (places) paint(this.canvas, places);
+  }
+}
+
+function isOffered(text, state) {
+  const lives = ['STARTING', 'RUNNING', 'PAUSED'].includes(state);
+  return { Start: !lives, Delete: !lives, Stop: lives, 'Insert a world': state === 'RUNNING' || state === 'PAUSED' }[text] ?? true;
+}
+
+function durationOf(seconds) {
+  const minutes = Math.floor(seconds / 60);
+  if (minutes < 1) return `${Math.round(seconds)} s`;
+  return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}

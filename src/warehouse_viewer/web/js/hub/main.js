@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of the hub: what runs, and new warehouses.
+
+import { $, make, on, tell } from '../base/dom.js';
+import { confirmed } from '../base/question.js';
+import { Card } from './card.js';
+import { WishForm } from './form.js';
+import * as server from './server.js';
+
+const PERIOD = 1000; // between two looks at the list [ms]
+
+class Page {
+  constructor() {
+    this.cards = new Map();
+    this.form = new WishForm(() => this.look());
+    on($('new'), 'click', () => this.form.open(this.freeName('warehouse')).catch((error) => this.say(error.message)));
+    on($('begin'), 'click', () => this.create({ size: 'small', shift: true }));
+    on($('drive'), 'click', () => this.create({ size: 'small' }));
+    on($('log-close'), 'click', () => $('log').close());
+    on($('log'), 'close', () => this.following?.abort());
+    on($('insert-cancel'), 'click', () => $('insert').close());
+    on($('insert-form'), 'submit', (event) => { event.preventDefault(); this.insert(); });
+    this.run();
+  }
+
+  async run() {
+    for (;;) {
+      if (!document.hidden) await this.look();
+      await new Promise((resolve) => setTimeout(resolve, PERIOD));
+    }
+  }
+
+  async look() {
+    const rows = await server.list().catch(() => null);
+    $('link').dataset.state = rows ? 'live' : 'away';
+    tell($('link'), rows ? 'live' : 'the hub does not answer');
+    if (rows) this.show(rows);
+  }
+
+  show(rows) {
+    this.rows = rows;
+    $('welcome').hidden = rows.some(({ state }) => ['STARTING', 'RUNNING', 'PAUSED'].includes(state));
+    for (const [name, card] of this.cards) {
+      if (rows.some((row) => row.name === name)) continue;
+      card.element.remove();
+      this.cards.delete(name);
+    }
+    for (const row of rows) {
+      if (!this.cards.has(row.name)) this.cards.set(row.name, this.added(row.name));
+      this.cards.get(row.name).show(row);
+    }
+  }
+
+  added(name) {
+    const card = new Card(name, {
+      'Insert a world': (row) => this.openInsert(row),
+      Log: (row) => this.showLog(row),
+      Start: (row) => this.doing(server.start(row.name), `${row.name} starts`),
+      Stop: (row) => this.stop(row),
+      Delete: (row) => this.forget(row),
+    });
+    $('list').append(card.element);
+    return card;
+  }
+
+  freeName(base) {
+    const taken = new Set((this.rows ?? []).map(({ name }) => name));
+    for (let i = 1; ; i++) {
+      const name = i === 1 ? base : `${base}-${i}`;
+      if (!taken.has(name)) return name;
+    }
+  }
+
+  create(wish) {
+    const name = this.freeName(wish.size);
+    return this.doing(server.create({ name, ...wish }), `${name} starts`);
+  }
+
+  async stop(row) {
+    const text = 'Its log, its recordings and its shift stay; it can be started again.';
+    if (await confirmed(`Stop ${row.name}?`, text, 'Stop')) await this.doing(server.stop(row.name), `${row.name} has ended`);
+  }
+
+  async forget(row) {
+    const text = 'Its log, its recordings and the database of its shift are deleted.';
+    if (await confirmed(`Delete ${row.name}?`, text, 'Delete')) await this.doing(server.stop(row.name, true), `${row.name} is deleted`);
+  }
+
+  openInsert(row) {
+    this.target = row.name;
+    tell($('insert-title'), `Insert a world into ${row.name}`);
+    $('insert-answer').hidden = true;
+    if (!$('worlds').childElementCount) {
+      server.argumentsOf().then(({ worlds }) => $('worlds').replaceChildren(...worlds.map((value) => make('option', { value }))));
+    }
+    $('insert').showModal();
+  }
+
+  async insert() {
+    const { world, file, x, y, yaw } = $('insert-form').elements;
+    const content = file.files[0] ? await file.files[0].text() : world.value.trim();
+    const place = { x: Number(x.value), y: Number(y.value), yaw: Number(yaw.value) };
+    try {
+      const { message } = await server.insert(this.target, { world: content, ...place });
+      $('insert').close();
+      this.say(message);
+    } catch (error) {
+      $('insert-answer').hidden = false;
+      tell($('insert-answer'), error.message);
+    }
+  }
+
+  showLog(row) {
+    this.following = new AbortController();
+    tell($('log-title'), `Log of ${row.name}`);
+    tell($('log-text'), '');
+    $('log').showModal();
+    server.follow(row.name, showLog, this.following.signal).catch((error) => {
+      if (error.name !== 'AbortError') tell($('log-text'), error.message);
+    });
+  }
+
+  async doing(action, text) {
+    try {
+      await action;
+      this.say(text);
+    } catch (error) {
+      this.say(error.message, 'refused');
+    }
+    await this.look();
+  }
+
+  say(text, kind = 'done') {
+    $('answer').hidden = false;
+    $('answer').dataset.kind = kind;
+    tell($('answer'), text);
+  }
+}
+
+function showLog(text) {
+  tell($('log-text'), text);
+  $('log-text').scrollTop = $('log-text').scrollHeight;
+}
+
+window.page = new Page(); // for a look from the console

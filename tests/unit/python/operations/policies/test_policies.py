@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Each policy works for an hour; a user's own class is one line of YAML; wrong ones are told."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from operations_site import site
+
+from warehouse_operations import Operations, Policies, PolicyError
+from warehouse_operations.policies import ROLES
+
+CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
+
+
+@pytest.mark.parametrize("role, name", CHOICES)
+def test_a_shift_with(role, name):
+    ops = Operations(site=site(), physics=False, policies={role: name})
+    ops.run(minutes=30)
+    figures = ops.kpis()
+    assert figures["items_picked"] > 120
+    reserved = sum(bin_.reserved for bin_ in ops.shift.inventory.bins.values())
+    allotted = sum(line.allotted for o in ops.shift.orders.values() for line in o.lines)
+    assert reserved == allotted
+    if name != "never":
+        assert figures["bundles_stored"] > 10
+
+
+def throughput(policies):
+    ops = Operations(site=site(robots=6, rows=6), physics=False, policies=policies)
+    ops.run(hours=1)
+    return ops.kpis()
+
+
+def test_assignment_decides_as_the_literature_tells():
+    """Orders given to stations by chance cost far more than units chosen by chance."""
+    best = throughput({})
+    orders = throughput({"orders": "random"})
+    assert best["item_throughput_per_hour"] > 1.2 * orders["item_throughput_per_hour"]
+    assert best["pile_on"] > 2 * orders["pile_on"]
+
+
+def test_a_class_of_ones_own(tmp_path, monkeypatch):
+    (tmp_path / "mine.py").write_text(
+        "class Oldest:\n"
+        "    def __init__(self, most=12):\n"
+        "        self.most, self.calls = most, 0\n"
+        "    def choose(self, station, view):\n"
+        "        self.calls += 1\n"
+        "        orders = [o for o in view.backlog if view.in_stock(o)]\n"
+        "        return orders[0] if orders and len(station.orders) < self.most else None\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "mine.yaml").write_text("orders: {name: mine:Oldest, most: 3}\n")
+    ops = Operations(site=site(), physics=False, policies=str(tmp_path / "mine.yaml"))
+    ops.run(minutes=10)
+    assert ops.shift.policies.orders.calls > 10
+    assert max(len(station.orders) for station in ops.shift.picking.stations) == 3
+
+
+def test_an_object_decides():
+    class First:
+        def choose(self, station, view):
+            return next((order for order in view.backlog if view.in_stock(order)), None)
+
+    first = First()
+    policies = Policies({"orders": first})
+    assert policies.orders is first and policies.chosen["orders"].endswith("First")
+    ops = Operations(site=site(), physics=False, policies=policies)
+    ops.run(minutes=5)
+    assert ops.kpis()["items_picked"] > 10
+    with pytest.raises(PolicyError, match="a name, or a mapping"):
+        Policies({"orders": 7})
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("order: random", "'order' is not a role; expected orders, units"),
+        ("orders: best", "orders: there is no 'best'; random, first come"),
+        ("orders: json:Best", "module 'json' has no attribute 'Best'"),
+        ("orders: nowhere_at_all:Best", "No module named 'nowhere_at_all'"),
+        ("orders: json:JSONDecoder", "json:JSONDecoder has no method choose"),
+        ("orders: {fast_lane: true}", "a name, or a mapping with `name`, was expected"),
+        ("orders: {name: pile-on, slow_lane: 1}", "unexpected keyword argument 'slow_lane'"),
+        ("storage: {name: turnover classes, classes: [0.5]}", "shares above 0 that add up to 1"),
+        ("replenishment: {name: threshold, begin: 0.9, stop: 0.1}", "begin 0.9 and stop 0.1"),
+        ("- orders", "roles with a policy each were expected"),
+        ("orders: [", "policies.yaml"),
+    ],
+)
+def test_wrong_policies_are_told(tmp_path, text, message):
+    path = tmp_path / "policies.yaml"
+    path.write_text(text)
+    with pytest.raises(PolicyError) as error:
+        Policies.read(path)
+    assert message in str(error.value) and str(path) in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["most lines", "most work"])
+@pytest.mark.parametrize("reach, unit", [(20, 1), (120, 2), (170, 3)])
+def test_units_farther_than_the_reach_from_the_nearest_are_left(name, reach, unit):
+    policy = Policies({"units": {"name": name, "reach": reach}}).units
+    candidates = SimpleNamespace(
+        units=np.array([1, 2, 3]), completes=np.array([1, 1, 2]), pieces=np.array([1, 3, 5])
+    )
+    view = SimpleNamespace(
+        seconds_to_all=lambda _station, _units: np.array([30.0, 60.0, 200.0]), work=lambda _unit: 0
+    )
+    station = SimpleNamespace(name="pick1", coming=["a visit"])
+    assert policy.choose(station, candidates, view) == unit
+
+
+def test_a_reach_below_none_is_refused():
+    with pytest.raises(PolicyError, match="reach is -1; 0 s or more"):
+        Policies({"units": {"name": "most lines", "reach": -1}})

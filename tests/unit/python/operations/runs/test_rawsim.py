@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instances of RAWSim-O are read whatever their spacing and age, and shifts in them are good."""
+
+import os
+
+import numpy as np
+import pytest
+from instance_file import write_hall_instance, write_instance
+
+from warehouse_operations import Operations
+from warehouse_operations.policies import Policies, PolicyError, rawsim_policies
+from warehouse_operations.runs import simulation
+from warehouse_operations.runs.rawsim import InstanceError, read_instance
+from warehouse_operations.runs.rawsim_settings import read_settings
+from warehouse_operations.runs.simulation import Description, open_operations, simulate
+
+
+@pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])
+def test_an_instance(tmp_path, spacing, old):
+    site = read_instance(write_instance(tmp_path / "a.xinst", spacing=spacing, old=old))
+    plan = site.plan
+    plan.check()
+    assert plan.spacing == pytest.approx(spacing, abs=1e-3)
+    assert plan.shape == (22, 27)
+    assert len(site.robots) == 16 and len(site.units) == 178
+    assert [(s.name, s.kind, len(s.cells), s.service) for s in plan.stations] == [
+        ("pick1", "PICK", 8, 3),
+        ("pick2", "PICK", 8, 3),
+        ("replenish1", "REPLENISH", 8, 3),
+        ("replenish2", "REPLENISH", 8, 3),
+    ]
+    # The street at the bottom leads east, the one at its right end north.
+    assert plan.exits[0, 6] & 0b0101 == 0b0001 and plan.exits[5, 22] & 0b1010 == 0b0010
+    assert site.kinematics.quarter_turn == 0.625
+    settings = site.settings.of("pick1")
+    assert (settings.slots, settings.piece_s, settings.pick_s) == (12, 10.0, 3.0)
+
+
+def test_twenty_shifts_of_ten_minutes_are_above_the_published_one(tmp_path):
+    """16 bots, 2 + 2 stations, 600 s: RAWSim-O picks 110 pieces, 96 lines, 68 orders."""
+    site = read_instance(write_instance(tmp_path / "a.xinst"))
+    rows = []
+    for seed in range(1, 21):
+        ops = Operations(site=site, seed=seed, physics=False)
+        ops.run(seconds=600)
+        figures = ops.kpis()
+        rows.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
+        assert figures["item_upper_bound_per_hour"] == pytest.approx(720)
+    assert (np.mean(rows, axis=0) > (110, 96, 68)).all()
+
+
+SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration><Seed>3</Seed>
+<InventoryConfiguration><OrderMode>{mode}</OrderMode><InitialInventory>0.6</InitialInventory>
+<DemandInventoryConfiguration><OrderCount>50</OrderCount><BundleCount>40</BundleCount>
+<InventoryLevelBundleStopThreshold>0.8</InventoryLevelBundleStopThreshold>
+<InventoryLevelBundleRestartThreshold>{begin}</InventoryLevelBundleRestartThreshold>
+</DemandInventoryConfiguration></InventoryConfiguration></SettingConfiguration>"""
+
+
+def test_settings(tmp_path):
+    path = tmp_path / "a.xsett"
+    path.write_text(SETTINGS.format(mode="Fill", begin=0.5))
+    settings = read_settings(path)
+    assert (settings.orders, settings.duration_s, settings.seed, settings.level) == (
+        "fill:50",
+        600,
+        3,
+        0.6,
+    )
+    assert settings.policies["replenishment"] == {
+        "name": "threshold",
+        "begin": 0.5,
+        "stop": 0.8,
+        "waiting": 40,
+    }
+    for mode, begin, message in (
+        ("Fixed", 0.5, "OrderMode is 'Fixed'; Fill or Poisson was expected"),
+        ("Fill", "low", "InventoryLevelBundleRestartThreshold is 'low'; a number"),
+    ):
+        path.write_text(SETTINGS.format(mode=mode, begin=begin))
+        with pytest.raises(InstanceError, match=message):
+            read_settings(path)
+
+
+# As RAWSim-O writes its settings, but for the log's.
+WHOLE_SETTINGS = """<?xml version="1.0" encoding="utf-8"?>
+<SettingConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+  <Name>SKU1000</Name>
+  <SimulationWarmupTime>0</SimulationWarmupTime>
+  <SimulationDuration>86400</SimulationDuration>
+  <UseAcceleration>false</UseAcceleration>
+  <UseTurnDelay>true</UseTurnDelay>
+  <InventoryConfiguration>
+    <ItemType>SimpleItem</ItemType>
+    <OrderMode>Fill</OrderMode>
+    <BundleSizeMin>4</BundleSizeMin>
+    <OrderPositionCountMean>2.5</OrderPositionCountMean>
+    <DemandInventoryConfiguration>
+      <OrderCount>50</OrderCount>
+      <InventoryLevelOrderStopThreshold>0.1</InventoryLevelOrderStopThreshold>
+    </DemandInventoryConfiguration>
+    <SimpleItemConfiguration>
+      <GeneratorConfigFile>MaTi-1000.xgenc</GeneratorConfigFile>
+    </SimpleItemConfiguration>
+  </InventoryConfiguration>
+</SettingConfiguration>
+"""
+
+
+def test_settings_that_are_not_followed_are_named(tmp_path):
+    path = tmp_path / "whole.xsett"
+    path.write_text(WHOLE_SETTINGS)
+    remarks = simulation.remarks(Description(settings=str(path)))
+    inventory = "InventoryConfiguration/"
+    assert remarks == [
+        f"{path}: UseAcceleration false is not followed; it is true here",
+        f"{path}: {inventory}OrderPositionCountMean 2.5 is not followed; it is 1 here",
+        f"{path}: {inventory}DemandInventoryConfiguration/InventoryLevelOrderStopThreshold 0.1 is"
+        " not followed",
+        f"{path}: {inventory}SimpleItemConfiguration/GeneratorConfigFile MaTi-1000.xgenc is not"
+        " followed",
+    ]
+
+
+def test_an_instance_where_robots_could_jam_is_told_with_physics_and_without(tmp_path):
+    path = write_instance(tmp_path / "a.xinst")
+    edge = "<Waypoint>9</Waypoint>"
+    text = path.read_text()
+    assert edge in text
+    path.write_text(text.replace(edge, ""))  # no way leads into it any more
+    with pytest.raises(InstanceError, match="no loaded robot can drive there") as error:
+        open_operations(Description(instance=str(path)))
+    (remark,) = simulation.remarks(Description(instance=str(path), physics=False))
+    assert remark.startswith(str(error.value))
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("</Instance>", "", r":\d+: no element found"),
+        ("Instance", "Layout", "<Layout>; <Instance> was expected"),
+        ('ID="3" Tier="0"', 'ID="3" Tier="1"', "2 tiers"),
+        ('MaxVelocity="1.5"', 'MaxVelocity="fast"', "Bot 0: MaxVelocity is 'fast'"),
+        ('MaxVelocity="1.5"', 'MaxVelocity="2"', "bots of 2 kinds"),
+        ("<Waypoint>7</Waypoint>", "<Waypoint>9999</Waypoint>", "has a path to 9999, which is not"),
+        ("<Waypoint>7</Waypoint>", "<Waypoint>200</Waypoint>", "are no neighbours on a grid"),
+        ('OutputStation="0"', 'OutputStation="-1"', "OutputStation 0 has no Waypoint"),
+        ('PodStorageLocation="true"', 'PodStorageLocation="false"', "on no PodStorageLocation"),
+    ],
+)
+def test_a_wrong_instance_is_told(tmp_path, old, new, message):
+    path = write_instance(tmp_path / "a.xinst")
+    text = path.read_text()
+    assert old in text
+    everywhere = old in ("Instance", 'PodStorageLocation="true"')
+    path.write_text(text.replace(old, new) if everywhere else text.replace(old, new, 1))
+    with pytest.raises(InstanceError, match=message) as error:
+        read_instance(path)
+    assert str(error.value).startswith(str(path))
+
+
+def test_a_shift_with_settings(tmp_path):
+    path = write_instance(tmp_path / "a.xinst")
+    (tmp_path / "a.xsett").write_text(SETTINGS.format(mode="Fill", begin=0.5))
+    description = Description(
+        instance=str(path), settings=str(tmp_path / "a.xsett"), seconds=300, physics=False
+    )
+    run, faults = simulate(description, tmp_path / "out")
+    assert faults == [] and run.kpis["items_picked"] > 30
+
+
+def with_physics(path, seed, minutes=10):
+    """The figures of a shift; no robot touched, blocked or held up another for long."""
+    with open_operations(Description(instance=str(path), seed=seed)) as ops:
+        ops.run(minutes=minutes)
+        figures = ops.kpis()
+        assert ops.fleet.stuck == 0
+        assert ops.fleet.plan.spacing == pytest.approx(ops.fleet.world.grid_spacing)
+    assert [figures[name] for name in ("collisions", "blocked", "watchdog")] == [0, 0, 0]
+    return figures
+
+
+def test_shifts_with_physics_are_above_the_published_one(tmp_path):
+    path = write_instance(tmp_path / "a.xinst", spacing=1.04)
+    seeds = range(1, int(os.environ.get("INSTANCE_SEEDS", "3")) + 1)
+    runs = [with_physics(path, seed) for seed in seeds]
+    assert np.mean([figures["items_picked"] for figures in runs]) > 110
+    assert np.mean([figures["bundles_stored"] for figures in runs]) > 60
+
+
+def test_halls_buffers_and_winding_queues(tmp_path):
+    """The upper bound is reached but for the first units' way."""
+    path = write_hall_instance(tmp_path / "a.xinst")
+    lanes = {(s.name[:-1], len(s.cells), s.service) for s in read_instance(path).plan.stations}
+    assert lanes == {("pick", 16, 12), ("replenish", 16, 12)}
+    assert with_physics(path, seed=1, minutes=15)["item_score"] > 0.9
+
+
+XCONF = """<?xml version="1.0" encoding="utf-8"?>
+<ControlConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+  <PathPlanningConfig xsi:type="FARPathPlanningConfiguration"/>
+  <TaskAllocationConfig xsi:type="BalancedTaskAllocationConfiguration">
+    <OutputPodOrderType>WorkAmountSameTier</OutputPodOrderType>
+  </TaskAllocationConfig>
+  <StationActivationConfig xsi:type="ActivateAllStationActivationConfiguration"/>
+  <ItemStorageConfig xsi:type="ReactiveItemStorageConfiguration"/>
+  <PodStorageConfig xsi:type="FixedPodStorageConfiguration"/>
+  <RepositioningConfig xsi:type="DummyRepositioningConfiguration"/>
+  <OrderBatchingConfig xsi:type="DefaultOrderBatchingConfiguration">
+    <OrderSelectionRule>FCFS</OrderSelectionRule>
+  </OrderBatchingConfig>
+  <MethodManagementConfig xsi:type="NoChangeMethodManagementConfiguration"/>
+</ControlConfiguration>
+"""
+
+
+def test_policies_of_a_controller_are_taken_and_others_named(tmp_path):
+    path = tmp_path / "one.xconf"
+    path.write_text(XCONF)
+    assert Policies.read(path).choices == {
+        "robots": "balanced",
+        "storage": "fixed",
+        "orders": "first come",
+        "units": "most work",
+    }
+    assert rawsim_policies.remarks(path) == [
+        f"{path}: ItemStorageConfig Reactive is not followed",
+        f"{path}: PathPlanningConfig FAR is not followed",
+    ]
+    path.write_text("<Instance/>")
+    with pytest.raises(PolicyError, match="<Instance>; <ControlConfiguration> was expected"):
+        Policies.read(path)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The hub launches real warehouses, passes their pages on, and leaves nothing behind."""
+
+import json
+import os
+import signal
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+from hub_process import Hub, until
+
+from warehouse_sim.hub.process import descendants
+
+
+@pytest.fixture
+def hub(tmp_path):
+    out = Hub(tmp_path, "--most", "2")
+    yield out
+    if out.process.poll() is None:
+        out.end()
+
+
+def living(numbers):
+    return [n for n in numbers if Path(f"/proc/{n}").exists()]
+
+
+def test_a_warehouse_from_request_to_end(hub):
+    status, row = hub.ask("POST", "/api/v1/simulations", {"name": "one", "size": "small"})
+    assert (status, row["state"], row["url"]) == (202, "STARTING", "/s/one/")
+    row = hub.wait_for("one", "RUNNING")
+    assert (row["state"], row["robots"]) == ("RUNNING", 4), row["reason"]
+
+    # Everything of its HTTP API lies beneath its name.
+    assert hub.ask("GET", "/s/one/api/v1/robots")[1]["robots"]
+    assert hub.ask("POST", "/s/one/api/v1/simulation/pause", {})[0] == 200
+    assert hub.wait_for("one", "PAUSED")["state"] == "PAUSED"
+
+    # A taken name, and one too many.
+    assert hub.ask("POST", "/api/v1/simulations", {"name": "one"})[0] == 409
+
+    # A world is inserted whole where there is room, or not at all.
+    path = "/api/v1/simulations/one/worlds"
+    status, answer = hub.ask("POST", path, {"world": "paper", "x": 200, "y": 0})
+    assert status == 201, answer
+    assert "kiva1 as kiva5" in answer["message"]
+    status, answer = hub.ask("POST", path, {"world": "paper", "x": 200, "y": 0})
+    assert status == 409 and "would stand in" in answer["detail"], answer
+    assert len(hub.ask("GET", "/s/one/api/v1/robots")[1]["robots"]) == 6
+    status, answer = hub.ask("POST", path, {"world": "mars"})
+    assert (status, answer["field"]) == (422, "world")
+
+    below = descendants(hub.process.pid)
+    status, row = hub.ask("DELETE", "/api/v1/simulations/one")
+    assert (status, row["state"]) == (200, "STOPPED")
+    until(lambda: not living(below), "processes are left")
+    assert (hub.home / "warehouse/hub/one/log.txt").exists()
+    assert hub.ask("GET", "/s/one/")[0] == 503
+    hub.ask("DELETE", "/api/v1/simulations/one?forget=true")
+    assert not (hub.home / "warehouse/hub/one").exists()
+    assert hub.ask("GET", "/api/v1/simulations/one")[0] == 404
+
+
+def test_what_ends_with_the_hub_also_ends_with_its_kill(hub):
+    hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
+    assert hub.wait_for("one", "RUNNING")["state"] == "RUNNING"
+    below = hub.end(signal.SIGKILL)
+    assert len(below) > 5
+    until(lambda: not living(below), "processes outlive the hub")
+
+    # A hub that is started again lists what there was, and starts it again on request.
+    again = Hub(hub.home)
+    (row,) = again.ask("GET", "/api/v1/simulations")[1]["simulations"]
+    assert (row["name"], row["state"], row["arguments"]) == ("one", "STOPPED", {"empty": "true"})
+    below = again.end()
+    assert not living(below)
+
+
+def test_a_simulation_that_dies_says_why(hub):
+    hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
+    hub.wait_for("one", "RUNNING")
+    below = descendants(hub.process.pid)
+    (world,) = (
+        n
+        for n in below
+        if "kiva_world_node" in Path(f"/proc/{n}/cmdline").read_text().split("\0")[0]
+    )
+    os.kill(world, signal.SIGKILL)
+    row = hub.wait_for("one", "STOPPED")
+    assert row["state"] == "FAILED"
+    assert "gazebo" in row["reason"]
+    until(lambda: not living(below), "processes are left")
+
+
+@pytest.mark.parametrize("body", ["{", "[]", '{"name": 3}', "null"])
+def test_a_body_that_is_no_wish_is_refused(hub, body):
+    request = urllib.request.Request(f"{hub.url}/api/v1/simulations", body.encode(), method="POST")
+    with pytest.raises(urllib.error.HTTPError) as error:
+        urllib.request.urlopen(request)
+    assert error.value.code == 422
+    assert json.loads(error.value.read())["field"] in ("body", "name")
+    assert hub.ask("GET", "/api/v1/simulations")[1] == {"simulations": []}
+
+
+def test_without_its_packages_the_assistant_says_what_lacks(hub):
+    status, answer = hub.ask("POST", "/mcp", {})
+    assert status == 503 and "make serve" in answer["detail"]
+
+
+def test_large_layouts_may_be_sent(hub):
+    layout = "layout: 1\nfloor: |\n" + 500 * ("  " + 600 * "?" + "\n")
+    status, answer = hub.ask("POST", "/api/v1/simulations", {"name": "one", "layout": layout})
+    assert (status, answer.get("field")) == (422, "layout"), answer
+    status, answer = hub.ask("POST", "/mcp", {"text": 100_000 * "x"})
+    assert status == 413
