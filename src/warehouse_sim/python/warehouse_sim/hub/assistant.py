@@ -27,7 +27,7 @@ class Permission:
     """Who may have an assistant change something: all who use the hub, or who brings a token."""
 
     everybody: bool = False
-    token: str = ""  # "": nobody brings one
+    token: str = ""  # "": there is none
 
     def holds(self, headers: Headers) -> bool:
         """Returns whether a request with these headers has it."""
