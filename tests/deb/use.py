@@ -42,16 +42,16 @@ def launched(*command, **options):
 
 def first_command(lines):
     """Returns the first `rostopic pub` that the launch recommends to try."""
-    seen = []
+    printed = []
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         line = lines.get(timeout=PATIENCE)
-        assert line, "the launch ended:\n" + "".join(seen)
-        seen.append(line)
-        assert "setup.bash" not in seen[-1], "nothing is to be sourced"
-        if found := re.match(r"\s*(rostopic pub .*?\S)\s+# ", seen[-1]):
-            return found[1]
-    raise TimeoutError("no command to try came:\n" + "".join(seen))
+        assert line, "the launch ended:\n" + "".join(printed)
+        printed.append(line)
+        assert "setup.bash" not in printed[-1], "nothing is to be sourced"
+        if match := re.match(r"\s*(rostopic pub .*?\S)\s+# ", printed[-1]):
+            return match[1]
+    raise TimeoutError("no command to try came:\n" + "".join(printed))
 
 
 def drive(command):

@@ -25,7 +25,7 @@ def by_lif_reader(path):
     graph = LIFGraph()
     LIFReader(graph).parse_lif_file(path)
     (layout,) = graph.layouts.values()
-    at = [(name, told["nodePosition"]) for name, told in layout.nodes(data=True)]
+    at = [(name, node["nodePosition"]) for name, node in layout.nodes(data=True)]
     return {
         "nodes": sorted([name, place["x"], place["y"]] for name, place in at),
         "edges": sorted(map(list, layout.edges())),

@@ -43,9 +43,9 @@ def check(python, preset, folder):
     ours, theirs = folder / f"{preset}.lif.json", folder / f"{preset}.theirs.lif.json"
     formats.write(file, ours)
     command = [python, READ, ours, theirs]
-    found = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
-    for reader, told in found.items():
-        assert told == expected(ours), f"{preset}: {reader} read something else"
+    answers = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+    for reader, answer in answers.items():
+        assert answer == expected(ours), f"{preset}: {reader} read something else"
     back, left_out = formats.read(theirs)
     assert left_out == [], left_out
     before, after = plan(file), plan(back)
@@ -54,9 +54,9 @@ def check(python, preset, folder):
         same = getattr(before, name)[:, :width] == getattr(after, name)
         assert same.all(), f"{preset}: {name} differ"
     assert after.point_of(0) == before.point_of(0) and lanes(back) == lanes(file), preset
-    sizes = ", ".join(f"{len(part)} {name}" for name, part in found["vdma-lif"].items())
+    sizes = ", ".join(f"{len(part)} {name}" for name, part in answers["vdma-lif"].items())
     print(
-        f"{preset}: {sizes}, read by {' and '.join(found)}; the same floor comes back", flush=True
+        f"{preset}: {sizes}, read by {' and '.join(answers)}; the same floor comes back", flush=True
     )
 
 

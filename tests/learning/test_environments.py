@@ -115,8 +115,8 @@ def test_many_at_once_are_each_as_one_alone(mode):
     elif mode == AutoresetMode.DISABLED:
         with pytest.raises(gymnasium.error.ResetNeeded, match="environment 0 has ended"):
             many.step(many.action_space.sample())
-        one = np.array([False, True, False])
-        many.reset(options={"reset_mask": one})
+        chosen = np.array([False, True, False])
+        many.reset(options={"reset_mask": chosen})
     many.close()
     alone.close()
 

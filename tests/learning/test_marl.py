@@ -68,9 +68,9 @@ def test_rollouts_tell_where_episodes_were_cut():
     random = np.random.default_rng(3)
     rollout = Rollouts(envs, encoder, random).collect(Mlp([encoder.size, 5], 0.01, random), 120)
     cut = np.zeros_like(rollout.end)
-    for t, which, seen in rollout.cut:
+    for t, which, rows in rollout.cut:
         cut[t] |= which
-        assert seen.shape == (which.sum(), 2, encoder.size)
+        assert rows.shape == (which.sum(), 2, encoder.size)
     assert (cut == rollout.end).all()
     # Each begins at another time, then ends after 50 steps, or was reset once more before.
     assert 8 * 2 <= rollout.end.sum() <= 8 * 4

@@ -38,7 +38,7 @@ class Browser:
         self._socket = socket.create_connection((name, int(port)), timeout=PATIENCE)
         self._connection = WSConnection(ConnectionType.CLIENT)
         self._socket.sendall(self._connection.send(Request(host=host, target="/live")))
-        self._part, self._told = None, {}
+        self._part, self._texts = None, {}
         self.time, self.robots, self.events = 0.0, {}, set()  # (x, y) by index; kinds
         self.scans = {}  # (rays,) [m] by robot
 
@@ -53,8 +53,8 @@ class Browser:
 
     def told(self, kind):
         """The newest message of that type."""
-        self.until(lambda: kind in self._told)
-        return self._told[kind]
+        self.until(lambda: kind in self._texts)
+        return self._texts[kind]
 
     def watch(self, **wishes):
         """Asks for extras, such as scans=[ids]."""
@@ -78,7 +78,7 @@ class Browser:
 
     def _hear(self, text):
         message = json.loads(text)
-        self._told[message["type"]] = message
+        self._texts[message["type"]] = message
         self.events |= {event["kind"] for event in message.get("events", [])}
 
     def _see(self, update):
@@ -140,12 +140,12 @@ def test_who_looks_sees_what_robots_do_and_nothing_changes_by_it(watched):
     browser.told("scene")
     for action in (LEFT, FORWARD, FORWARD):
         actions = dict.fromkeys(env.agents, action)
-        seen, expected = env.step(actions)[0], alone.step(actions)[0]
-        assert all((seen[a] == expected[a]).all() for a in expected)
+        poses, expected = env.step(actions)[0], alone.step(actions)[0]
+        assert all((poses[a] == expected[a]).all() for a in expected)
     fleet = env.world.fleet
     browser.until(lambda: "DONE" in browser.events and browser.time >= env.world.time - 1e-9)
-    seen = [browser.robots[i] for i in range(3)]
-    np.testing.assert_allclose(seen, np.stack([fleet.x, fleet.y], 1), atol=1e-4)
+    poses = [browser.robots[i] for i in range(3)]
+    np.testing.assert_allclose(poses, np.stack([fleet.x, fleet.y], 1), atol=1e-4)
     browser.close()
 
 

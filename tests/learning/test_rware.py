@@ -133,12 +133,12 @@ def steps_of(envs, mode, count=250):
     """Observations, rewards and ends of each step of a vector environment."""
     random = np.random.default_rng(3)
     actions = random.choice(5, size=(count, envs.num_envs, 2), p=LIKELY)
-    seen = [envs.reset(seed=11)[0]]
+    steps = [envs.reset(seed=11)[0]]
     for action in actions:
-        seen.append(envs.step(action))
-        if mode == AutoresetMode.DISABLED and seen[-1][2].any():
-            envs.reset(options={"reset_mask": seen[-1][2]})
-    return actions, seen
+        steps.append(envs.step(action))
+        if mode == AutoresetMode.DISABLED and steps[-1][2].any():
+            envs.reset(options={"reset_mask": steps[-1][2]})
+    return actions, steps
 
 
 @pytest.mark.parametrize("mode", list(AutoresetMode))
@@ -146,27 +146,27 @@ def steps_of(envs, mode, count=250):
 def test_vectors_are_single_ones_side_by_side(mode, threads):
     options = {"max_steps": 40, "n_agents": 2}
     envs = ours.RwareVectorEnv(150, threads=threads, autoreset_mode=mode, **options)
-    actions, seen = steps_of(envs, mode)
+    actions, actual = steps_of(envs, mode)
     for i in (0, 1, 149):
-        one = ours.Warehouse(**options)
-        assert is_same(np.stack(one.reset(seed=11 + i)[0]), seen[0][i])
+        alone = ours.Warehouse(**options)
+        assert is_same(np.stack(alone.reset(seed=11 + i)[0]), actual[0][i])
         begins = False
-        for action, (observations, rewards, ends, _, infos) in zip(actions[:, i], seen[1:]):
+        for action, (observations, rewards, ends, _, infos) in zip(actions[:, i], actual[1:]):
             if begins and mode == AutoresetMode.NEXT_STEP:
                 begins = False
-                assert is_same(np.stack(one.reset()[0]), observations[i])
+                assert is_same(np.stack(alone.reset()[0]), observations[i])
                 assert not rewards[i].any()
                 continue
-            expected = one.step(action.tolist())
+            expected = alone.step(action.tolist())
             last = np.stack(expected[0])
             assert (expected[1], expected[2]) == (rewards[i].tolist(), ends[i])
             begins = expected[2]
             if begins and mode == AutoresetMode.SAME_STEP:
                 assert is_same(last, infos["final_obs"][i])
-                last = np.stack(one.reset()[0])
+                last = np.stack(alone.reset()[0])
             assert is_same(last, observations[i])
             if begins and mode == AutoresetMode.DISABLED:
-                one.reset()
+                alone.reset()
 
 
 def test_gymnasium_makes_vectors():

@@ -40,9 +40,9 @@ def test_agents_are_where_no_wall_is():
 
 @pytest.mark.parametrize("physics", ["grid", "bodies"])
 def test_the_planner_delivers(physics):
-    told = evaluation.episodes(evaluation.by_planner, 2, 3, physics=physics, **OPTIONS)
-    assert told["returns"].min() >= 3
-    assert not told.get("collisions", np.zeros(1)).any()
+    results = evaluation.episodes(evaluation.by_planner, 2, 3, physics=physics, **OPTIONS)
+    assert results["returns"].min() >= 3
+    assert not results.get("collisions", np.zeros(1)).any()
 
 
 def test_walls_are_drawn_and_not_accessible():

@@ -61,17 +61,17 @@ def test_actions_take_as_long_as_with_bodies():
     """What the ideal robot is given is what the physics needs."""
     ideal, bodies = make("ideal", 1), make("bodies", 1)
     ideal.reset(seed=5), bodies.reset(seed=5)
-    before, seen = 0.0, set()
+    before, times = 0.0, set()
     for action in drawn(1, 60):
         time = bodies.step(action)[4]["time"]
         passed = time - before
-        told = ideal.step(action)[4]["time"]
+        seconds = ideal.step(action)[4]["time"]
         if passed > 0.06:
-            seen.add(action[0])
+            times.add(action[0])
             assert passed == pytest.approx(DURATIONS[Action(action[0])], abs=0.001)
-        assert told <= time + 0.5
+        assert seconds <= time + 0.5
         before = time
-    assert seen == {1, 2, 3, 4}
+    assert times == {1, 2, 3, 4}
 
 
 def off_grid(env):
@@ -145,16 +145,16 @@ def test_vectors_are_single_ones_side_by_side(physics):
     envs = rware.RwareVectorEnv(
         3, physics=physics, autoreset_mode=AutoresetMode.SAME_STEP, **options
     )
-    one = make(physics, 3, max_steps=30)
-    assert (np.stack(one.reset(seed=9)[0]) == envs.reset(seed=7)[0][2]).all()
+    alone = make(physics, 3, max_steps=30)
+    assert (np.stack(alone.reset(seed=9)[0]) == envs.reset(seed=7)[0][2]).all()
     for action in drawn(3, 70):
         observations, rewards, ends, _, infos = envs.step([action] * 3)
-        expected = one.step(action)
+        expected = alone.step(action)
         last = infos["final_obs"] if ends[2] else observations
         assert (np.stack(expected[0]) == last[2]).all()
         assert expected[1] == rewards[2].tolist()
         if ends[2]:
-            assert (np.stack(one.reset()[0]) == observations[2]).all()
+            assert (np.stack(alone.reset()[0]) == observations[2]).all()
         else:
             assert infos["time"][2] == pytest.approx(expected[4]["time"], abs=1e-9)
 

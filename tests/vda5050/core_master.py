@@ -41,27 +41,27 @@ def name(cell):
 
 def header(robot):
     stamp = time.strftime("%Y-%m-%dT%H:%M:%S.000Z", time.gmtime())
-    told = {"headerId": 0, "timestamp": stamp, "version": "2.0.0"}
-    return {**told, "manufacturer": "kiva", "serialNumber": robot}
+    fields = {"headerId": 0, "timestamp": stamp, "version": "2.0.0"}
+    return {**fields, "manufacturer": "kiva", "serialNumber": robot}
 
 
 def action(kind, **parameters):
     """Returns an action; the library has texts alone as values."""
-    told = [{"key": key, "value": str(value)} for key, value in parameters.items()]
+    listed = [{"key": key, "value": str(value)} for key, value in parameters.items()]
     named = {"actionType": kind, "actionId": f"{kind}-{time.time_ns()}"}
-    return {**named, "blockingType": "HARD", "actionParameters": told}
+    return {**named, "blockingType": "HARD", "actionParameters": listed}
 
 
 def node(cell, k, released, actions):
     x, y = FLOOR["x"] + cell[0] * FLOOR["spacing"], FLOOR["y"] + cell[1] * FLOOR["spacing"]
     place = {"x": x, "y": y, "mapId": "warehouse", "allowedDeviationXY": NEAR}
-    told = {"nodeId": name(cell), "sequenceId": 2 * k, "released": released}
-    return {**told, "nodePosition": place, "actions": actions}
+    fields = {"nodeId": name(cell), "sequenceId": 2 * k, "released": released}
+    return {**fields, "nodePosition": place, "actions": actions}
 
 
 def edge(a, b, k, released):
-    told = {"edgeId": f"{name(a)}-{name(b)}-{k}", "sequenceId": 2 * k + 1, "released": released}
-    return {**told, "startNodeId": name(a), "endNodeId": name(b), "actions": []}
+    fields = {"edgeId": f"{name(a)}-{name(b)}-{k}", "sequenceId": 2 * k + 1, "released": released}
+    return {**fields, "startNodeId": name(a), "endNodeId": name(b), "actions": []}
 
 
 def order(robot, cells, last=None, order_id=None, update=0, first=0, released=None):
@@ -97,14 +97,14 @@ class Peer:
         if state.velocity and state.velocity.vx is not None:
             self.speeds.append((robot, abs(state.velocity.vx)))
 
-    def send(self, robot, wanted):
+    def send(self, robot, message):
         """Sends an order that the library finds in order."""
-        result = self.master.assign_order("kiva", robot, types.Order.from_json(wanted))
+        result = self.master.assign_order("kiva", robot, types.Order.from_json(message))
         assert result.decision in SENT, [result.decision, [e.json() for e in result.errors]]
 
-    def slip(self, robot, wanted):
+    def slip(self, robot, message):
         """Sends an order past what the library checks beforehand."""
-        assert self.master.publish_order("kiva", robot, types.Order.from_json(wanted))
+        assert self.master.publish_order("kiva", robot, types.Order.from_json(message))
 
     def is_over(self, robot, order_id):
         state = self.states[robot]
@@ -117,24 +117,24 @@ class Peer:
         assert types.ActionStatus.FAILED not in [a.action_status for a in states], robot
 
     def drive(self, robot, cells, last=None):
-        wanted = order(robot, cells, last)
-        self.send(robot, wanted)
-        self.await_end(robot, wanted["orderId"])
+        message = order(robot, cells, last)
+        self.send(robot, message)
+        self.await_end(robot, message["orderId"])
 
     def instantly(self, robot, kind):
-        told = {**action(kind), "blockingType": "NONE"}
-        wanted = types.InstantActions.from_json({**header(robot), "actions": [told]})
-        result = self.master.assign_instant_actions("kiva", robot, wanted)
+        fields = {**action(kind), "blockingType": "NONE"}
+        message = types.InstantActions.from_json({**header(robot), "actions": [fields]})
+        result = self.master.assign_instant_actions("kiva", robot, message)
         assert result, [result.decision, [e.json() for e in result.errors]]
 
 
 def moves_all_at_once(peer):
     for turn in (list, lambda way: way[::-1]):
         orders = {robot: order(robot, turn(way)) for robot, way in SITE["steps"].items()}
-        for robot, wanted in orders.items():
-            peer.send(robot, wanted)
-        for robot, wanted in orders.items():
-            peer.await_end(robot, wanted["orderId"])
+        for robot, message in orders.items():
+            peer.send(robot, message)
+        for robot, message in orders.items():
+            peer.await_end(robot, message["orderId"])
     say(f"{len(orders)} robots at once, there and back")
     assert len(orders) >= 20
 
@@ -167,8 +167,8 @@ def extends_without_a_dip(peer, trip):
         until(lambda k=k: passed() > k - AHEAD, "a node")
         assert peer.states[robot].driving, "it stands, and the next node comes only now"
         update += 1
-        wanted = order(robot, way, order_id=name, update=update, first=k - 1, released=k + 1)
-        peer.send(robot, wanted)
+        extension = order(robot, way, order_id=name, update=update, first=k - 1, released=k + 1)
+        peer.send(robot, extension)
     peer.await_end(robot, name)
     speeds = [speed for serial, speed in peer.speeds if serial == robot]
     top = max(speeds)
@@ -180,8 +180,8 @@ def extends_without_a_dip(peer, trip):
 
 def pauses_and_cancels(peer, trip):
     robot, way = str(trip["robot"]), trip["straight"][::-1]
-    wanted = order(robot, way)
-    peer.send(robot, wanted)
+    expected = order(robot, way)
+    peer.send(robot, expected)
     until(lambda: peer.states[robot].last_node_id == name(way[2]), "the third node")
     peer.instantly(robot, "startPause")
     until(lambda: peer.states[robot].paused and not peer.states[robot].driving, "the pause")
@@ -189,7 +189,7 @@ def pauses_and_cancels(peer, trip):
     peer.instantly(robot, "stopPause")
     until(lambda: peer.states[robot].driving, "going on")
     peer.instantly(robot, "cancelOrder")
-    until(lambda: peer.is_over(robot, wanted["orderId"]), "the cancellation")
+    until(lambda: peer.is_over(robot, expected["orderId"]), "the cancellation")
     at = peer.states[robot].last_node_id
     assert at in {name(cell) for cell in way[2:-1]}, at
     say(f"robot {robot} was cancelled at {at}")

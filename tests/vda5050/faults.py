@@ -118,8 +118,8 @@ class Site:
         state = wait_for_warehouse()
         self.grid = grid_of(read_map())
         self.robots = [Identity("kiva", str(kiva.kiva_id)) for kiva in state.kivas]
-        found = trips(state, self.grid, *cells_of(state, self.grid))
-        self.trip = next(trip for trip in found if len(trip["there"]) > BASE + 1)
+        pair = trips(state, self.grid, *cells_of(state, self.grid))
+        self.trip = next(trip for trip in pair if len(trip["there"]) > BASE + 1)
         self.who = Identity("kiva", str(self.trip["robot"]))
         self.ways = Ways(self.grid)
         self.broker = stack.enter_context(OwnBroker())
@@ -141,10 +141,10 @@ class Site:
 
 
 @contextlib.contextmanager
-def vehicles(*arguments):
+def vehicles(*words):
     command = ["roslaunch", "--sigint-timeout=3", "warehouse_vda5050", "vehicles.launch"]
     launch = subprocess.Popen(
-        ["setpriv", "--pdeathsig", "TERM", *command, *arguments], stdout=subprocess.DEVNULL
+        ["setpriv", "--pdeathsig", "TERM", *command, *words], stdout=subprocess.DEVNULL
     )
     try:
         yield
@@ -216,8 +216,8 @@ def another_master_orders_too(site):
     master.until(lambda: master.states[who].order_id == mine.id, WAIT, "the order")
     assert not master.states[who].errors, "errors are over with the next order"
     master.post(who, Kind.ORDER, replace(theirs, header=header(0, 2001)))
-    told = master.told(who, "is under way")
-    say(f"a second master: {told.type}: {told.description}")
+    text = master.told(who, "is under way")
+    say(f"a second master: {text.type}: {text.description}")
     master.order(who, part(mine, 2, len(way), 1))
     master.waits_at(who, site.grid.node_id(way[-1]))
 
@@ -278,8 +278,13 @@ def password_and_tls(robots):
         lines = f"cafile {pem}\ncertfile {pem}\nkeyfile {key}\npassword_file {users}"
         broker = stack.enter_context(OwnBroker(0, f"{lines}\nallow_anonymous false"))
         address = f"localhost:{broker.port}"
-        told = [f"broker:={address}", f"tls:={pem}", "user:=robots", f"password_file:={secret}"]
-        stack.enter_context(vehicles(*told))
+        words = [
+            f"broker:={address}",
+            f"tls:={pem}",
+            "user:=robots",
+            f"password_file:={secret}",
+        ]
+        stack.enter_context(vehicles(*words))
         settings = read_settings(address, str(pem), "robots", str(secret))
         master = Master(settings, CODEC, TOPICS, lambda _: None)
         stack.callback(master.close)

@@ -69,15 +69,15 @@ def longest_straight(way):
 def steps_aside(grid, robots):
     """Returns for each robot a step to a free neighbour and back: twenty at once."""
     taken = set(robots.values()) | grid.blocked
-    found = {}
+    ways = {}
     for kiva, (x, y) in robots.items():
         for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             cell = (x + dx, y + dy)
             if grid.contains(cell) and cell not in taken:
                 taken.add(cell)
-                found[kiva] = [(x, y), cell]
+                ways[kiva] = [(x, y), cell]
                 break
-    return found
+    return ways
 
 
 def main() -> None:

@@ -192,8 +192,8 @@ def main():
         master = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *launch], stdout=sys.stderr)
         stack.callback(master.wait)
         stack.callback(master.terminate)
-        told = [sys.executable, HERE / "witness.py", str(broker.port), "master"]
-        witness = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *told])
+        arguments = [sys.executable, HERE / "witness.py", str(broker.port), "master"]
+        witness = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *arguments])
         floor = Floor(broker.port)
         stack.callback(floor.close)
         for number, cell in zip(NAMES, floor.free_places()):

@@ -30,12 +30,12 @@ def say(text):
 
 
 def action(kind, **parameters):
-    told = [ActionParameter(key=k, value=v) for k, v in parameters.items()]
+    listed = [ActionParameter(key=k, value=v) for k, v in parameters.items()]
     return Action(
         action_type=kind,
         action_id=f"{kind}-{time.time_ns()}",
         blocking_type=BlockingType.HARD,
-        action_parameters=told,
+        action_parameters=listed,
     )
 
 

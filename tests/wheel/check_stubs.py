@@ -28,9 +28,9 @@ def faults(text: str) -> str:
 
 
 if __name__ == "__main__":
-    if told := faults(RIGHT):
-        sys.exit(f"mypy refuses what is right:\n{told}")
-    told = faults(WRONG)
-    if 'Argument 1 to "step" of "World"' not in told:
-        sys.exit(f"mypy does not see what is wrong:\n{told}")
+    if reported := faults(RIGHT):
+        sys.exit(f"mypy refuses what is right:\n{reported}")
+    reported = faults(WRONG)
+    if 'Argument 1 to "step" of "World"' not in reported:
+        sys.exit(f"mypy does not see what is wrong:\n{reported}")
     print("mypy reads the stubs")

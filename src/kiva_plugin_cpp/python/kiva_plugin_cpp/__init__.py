@@ -119,18 +119,18 @@ def _flat(path: str, value: Any) -> Iterator[tuple[str, str]]:
         yield path, str(value)
 
 
-def _realism(given: AnyPath | dict[str, Any] | None) -> tuple[dict[str, str] | None, str]:
+def _realism(settings: AnyPath | dict[str, Any] | None) -> tuple[dict[str, str] | None, str]:
     """Returns what the core takes: texts by path, or None, and where they come from."""
-    if given is None:
+    if settings is None:
         return None, ""
-    if isinstance(given, dict):
-        return dict(_flat("", given)), "realism"
+    if isinstance(settings, dict):
+        return dict(_flat("", settings)), "realism"
     presets = worlds_folder() / "realism"
-    tried = [Path(given), presets / f"{given}.yaml"]
+    tried = [Path(settings), presets / f"{settings}.yaml"]
     file = next((path for path in tried if path.is_file()), None)
     if file is None:
         names = ", ".join(sorted(path.stem for path in presets.glob("*.yaml")))
-        raise FileNotFoundError(f"there is no realism '{given}'; a file or one of {names}")
+        raise FileNotFoundError(f"there is no realism '{settings}'; a file or one of {names}")
     import yaml
 
     try:
@@ -169,10 +169,10 @@ class World(_core.World):
         realism: AnyPath | dict[str, Any] | None = None,
     ) -> None:
         file, ours = str(_find(world)), str(worlds_folder() / "models")
-        given, theirs = [*map(str, model_paths)], _theirs(*map(os.environ.get, _SEARCHED))
+        own_paths, theirs = [*map(str, model_paths)], _theirs(*map(os.environ.get, _SEARCHED))
         # In the order of the node: a world's own models come first, ours in what is spawned.
-        for_world = [*given, *theirs, *_core.model_paths_around(file), ours]
-        for_spawning = [*given, ours, *theirs]
+        for_world = [*own_paths, *theirs, *_core.model_paths_around(file), ours]
+        for_spawning = [*own_paths, ours, *theirs]
         super().__init__(
             file, False, for_world, for_spawning, seed, drive, threads, *_realism(realism)
         )
@@ -197,8 +197,8 @@ class World(_core.World):
         from warehouse_layout.generate import generated
         from warehouse_layout.place import layout
 
-        wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
-        plan = generated.plan(wanted, options.get("seed", layout.SEED))
+        counts = request.resolve(name, robots=robots, items=items, shelves=shelves)
+        plan = generated.plan(counts, options.get("seed", layout.SEED))
         return cls.of_layout(plan, own_models=True, **options)
 
     @classmethod

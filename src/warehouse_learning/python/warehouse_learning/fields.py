@@ -85,16 +85,16 @@ def state_fields(options: Options) -> list[Field]:
 def slices(fields: Iterable[Field]) -> dict[str, slice]:
     """Returns {name: slice} of each in the row of numbers."""
     out, at = {}, 0
-    for one in fields:
-        out[one.name] = slice(at, at + one.size)
-        at += one.size
+    for field in fields:
+        out[field.name] = slice(at, at + field.size)
+        at += field.size
     return out
 
 
 def bounds(fields: Iterable[Field]) -> tuple[np.ndarray, np.ndarray]:
     """Returns (low, high), each (size,) float32."""
-    low = np.concatenate([np.full(one.size, one.low, np.float32) for one in fields])
-    high = np.concatenate([np.full(one.size, one.high, np.float32) for one in fields])
+    low = np.concatenate([np.full(field.size, field.low, np.float32) for field in fields])
+    high = np.concatenate([np.full(field.size, field.high, np.float32) for field in fields])
     return low, high
 
 
@@ -102,6 +102,6 @@ def split(observation: np.ndarray, fields: Iterable[Field]) -> dict[str, np.ndar
     """Returns {name: array of the field's shape} of one observation or of many, (…, size)."""
     observation = np.asarray(observation)
     return {
-        one.name: observation[..., part].reshape(observation.shape[:-1] + one.shape)
-        for one, part in zip(fields, slices(fields).values())
+        field.name: observation[..., part].reshape(observation.shape[:-1] + field.shape)
+        for field, part in zip(fields, slices(fields).values())
     }

@@ -132,13 +132,13 @@ class Options:
         return self.size if own else f"{self.robots} robots, {self.shelves} units"
 
     @classmethod
-    def of(cls, given: Mapping[str, Any]) -> "Options":
+    def of(cls, values: Mapping[str, Any]) -> "Options":
         """Returns Options from keyword arguments. Raises OptionError for an unknown one."""
         known = [f.name for f in dataclasses.fields(cls)]
-        for name in given:
+        for name in values:
             if name not in known:
                 raise OptionError(f"{name} is not an option; there are {', '.join(known)}")
-        return cls(**given)
+        return cls(**values)
 
 
 def _whole(name, value, least, most):

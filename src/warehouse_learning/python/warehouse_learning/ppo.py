@@ -165,8 +165,8 @@ class _Run:
         return batch
 
     def _step(self):
-        seen, mask = self._seen(), self._warehouses.masks().reshape(self.rows, -1)
-        logits, value, _ = self.network.forward(seen)
+        observations, mask = self._seen(), self._warehouses.masks().reshape(self.rows, -1)
+        logits, value, _ = self.network.forward(observations)
         chances = probabilities(logits, mask)
         action = _drawn(chances, self._random)
         reward, _ = self._warehouses.step(action.reshape(self._settings.worlds, -1))
@@ -175,7 +175,7 @@ class _Run:
         if ends.any():
             reward += self._cut(ends)
         return {
-            "x": seen,
+            "x": observations,
             "mask": mask,
             "action": action,
             "chance": np.take_along_axis(chances, action[:, None], 1)[:, 0],

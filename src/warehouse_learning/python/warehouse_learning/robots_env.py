@@ -112,10 +112,10 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         elif isinstance(seed, int):
             seeds = [seed + int(i) for i in which]
         else:
-            given = list(seed)
-            if len(given) != self.num_envs:
-                raise ValueError(f"seed has {len(given)} entries; {self.num_envs} were expected")
-            seeds = [self._next_seeds(1)[0] if given[i] is None else given[i] for i in which]
+            asked = list(seed)
+            if len(asked) != self.num_envs:
+                raise ValueError(f"seed has {len(asked)} entries; {self.num_envs} were expected")
+            seeds = [self._next_seeds(1)[0] if asked[i] is None else asked[i] for i in which]
         self._begin(which, seeds)
         self._begun = True
         self._screen.stepped()

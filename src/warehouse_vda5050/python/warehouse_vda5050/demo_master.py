@@ -95,11 +95,11 @@ class DemoMaster:
     def until(self, condition: Callable[[], Any], seconds: float, what: str) -> Any:
         """Waits for condition() to be true; returns what it returned. Raises TripError."""
         end = time.monotonic() + seconds
-        while not (found := condition()):
+        while not (result := condition()):
             self._loop.poll(0.05)
             if time.monotonic() > end:
                 raise TripError(f"{what} did not come in time")
-        return found
+        return result
 
     def ask_for_state(self, who: Identity) -> None:
         """Asks a vehicle for its state."""
@@ -133,8 +133,8 @@ class DemoMaster:
         """Sends an order and waits until it is carried out. Raises TripError."""
         self._tell(f"{who.serial}: order {order.id}, {len(order.nodes)} nodes")
         self._send(who, Kind.ORDER, order)
-        told: list[str] = []
-        return self.until(lambda: self._follow(who, order, told), seconds, f"order {order.id}")
+        lines: list[str] = []
+        return self.until(lambda: self._follow(who, order, lines), seconds, f"order {order.id}")
 
     def _follow(self, who: Identity, order: VehicleOrder, states: list[str]) -> VehicleState | None:
         """Tells how far an order is; returns the state once it is over."""

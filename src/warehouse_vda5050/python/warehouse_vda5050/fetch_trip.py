@@ -41,10 +41,10 @@ class FetchTrip:
         grid = grid_of(read_map())
         robots = {k.kiva_id: grid.cell_at(k.pose.x, k.pose.y) for k in warehouse.kivas}
         units = {
-            int(one.name.removeprefix("storage_unit")): grid.cell_at(
-                one.pose.position.x, one.pose.position.y
+            int(standing.name.removeprefix("storage_unit")): grid.cell_at(
+                standing.pose.position.x, standing.pose.position.y
             )
-            for one in warehouse.storage_units
+            for standing in warehouse.storage_units
         }
         who, unit, goal = self._choose(warehouse, vehicles, grid, robots, units)
         self._drive(who, unit, goal, grid, robots, units)
@@ -61,7 +61,7 @@ class FetchTrip:
         if station is None:
             raise TripError("the warehouse has no station")
         goal = grid.cell_at(station.x[station.service], station.y[station.service])
-        for who in sorted(vehicles, key=lambda one: one.serial):
+        for who in sorted(vehicles, key=lambda vehicle: vehicle.serial):
             for unit, place in units.items():
                 here = robots.get(int(who.serial))
                 if here and _ways(grid, here, place, goal, robots, units):
@@ -94,8 +94,8 @@ class FetchTrip:
 
 
 def _action(type: str, parameters: list[tuple[str, Any]]) -> Action:
-    told = [("stationType", "place"), ("loadType", "unit"), *parameters]
-    return Action(type, f"{type}-1", BlockingType.HARD, tuple(told))
+    pairs = [("stationType", "place"), ("loadType", "unit"), *parameters]
+    return Action(type, f"{type}-1", BlockingType.HARD, tuple(pairs))
 
 
 def _ways(
@@ -119,15 +119,15 @@ def _ways(
 
 def wait_for_warehouse() -> WarehouseState:
     """Returns the warehouse once robots, units and stations stand in it. Raises TripError."""
-    found: list[WarehouseState] = []
+    messages: list[WarehouseState] = []
 
     def look(state: WarehouseState) -> None:
         if state.kivas and state.storage_units and state.stations:
-            found.append(state)
+            messages.append(state)
 
     subscribe(rospy, "warehouse/state", WarehouseState, look, queue_size=1)
     for _ in range(int(WAIT * 10)):
-        if found:
-            return found[-1]
+        if messages:
+            return messages[-1]
         rospy.rostime.wallsleep(0.1)
     raise TripError("the warehouse was not built in time")

@@ -26,7 +26,7 @@ class BrokerTopic:
     """Publishes which robots are at a broker; latched, sent when something changed."""
 
     def __init__(self) -> None:
-        self._told: Any = None
+        self._latest: Any = None
         self._next = 0.0
         self._publisher = rospy.Publisher("warehouse/vda5050", Vda5050, latch=True, queue_size=1)
 
@@ -37,8 +37,8 @@ class BrokerTopic:
             return
         self._next = now + PERIOD
         message = make_message()
-        if message != self._told:
-            self._told = message
+        if message != self._latest:
+            self._latest = message
             self._publisher.publish(message)
 
 

@@ -119,8 +119,8 @@ class WorldLink:
         x, y = motion[0], motion[1]
         at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
         lost = kiva_id in self._lost and not self._was_moved(kiva_id, x, y, work[0] == 0)
-        told = [*motion, *work, *health, kiva_id in self._people, at_charger, lost]
-        return Sighting(*told)
+        values = [*motion, *work, *health, kiva_id in self._people, at_charger, lost]
+        return Sighting(*values)
 
     def _was_moved(self, kiva_id: int, x: float, y: float, idle: bool) -> bool:
         """Returns whether a lost robot was moved by others, and knows its place since then."""

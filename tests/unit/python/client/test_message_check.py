@@ -37,7 +37,7 @@ POSE = [0.0, 0, 0, 0, 0, 0, 1]
 
 
 def objects(**changes):
-    told = {
+    fields = {
         "storage_units": ["storage_unit1", "storage_unit7"],
         "items": ["item1"],
         "item_unit": [1],
@@ -45,18 +45,18 @@ def objects(**changes):
         "belts": ["conveyor_belt1"],
         "kiva_id": [1, 2],
     }
-    return WarehouseObjects(**(told | changes))
+    return WarehouseObjects(**(fields | changes))
 
 
 def look(**changes):
-    told = {"links": ["link"], "link_pose": POSE, "shape_link": [0], "shape_kind": [0]}
-    told |= {"shape_pose": POSE, "shape_size": [1.0] * 3, "shape_colour": [1.0] * 4}
-    return Look(**(told | changes))
+    fields = {"links": ["link"], "link_pose": POSE, "shape_link": [0], "shape_kind": [0]}
+    fields |= {"shape_pose": POSE, "shape_size": [1.0] * 3, "shape_colour": [1.0] * 4}
+    return Look(**(fields | changes))
 
 
 def scenery(**changes):
-    told = {"grid_spacing": 1.0, "looks": [look()], "models": ["wall"], "model_look": [0]}
-    return Scenery(**(told | {"pose": POSE, "floor": [-1, 1, -2, 2]} | changes))
+    fields = {"grid_spacing": 1.0, "looks": [look()], "models": ["wall"], "model_look": [0]}
+    return Scenery(**(fields | {"pose": POSE, "floor": [-1, 1, -2, 2]} | changes))
 
 
 FAULTS = {
@@ -95,9 +95,9 @@ FAULTS = {
 
 @pytest.mark.parametrize(("text", "message"), FAULTS.items(), ids=FAULTS)
 def test_a_fault_names_field_value_and_what_was_expected(text, message):
-    told = message_check.fault(message)
-    assert told.startswith(text), told
-    assert re.search("expected$", told)
+    sentence = message_check.fault(message)
+    assert sentence.startswith(text), sentence
+    assert re.search("expected$", sentence)
 
 
 SOUND = [
@@ -122,9 +122,9 @@ def test_what_means_something_is_sound(message):
 
 def test_arrays_of_numpy_are_looked_at_too():
     message = numpy_msg(FleetState)()
-    told = fleet_state(kiva_id=[1, 2], y=[0.0, math.nan], state=bytes(2))
+    state = fleet_state(kiva_id=[1, 2], y=[0.0, math.nan], state=bytes(2))
     buffer = __import__("io").BytesIO()
-    told.serialize(buffer)
+    state.serialize(buffer)
     message.deserialize(buffer.getvalue())
     assert message_check.fault(message).startswith("y is nan")
 
@@ -187,5 +187,5 @@ def test_nodes_subscribe_by_nothing_else():
     sources = [*ROOT.glob("src/*/python/**/*.py"), *ROOT.glob("src/*/nodes/*")]
     assert len(sources) > 200
     direct = re.compile(r"\.(Subscriber|wait_for_message)\(")
-    found = {s.name for s in sources if direct.search(Path(s).read_text("utf-8"))}
-    assert found == {"message_check.py"}
+    paths = {s.name for s in sources if direct.search(Path(s).read_text("utf-8"))}
+    assert paths == {"message_check.py"}

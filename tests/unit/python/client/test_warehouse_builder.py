@@ -19,8 +19,8 @@ from warehouse_msgs.srv import CreateWarehouseRequest
 from warehouse_sim.service import WarehouseService
 
 
-def service(world, told=None):
-    return WarehouseService(world, [].append if told is None else told.append)
+def service(world, lines=None):
+    return WarehouseService(world, [].append if lines is None else lines.append)
 
 
 def ask(world, name="", **counts):
@@ -132,21 +132,21 @@ def test_physics_stands_still_meanwhile_and_only_then(paused, refuses):
 
 
 def test_builds_at_the_start():
-    world, told = FakeWorld(standing=[FLOOR]), []
-    service(world, told).start("small")
+    world, lines = FakeWorld(standing=[FLOOR]), []
+    service(world, lines).start("small")
     assert counts(world)["kiva"] == 4
-    assert "small: 4 robots" in told[-1]
-    assert len(re.findall("rostopic pub -1", told[-1])) == 3
+    assert "small: 4 robots" in lines[-1]
+    assert len(re.findall("rostopic pub -1", lines[-1])) == 3
 
 
 def test_a_respawned_node_finds_the_warehouse_as_it_stands():
-    world, told = FakeWorld(standing=[FLOOR]), []
+    world, lines = FakeWorld(standing=[FLOOR]), []
     service(world).start("small")
     del world.standing["item3"]
     before = dict(world.standing)
-    service(world, told).start("small")
+    service(world, lines).start("small")
     assert world.standing == before
-    assert told == []
+    assert lines == []
 
 
 class KilledError(BaseException):
@@ -172,12 +172,12 @@ def killed_while_building(paused, standing=()):
 
 @pytest.mark.parametrize("paused", [True, False])
 def test_what_a_builder_left_half_built_is_undone_by_the_next(paused):
-    world, told = killed_while_building(paused), []
-    service(world, told).start("small")
+    world, lines = killed_while_building(paused), []
+    service(world, lines).start("small")
     assert counts(world)["storage_unit"] == 24
     assert world.pause == paused
     assert not world.has_param(BUILDING)
-    assert "left half-built" in told[0]
+    assert "left half-built" in lines[0]
 
 
 def test_what_can_not_be_built_anew_is_undone_all_the_same():
@@ -206,21 +206,21 @@ def test_without_a_size_nothing_is_built(size):
 
 
 def test_a_misspelt_size_is_told_and_the_service_comes_all_the_same():
-    world, told = FakeWorld(standing=[FLOOR]), []
-    service(world, told).start("smal")
+    world, lines = FakeWorld(standing=[FLOOR]), []
+    service(world, lines).start("smal")
     assert set(world.standing) == {FLOOR}
-    assert told[0].startswith("nothing was built: 'smal' is not a preset")
+    assert lines[0].startswith("nothing was built: 'smal' is not a preset")
 
 
 def test_long_work_tells_how_far_it_is(monkeypatch):
     monkeypatch.setattr(warehouse_builder, "BATCH", 10)
-    told, times = [], iter(range(10000))
+    lines, times = [], iter(range(10000))
     with Engine(FakeWorld()) as engine:
-        warehouse_builder.WarehouseBuilder(engine, told.append, clock=lambda: next(times)).replace(
+        warehouse_builder.WarehouseBuilder(engine, lines.append, clock=lambda: next(times)).replace(
             plan(PRESETS["small"])
         )
-    assert told[0] == "built 20 of 128 models"
-    assert len(told) > 3
+    assert lines[0] == "built 20 of 128 models"
+    assert len(lines) > 3
 
 
 @pytest.mark.parametrize(

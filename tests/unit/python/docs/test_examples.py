@@ -42,29 +42,29 @@ def test_a_wrong_example_is_told(tmp_path):
 
 
 def test_each_block_says_what_it_is():
-    found = [*examples(pages())]
-    assert len(found) > 150
-    for example in found:
+    blocks = [*examples(pages())]
+    assert len(blocks) > 150
+    for example in blocks:
         assert example.language in KNOWN, f"{example.place}: {example.language or 'no language'}"
-    commands = [one for one in found if one.language in ("console", "bash")]
-    assert sum("skip" in one.notes for one in commands) < len(commands) / 2
+    commands = [example for example in blocks if example.language in ("console", "bash")]
+    assert sum("skip" in example.notes for example in commands) < len(commands) / 2
 
 
 def block(folder, text):
     page = folder / "page.md"
     page.write_text(text)
-    (one,) = examples([page])
-    return one
+    (example,) = examples([page])
+    return example
 
 
 def test_notes_say_how_an_example_is_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    one = block(
+    example = block(
         tmp_path,
         "<!-- example: file: a.txt -->\n<!-- example: stop: -->\n```bash\nls\n```\n",
     )
-    assert one.notes == {"file": "a.txt", "stop": ""} and one.line == 3
-    check(one)
+    assert example.notes == {"file": "a.txt", "stop": ""} and example.line == 3
+    check(example)
     assert (tmp_path / "a.txt").read_text() == "ls\n"
     with pytest.raises(SkippedError, match="no_such_program is not installed"):
         check(block(tmp_path, "<!-- example: needs: no_such_program -->\n```bash\nls\n```\n"))
@@ -78,8 +78,8 @@ def test_addresses_elsewhere_are_found(tmp_path):
         "[a](https://example.org/a#b) <https://example.org/c> [here](http://localhost:8080)\n"
         "`changes <https://example.org/d>`_ curl http://host:8080/ [on](page.md)\n"
     )
-    found = links.addresses([page])
-    assert [*found] == [f"https://example.org/{one}" for one in "acd"]
+    places = links.addresses([page])
+    assert [*places] == [f"https://example.org/{letter}" for letter in "acd"]
 
 
 def test_an_address_that_is_not_reached_is_told(tmp_path):
@@ -90,9 +90,9 @@ def test_an_address_that_is_not_reached_is_told(tmp_path):
 @pytest.fixture
 def session(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    one = Session(tmp_path)
-    yield one
-    one.end()
+    shell = Session(tmp_path)
+    yield shell
+    shell.end()
 
 
 def test_a_session_keeps_what_a_block_exports(session):

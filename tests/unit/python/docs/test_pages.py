@@ -53,10 +53,10 @@ def test_readme_is_short():
 
 def test_troubleshooting_quotes_the_code():
     code = "\n".join(
-        one.read_text()
+        file.read_text()
         for pattern in ("nodes/*", "python/**/*.py", "src/**/*.cpp", "src/**/*.h")
-        for one in ROOT.glob(f"src/*/{pattern}")
-        if one.is_file()
+        for file in ROOT.glob(f"src/*/{pattern}")
+        if file.is_file()
     )
     code = re.sub(r'"\s*\n?\s*f?"', "", code) + (ROOT / "Makefile").read_text()
     text = (ROOT / "doc/how-to/troubleshooting.md").read_text()

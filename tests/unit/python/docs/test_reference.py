@@ -64,22 +64,24 @@ def test_each_message_service_and_action_says_what_it_is(title):
 
 def named():
     """Names of the ROS graph that stand in the code."""
-    found = set()
+    names = set()
     for source in SOURCES:
         if not source.is_file():
             continue
         text = source.read_text()
-        found |= {f"/{one}" for one in re.findall(r'"/?((?:warehouse|gazebo)/\w+(?:/\w+)*)"', text)}
-        found |= {
-            f"/gazebo/{one}"
-            for one in re.findall(r'node\.advertiseService(?:<[^>]*>)?\("(\w+)"', text)
+        pattern = r'"/?((?:warehouse|gazebo)/\w+(?:/\w+)*)"'
+        names |= {f"/{name}" for name in re.findall(pattern, text)}
+        names |= {
+            f"/gazebo/{name}"
+            for name in re.findall(r'node\.advertiseService(?:<[^>]*>)?\("(\w+)"', text)
         }
-        found |= {f"/gazebo/{one}" for one in re.findall(r'node\.subscribe\("(\w+)"', text)}
-        found |= {
-            f"/warehouse/{one}" for one in re.findall(r'(?:_publisher|_queued)\("(\w+)"', text)
+        names |= {f"/gazebo/{name}" for name in re.findall(r'node\.subscribe\("(\w+)"', text)}
+        names |= {
+            f"/warehouse/{name}" for name in re.findall(r'(?:_publisher|_queued)\("(\w+)"', text)
         }
-        found |= {f"/warehouse/{one}" for one in re.findall(r'^ +\("(\w+)", srv\.\w+', text, re.M)}
-    return found - OTHERS
+        offered = re.findall(r'^ +\("(\w+)", srv\.\w+', text, re.M)
+        names |= {f"/warehouse/{name}" for name in offered}
+    return names - OTHERS
 
 
 def test_names_are_relative_so_that_a_namespace_holds_them():
@@ -95,38 +97,38 @@ def test_names_are_relative_so_that_a_namespace_holds_them():
 
 
 def test_each_topic_and_service_is_listed():
-    parameters = {name for found in launching.asked().values() for name in found} | set(
+    parameters = {name for asked in launching.asked().values() for name in asked} | set(
         launching.SHARED
     )
-    lacking = {one for one in named() - parameters if f"`{one}`" not in topics.written()}
+    lacking = {name for name in named() - parameters if f"`{name}`" not in topics.written()}
     assert not lacking
     assert len(named()) > 60
 
 
 @pytest.mark.parametrize(
-    "one",
+    "kind",
     [*topics.names("published"), *topics.names("taken"), *topics.services()],
-    ids=lambda one: one.name,
+    ids=lambda kind: kind.name,
 )
-def test_each_listed_type_of_ours_exists(one):
-    package, name = one.type.split("/")
+def test_each_listed_type_of_ours_exists(kind):
+    package, name = kind.type.split("/")
     if package in messages.PACKAGES:
         kinds = [ROOT / "src" / package / folder / f"{name}.{folder}" for folder in ("msg", "srv")]
-        assert any(kind.exists() for kind in kinds), one.type
+        assert any(path.exists() for path in kinds), kind.type
 
 
-@pytest.mark.parametrize("one", topics.services(), ids=lambda one: one.name)
-def test_each_service_says_what_it_does(one):
-    assert one.note or topics.about(one.type), one.name
+@pytest.mark.parametrize("service", topics.services(), ids=lambda service: service.name)
+def test_each_service_says_what_it_does(service):
+    assert service.note or topics.about(service.type), service.name
 
 
 def test_each_launch_argument_is_explained():
     written = launching.launches()
     for file in ROOT.glob("src/*/launch/*.launch"):
-        for one in ElementTree.parse(file).getroot().iter("arg"):
-            if "default" in one.attrib:
-                assert f"`{one.get('name')}`" in written and one.get("doc"), (
-                    f"{file.name}: {one.get('name')}"
+        for argument in ElementTree.parse(file).getroot().iter("arg"):
+            if "default" in argument.attrib:
+                assert f"`{argument.get('name')}`" in written and argument.get("doc"), (
+                    f"{file.name}: {argument.get('name')}"
                 )
 
 
@@ -134,8 +136,8 @@ def test_each_parameter_is_explained():
     known = launching.meanings()
     lacking = [
         (file, name)
-        for file, found in launching.asked().items()
-        for name in found
+        for file, names in launching.asked().items()
+        for name in names
         if name.startswith("~") and not known.get(name)
     ]
     assert not lacking
@@ -145,9 +147,9 @@ def test_each_parameter_is_explained():
             (ROOT / "src/kiva_plugin_cpp/src/ros/settings.cpp").read_text(),
         )
     )
-    assert {f"~{one}" for one in read} <= launching.settings().keys()
-    for file, found in launching.asked().items():
-        for name in found:
+    assert {f"~{name}" for name in read} <= launching.settings().keys()
+    for file, names in launching.asked().items():
+        for name in names:
             assert f"`{name}`" in launching.parameters(), (file, name)
 
 
@@ -165,7 +167,7 @@ def test_each_program_says_what_it_does():
     for program in commands.programs():
         if program.name in commands.NODES or not commands.is_command(program):
             assert commands.docstring(program), program
-    assert {one.name for one in commands.programs() if commands.is_command(one)} >= {
+    assert {program.name for program in commands.programs() if commands.is_command(program)} >= {
         "simulate",
         "size",
         "sweep",
@@ -176,8 +178,8 @@ def test_each_program_says_what_it_does():
 
 def test_rosrun_finds_each_program():
     for program in filter(commands.is_command, commands.programs()):
-        found = ROOT / "devel/lib" / commands.package(program) / program.name
-        assert found.exists(), f"rosrun {commands.package(program)} {program.name}"
+        path = ROOT / "devel/lib" / commands.package(program) / program.name
+        assert path.exists(), f"rosrun {commands.package(program)} {program.name}"
 
 
 def test_each_module_that_is_called_says_what_it_does():
@@ -205,9 +207,9 @@ def test_each_realism_number_is_listed_with_its_default():
     assert world.realism.keys() == sections.keys()
     written = numbers.realism()
     for section, values in world.realism.items():
-        told = written.partition(f"## {section}\n")[2].partition("\n## ")[0]
+        table = written.partition(f"## {section}\n")[2].partition("\n## ")[0]
         rows = {
-            name: float(default) for name, default in re.findall(r"\| `(\w+)` \| (\S+) \|", told)
+            name: float(default) for name, default in re.findall(r"\| `(\w+)` \| (\S+) \|", table)
         }
         known = {name: value for name, value in values.items() if name != "enabled"}
         assert rows.keys() == known.keys(), section
@@ -249,16 +251,16 @@ def advised():
     """Counts the refusals of each advice."""
     return Counter(
         events.advice(package, sentence, place)
-        for package, found in events.refusals().items()
-        for sentence, place in found
+        for package, sentences in events.refusals().items()
+        for sentence, place in sentences
     )
 
 
 def test_each_refusal_says_what_to_do():
     lacking = [
         f"{package}/{place}: {sentence}"
-        for package, found in events.refusals().items()
-        for sentence, place in found
+        for package, sentences in events.refusals().items()
+        for sentence, place in sentences
         if not events.advice(package, sentence, place)
     ]
     assert not lacking, "scripts/reference/advice.txt has no line for these"
@@ -266,12 +268,12 @@ def test_each_refusal_says_what_to_do():
 
 def test_no_advice_is_general():
     """What only sends back to the sentence, or fits too many of them, tells nothing new."""
-    assert [told for told in advised() if BACK.search(told)] == []
-    assert {told: count for told, count in advised().items() if count > MANY} == {}
+    assert [advice for advice in advised() if BACK.search(advice)] == []
+    assert {advice: count for advice, count in advised().items() if count > MANY} == {}
 
 
 def test_each_advice_is_of_use():
-    assert {told for *_, told in events.advices()} <= set(advised())
+    assert {advice for *_, advice in events.advices()} <= set(advised())
     assert events.advice("warehouse_fleet", "green cheese", "elsewhere.py") == ""
 
 
@@ -285,9 +287,9 @@ def slugs(page):
     return {re.sub(r"[^\w\- ]", "", head.replace(" ", "-")) for head in plain}
 
 
-@pytest.mark.parametrize("told", sorted({told for *_, told in events.advices()}))
-def test_each_advice_leads_to_a_place(told):
-    for page, place in re.findall(r"\]\(([^)#]+)#?([^)]*)\)", told):
+@pytest.mark.parametrize("advice", sorted({advice for *_, advice in events.advices()}))
+def test_each_advice_leads_to_a_place(advice):
+    for page, place in re.findall(r"\]\(([^)#]+)#?([^)]*)\)", advice):
         there = page in PAGES or (ROOT / "doc/reference" / page).is_file()
         assert there, page
         assert not place or place in slugs(page), f"{page} has {sorted(slugs(page))}"
@@ -302,8 +304,10 @@ def test_each_key_of_a_layout_file_is_listed():
 
 
 def test_each_package_has_its_python_api():
-    have = {one.parent.parent.name for one in ROOT.glob("src/*/python/*/__init__.py")} - {"python"}
-    packages = {one.parts[-2] for one in ROOT.glob("src/*/python")}
+    have = {path.parent.parent.name for path in ROOT.glob("src/*/python/*/__init__.py")} - {
+        "python"
+    }
+    packages = {path.parts[-2] for path in ROOT.glob("src/*/python")}
     assert packages == set(apis.ABOUT), have
     for name in packages:
         page = apis.python(name)

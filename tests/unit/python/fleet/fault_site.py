@@ -36,8 +36,8 @@ class Site:
         """Another driver, that ends the paths it finds."""
         self.driver.close()
         self.begin(self.world)
-        while (found := self.traffic.inherited(reports_of(self.world.fleet))).any():
-            self.world.cancel(self.traffic.robots.kiva_ids[found])
+        while (left := self.traffic.inherited(reports_of(self.world.fleet))).any():
+            self.world.cancel(self.traffic.robots.kiva_ids[left])
             self.run(0.5)
 
     def __enter__(self):

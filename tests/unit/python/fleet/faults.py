@@ -60,10 +60,10 @@ class BadConnection:
         begin = 0
         for robot, count in enumerate(np.asarray(points).tolist()):
             own = slice(begin, begin + count)
-            one = [np.asarray(column)[robot : robot + 1] for column in (kiva_id, path_id, first)]
+            row = [np.asarray(column)[robot : robot + 1] for column in (kiva_id, path_id, first)]
             self._command(
                 "follow",
-                *one,
+                *row,
                 points[robot : robot + 1],
                 x[own],
                 y[own],

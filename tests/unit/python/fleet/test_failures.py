@@ -32,7 +32,7 @@ class Fleet:
         self.driver = FleetDriver(self.world, seed=seed, tow_after=tow_after)
         self.traffic, self.transports = self.driver.traffic, self.driver.transports
         self._demand = RandomTransports(self.transports, seed, exchange=10)
-        self.told = []
+        self.events = []
 
     def __enter__(self):
         return self
@@ -50,7 +50,7 @@ class Fleet:
     def step(self):
         self.driver.step()
         events = self.transports.take_events()
-        self.told += events
+        self.events += events
         self._demand.advance(self.world.time, events)
 
     def until(self, condition, patience=120):
@@ -104,14 +104,14 @@ def test_a_robot_breaks_in_a_street_with_a_unit_on_it(kind):
         fleet.run(1)
         assert fleet.traffic.robots.broken[robot]
         assert fleet.traffic.robots.cell[robot] in fleet.traffic.closed
-        fleet.told.clear()
+        fleet.events.clear()
         assert fleet.run(90) > 0
-        lost = [e.text for e in fleet.told if e.kind == Kind.FAILED]
+        lost = [e.text for e in fleet.events if e.kind == Kind.FAILED]
         assert lost == ["its robot is broken"]
         assert fleet.traffic.watchdog.count == 0
         fleet.world.fail(fleet.kiva(robot), FailureKind.REPAIRED)
         is_stored = lambda e: e.kind == Kind.STORED and e.shelf_id == unit  # noqa: E731
-        fleet.until(lambda: any(map(is_stored, fleet.told)), 240)
+        fleet.until(lambda: any(map(is_stored, fleet.events)), 240)
         assert fleet.driver.collisions == 0
         assert not fleet.traffic.robots.mode.any()
 
@@ -131,11 +131,11 @@ def test_a_broken_robot_is_towed_away_with_its_unit():
         assert plan.storage.flat[fleet.traffic.robots.cell[robot]]
         assert fleet.world.fleet.shelf_id[robot] != 0
         assert not held & set(fleet.traffic.closed.tolist())  # others pass where it stood
-        fleet.told.clear()
+        fleet.events.clear()
         fleet.run(60)
         fleet.until(lambda: fleet.world.fleet.shelf_id[robot] == 0)
         assert fleet.driver.collisions == 0
-        assert [e.text for e in fleet.told if e.kind == Kind.FAILED] == ["its robot is broken"]
+        assert [e.text for e in fleet.events if e.kind == Kind.FAILED] == ["its robot is broken"]
 
 
 def test_who_is_not_heard_in_a_street_is_found_and_towed():
@@ -170,10 +170,10 @@ def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():
         lifting = lambda: [t for t in fleet.transports if t.step == Step.LIFTING]  # noqa: E731
         transport = fleet.until(lifting)[0]
         fleet.world.fail(fleet.kiva(transport.robot), FailureKind.RADIO_LOST, 45)
-        fleet.told.clear()
+        fleet.events.clear()
         is_stored = lambda e: e.kind == Kind.STORED and e.shelf_id == transport.shelf  # noqa: E731
-        fleet.until(lambda: any(map(is_stored, fleet.told)), 180)
-        assert [e.text for e in fleet.told if e.kind == Kind.FAILED] == ["its robot is broken"]
+        fleet.until(lambda: any(map(is_stored, fleet.events)), 180)
+        assert [e.text for e in fleet.events if e.kind == Kind.FAILED] == ["its robot is broken"]
         fleet.until(lambda: any(t.robot == transport.robot for t in fleet.transports))
 
 
@@ -221,8 +221,8 @@ def test_the_same_seed_breaks_the_same_robots():
         world = World.preset("small", seed=seed, realism=realism)
         world.step(60000)
         events = world.events()
-        told = events[events["kind"] == EventKind.FAILED]
-        return list(zip(told["model"], told["text"], told["time"]))
+        broken = events[events["kind"] == EventKind.FAILED]
+        return list(zip(broken["model"], broken["text"], broken["time"]))
 
     first = story(3)
     assert len(first) > 5
@@ -246,6 +246,6 @@ def test_availability():
     assert figures["availability"] == pytest.approx(1 - 30 / 400)
     assert figures["mttr_s"] == pytest.approx(20)
     assert figures["mtbf_h"] == pytest.approx(370 / 3 / 3600)
-    hours = {one["kind"]: (one["robot_h"], one["down_h"]) for one in log.by_kind()}
+    hours = {entry["kind"]: (entry["robot_h"], entry["down_h"]) for entry in log.by_kind()}
     assert hours["drive without torque"] == pytest.approx((20 / 3600, 20 / 3600))
     assert hours["wheels slip"] == pytest.approx((50 / 3600, 0))

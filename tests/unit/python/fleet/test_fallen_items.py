@@ -90,16 +90,16 @@ def test_pieces_on_the_floor_are_in_nobodys_stock(tmp_path):
             ops.run(minutes=1)
             ops.fleet.fallen_items = chance.sample(items, 40)
             ops.shift.fallen.update(ops.fleet.fallen_items)
-            lie = [one for one in inventory.bins.values() if one.fallen is not None]
-            assert {one.item for one in lie} == set(ops.fleet.fallen_items)
-            assert not any(one.quantity or one.reserved or one.expected for one in lie)
-            assert not any(inventory.takes(one, one.sku, 1) for one in lie)
+            lie = [slot for slot in inventory.bins.values() if slot.fallen is not None]
+            assert {slot.item for slot in lie} == set(ops.fleet.fallen_items)
+            assert not any(slot.quantity or slot.reserved or slot.expected for slot in lie)
+            assert not any(inventory.takes(slot, slot.sku, 1) for slot in lie)
             lines = [line for order in ops.shift.orders.values() for line in order.lines]
-            reserved = sum(one.reserved for one in inventory.bins.values())
+            reserved = sum(slot.reserved for slot in inventory.bins.values())
             assert reserved == sum(line.allotted for line in lines)
         figures = ops.kpis()
         assert figures["items_fallen"] > 40 and figures["items_on_floor"] == 40
-        assert figures["pieces_on_floor"] == sum(one.fallen for one in lie) > 0
+        assert figures["pieces_on_floor"] == sum(slot.fallen for slot in lie) > 0
         pieces = inventory.total
         ops.fleet.fallen_items = ()
         ops.run(seconds=1e-3)
@@ -116,7 +116,7 @@ def test_a_shift_goes_on_with_what_lies_on_the_floor(tmp_path):
         )
 
     with shift() as ops:
-        ops.fleet.fallen_items = [one.item for one in list(ops.shift.inventory.bins.values())[:9]]
+        ops.fleet.fallen_items = [slot.item for slot in list(ops.shift.inventory.bins.values())[:9]]
         ops.run(seconds=1)
         pieces = ops.kpis()["pieces_on_floor"]
         total = ops.shift.inventory.total

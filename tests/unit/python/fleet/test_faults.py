@@ -169,14 +169,14 @@ def failed(site):
 
 def pushable_off_its_point(site):
     """Those with a load that stand on a grid point and can be pushed 0.3 m along x."""
-    fleet, found = site.world.fleet, pushable(site, True, 0.3, 0.0)
+    fleet, movable = site.world.fleet, pushable(site, True, 0.3, 0.0)
     x, y = site.plan.point_of(site.traffic.robots.cell)
-    return [robot for robot in found if np.hypot(fleet.x - x, fleet.y - y)[robot] < 0.01]
+    return [robot for robot in movable if np.hypot(fleet.x - x, fleet.y - y)[robot] < 0.01]
 
 
 def pushable(site, is_loaded, dx, dy):
     """Robots that can be pushed so without touching anybody."""
-    fleet, found = site.world.fleet, []
+    fleet, movable = site.world.fleet, []
     passable, reach = site.plan.passable.ravel(), 0.5
     corners = reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
     for robot in np.flatnonzero((fleet.shelf_id != 0) == is_loaded):
@@ -193,8 +193,8 @@ def pushable(site, is_loaded, dx, dy):
         )
         is_room = (covered >= 0).all() and passable[covered].all()
         if is_street and is_room and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
-            found.append(int(robot))
-    return found
+            movable.append(int(robot))
+    return movable
 
 
 def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
@@ -275,14 +275,14 @@ def ahead(site, robot, cells):
 def ahead_of(site):
     """Robots at speed with a free street before them."""
     aside = (site.plan.storage | site.plan.lane).ravel() | ~site.plan.passable.ravel()
-    found = []
+    beside = []
     for robot in site.at_speed(loaded=False):
         x, y = ahead(site, robot, 3)
         cell = site.plan.cell_of(x, y)
         fleet = site.world.fleet
         if cell >= 0 and not aside[cell] and np.hypot(fleet.x - x, fleet.y - y).min() > 1.5:
-            found.append(robot)
-    return found
+            beside.append(robot)
+    return beside
 
 
 def test_another_driver_takes_over_what_is_under_way(calm):

@@ -95,14 +95,14 @@ class HardOfHearing:
 
     def __init__(self, world, in_vain):
         self._world, self._in_vain = world, in_vain
-        self._told = collections.Counter()
+        self._counts = collections.Counter()
 
     def __getattr__(self, name):
         return getattr(self._world, name)
 
     def _tell(self, *command):
-        self._told[command] += 1
-        if self._told[command] > self._in_vain:
+        self._counts[command] += 1
+        if self._counts[command] > self._in_vain:
             getattr(self._world, command[0])(*command[1:])
 
     def carry(self, kiva_id, shelf_id):

@@ -39,7 +39,7 @@ def test_robots_are_where_the_actions_lead(files):
 
 
 @pytest.mark.parametrize(
-    ("changed", "told"),
+    ("changed", "message"),
     [
         ({"actualPaths": None}, "plan.json: there is no 'actualPaths'"),
         ({"actualPaths": []}, "plan.json: actualPaths is []; a list"),
@@ -58,10 +58,10 @@ def test_robots_are_where_the_actions_lead(files):
         ({"start": [[0, 0, "E"], [0, 0, "N"]]}, "start[1] is where start[0] is"),
     ],
 )
-def test_what_is_wrong_is_named(files, changed, told):
+def test_what_is_wrong_is_named(files, changed, message):
     with pytest.raises(problem.ProblemError) as error:
         read_plan(*files(**changed))
-    assert told in str(error.value)
+    assert message in str(error.value)
 
 
 def test_a_file_that_is_no_plan_is_named(files, tmp_path):
@@ -77,8 +77,8 @@ def test_starts_must_be_those_of_the_problem(files, tmp_path):
     plan, _ = files()
     passable = np.array([[cell == "." for cell in row] for row in FLOOR])
     path = problem.write_problem(tmp_path, "other", passable, [0, 10], [[0]])
-    told = r"start\[1\] is row 2, column 3; in .* it is row 2, column 2"
-    with pytest.raises(problem.ProblemError, match=told):
+    message = r"start\[1\] is row 2, column 3; in .* it is row 2, column 2"
+    with pytest.raises(problem.ProblemError, match=message):
         read_plan(plan, path)
     path = problem.write_problem(tmp_path, "right", passable, [0, 11], [[0]])
     assert len(read_plan(plan, path).start) == 2

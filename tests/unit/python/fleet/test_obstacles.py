@@ -26,7 +26,7 @@ def only_ways_out(size):
     """Cells, ascending, to which the only exit of another cell leads."""
     plan = FloorPlan.of_world(World.preset(size))
     aside = (plan.storage | plan.parking | ~plan.passable).ravel()
-    found = set()
+    ways = set()
     for cell in np.flatnonzero(~aside).tolist():
         y, x = divmod(cell, plan.width)
         ahead = [
@@ -35,8 +35,8 @@ def only_ways_out(size):
             if plan.exits.flat[cell] >> heading & 1
         ]
         ahead = [to for to in ahead if not aside[to]]
-        found.update(ahead if len(ahead) == 1 else [])
-    return sorted(found)
+        ways.update(ahead if len(ahead) == 1 else [])
+    return sorted(ways)
 
 
 CASES = [(size, cell) for size in SAMPLE for cell in (only_ways_out(size) if ALL else SAMPLE[size])]
@@ -61,10 +61,10 @@ def test_a_person_is_told_of_a_box(size, cell):
         x, y = site.plan.point_of(cell)
         site.world.spawn(BOX, "box", (x, y, 0, 0))
         site.run(STANDS)
-        told = f"something stands in the way at ({x:.1f}, {y:.1f}): take it away"
+        text = f"something stands in the way at ({x:.1f}, {y:.1f}): take it away"
         stuck = site.driver.time - site.traffic.robots.still_since > 30
         assert (
-            told in list(in_the_way(site.driver.plan, site.traffic, site.transports.units))
+            text in list(in_the_way(site.driver.plan, site.traffic, site.transports.units))
             or not stuck.any()
         )
         site.world.delete("box")

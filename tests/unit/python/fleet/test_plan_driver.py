@@ -34,15 +34,15 @@ def plan_of(floor, starts, paths):
 
 def entered(driver):
     """Drives a plan; returns the robots that entered each cell, in order, as they were seen."""
-    seen = {}
+    cells_of = {}
     cells = driver.plan.cell_of(driver.world.fleet.x, driver.world.fleet.y)
     while not (driver.is_over or driver.is_stuck):
         driver.step()
         now = driver.plan.cell_of(driver.world.fleet.x, driver.world.fleet.y)
         for robot in np.flatnonzero(now != cells).tolist():
-            seen.setdefault(int(now[robot]), []).append(robot)
+            cells_of.setdefault(int(now[robot]), []).append(robot)
         cells = now
-    return seen
+    return cells_of
 
 
 def order_in_cells(driver):
@@ -59,11 +59,11 @@ def driven(plan, obstacles="walls"):
     """Drives a plan to its end, and checks what holds for each."""
     laid = layout_of(plan, obstacles)
     driver = PlanDriver(World.of_layout(laid, own_models=True), laid.plan, order_of(plan))
-    seen = entered(driver)
+    cells_of = entered(driver)
     assert driver.is_over
     assert driver.at_end().all()
     assert driver.collisions == driver.refusals == 0
-    assert seen == order_in_cells(driver)
+    assert cells_of == order_in_cells(driver)
     return driver
 
 
@@ -119,7 +119,7 @@ def test_fifty_robots_reach_their_ends_without_a_contact(small, seed, rings):
     actions = np.array(run.actions, np.uint8).T
     plan = LeaguePlan(small.walls(), problem.agents, np.zeros(50, np.uint8), actions)
     driver = driven(plan, ("walls", "marked")[seed % 2])
-    told = drive_report.figures(driver, 1.0, 1.0)
-    assert told["executed_over_planned"] > 1.0
-    assert drive_report.faults(told, is_whole=True) == []
-    assert f"{told['robots']} of {told['robots']}" in drive_report.table(told)
+    summary = drive_report.figures(driver, 1.0, 1.0)
+    assert summary["executed_over_planned"] > 1.0
+    assert drive_report.faults(summary, is_whole=True) == []
+    assert f"{summary['robots']} of {summary['robots']}" in drive_report.table(summary)

@@ -80,8 +80,8 @@ def drive(source, result):
             heading[robot] = (heading[robot] + {"R": 1, "C": 3}.get(action, 0)) % 4
             then.append((row, column))
         assert len(set(then)) == len(then), "two in a cell"
-        moved = {(one, other) for one, other in zip(at, then) if one != other}
-        assert not moved & {(other, one) for one, other in moved}, "a swap"
+        moved = {(cell, other) for cell, other in zip(at, then) if cell != other}
+        assert not moved & {(other, cell) for cell, other in moved}, "a swap"
         at = then
         history.append(at)
     return history
@@ -144,14 +144,19 @@ def test_same_seed_same_plan(made):
 
 def test_round_trip(made):
     path = made(12)
-    one = problem.read(path)
+    kept = problem.read(path)
     again = problem.read(
         problem.write_problem(
-            path.parent / "again", "copy", one.passable, one.agents, one.tasks, one.round_robin
+            path.parent / "again",
+            "copy",
+            kept.passable,
+            kept.agents,
+            kept.tasks,
+            kept.round_robin,
         )
     )
-    assert (again.passable == one.passable).all() and (again.agents == one.agents).all()
-    assert again.tasks == one.tasks and again.round_robin
+    assert (again.passable == kept.passable).all() and (again.agents == kept.agents).all()
+    assert again.tasks == kept.tasks and again.round_robin
 
 
 def test_comments_and_letters_of_the_competition(made):
@@ -259,13 +264,13 @@ def test_validates_a_result(solved):
 @pytest.mark.parametrize(
     "change,expected",
     [
-        (lambda one: one.update(numTaskFinished=1), "numTaskFinished is 1; "),
-        (lambda one: one["start"].__setitem__(3, [0, 0, "E"]), "robot 3 starts at [0, 0, 'E']; "),
-        (lambda one: one["events"][0].__setitem__(0, 0), "tick 0: errand 1 of task"),
-        (lambda one: one["actualPaths"].__setitem__(2, "F" + ",F" * (STEPS_MADE - 1)), "tick "),
-        (lambda one: one["actualPaths"].__setitem__(2, "X"), "actualPaths[2] has 'X'; F, R, C"),
-        (lambda one: one["actualPaths"].__setitem__(2, "F"), "actualPaths[2] has 1 actions; "),
-        (lambda one: one["actualPaths"].pop(), "a path for each of 20 robots was expected"),
+        (lambda out: out.update(numTaskFinished=1), "numTaskFinished is 1; "),
+        (lambda out: out["start"].__setitem__(3, [0, 0, "E"]), "robot 3 starts at [0, 0, 'E']; "),
+        (lambda out: out["events"][0].__setitem__(0, 0), "tick 0: errand 1 of task"),
+        (lambda out: out["actualPaths"].__setitem__(2, "F" + ",F" * (STEPS_MADE - 1)), "tick "),
+        (lambda out: out["actualPaths"].__setitem__(2, "X"), "actualPaths[2] has 'X'; F, R, C"),
+        (lambda out: out["actualPaths"].__setitem__(2, "F"), "actualPaths[2] has 1 actions; "),
+        (lambda out: out["actualPaths"].pop(), "a path for each of 20 robots was expected"),
     ],
 )  # fmt: skip
 def test_sees_what_is_wrong_with_a_result(solved, tmp_path, change, expected):

@@ -50,11 +50,11 @@ def test_nothing_is_real_unless_it_is_asked_for():
 def test_a_section_of_which_anything_is_given_is_on_with_its_defaults(tmp_path):
     file = tmp_path / "day.yaml"
     file.write_text("lasers:\n  range_noise: 0.05\nradio: {}\nlocalisation: false\n")
-    told = World(realism=file).realism
-    assert told["lasers"] == {"enabled": True, "range_noise": 0.05, "dropped_rays": 0.002}
-    assert told["radio"]["enabled"] and told["radio"]["latency_mean"] > 0
-    assert not told["localisation"]["enabled"]
-    assert World(realism={"lasers": {"range_noise": 0.05}, "radio": {}}).realism == told
+    loaded = World(realism=file).realism
+    assert loaded["lasers"] == {"enabled": True, "range_noise": 0.05, "dropped_rays": 0.002}
+    assert loaded["radio"]["enabled"] and loaded["radio"]["latency_mean"] > 0
+    assert not loaded["localisation"]["enabled"]
+    assert World(realism={"lasers": {"range_noise": 0.05}, "radio": {}}).realism == loaded
 
 
 @pytest.mark.parametrize(
@@ -99,9 +99,9 @@ def test_a_robots_model_says_it_unless_the_world_was_told():
         world.spawn(kiva_with(noisy.replace("0.02", "0.03")), "kiva3", (0, 4, 0, 0))
     with pytest.raises(DescriptionError, match="'realism/lasers/noise'"):
         World().spawn(kiva_with("<realism><lasers><noise>1</noise></lasers></realism>"), "kiva1")
-    told = World(realism="ideal")
-    told.spawn(kiva_with(noisy), "kiva1", (0, 0, 0, 0))
-    assert not told.realism["lasers"]["enabled"]
+    ideal = World(realism="ideal")
+    ideal.spawn(kiva_with(noisy), "kiva1", (0, 0, 0, 0))
+    assert not ideal.realism["lasers"]["enabled"]
 
 
 # --- all of it
@@ -217,8 +217,8 @@ def test_lasers_are_noisy_and_drop_rays():
     hit = np.isfinite(ideal)
     assert hit.sum() > 5000
     dropped = np.isinf(real[hit]).mean()
-    seen = hit & np.isfinite(real)
-    error = real[seen] - ideal[seen]
+    visible = hit & np.isfinite(real)
+    error = real[visible] - ideal[visible]
     assert dropped == pytest.approx(0.1, abs=0.02)
     assert error.std() == pytest.approx(0.02, rel=0.05) and abs(error.mean()) < 0.002
     assert np.isinf(real[~hit]).all()
@@ -295,7 +295,7 @@ def test_nobody_gets_stuck_on_a_floor_that_is_slippery_in_places():
     with Fleet("medium", **realism) as fleet:
         fleet.driver.events = []
         assert fleet.run(120) > 5
-        told = [event["text"] for events in fleet.driver.events for event in events]
-        assert not [text for text in told if "stuck" in text]
+        texts = [event["text"] for events in fleet.driver.events for event in events]
+        assert not [text for text in texts if "stuck" in text]
         assert fleet.driver.collisions == 0
         assert not fleet.traffic.robots.mode.any()

@@ -31,7 +31,7 @@ def test_ten_minutes_are_clean(layout, seed):
     finally:
         driver.close()
     totals = driver.transports.totals
-    found = (driver.collisions, driver.blocked, driver.watchdog, totals.failed)
-    assert found == (0, 0, 0, 0), "contacts, blocked, watchdog, failed"
+    counts = (driver.collisions, driver.blocked, driver.watchdog, totals.failed)
+    assert counts == (0, 0, 0, 0), "contacts, blocked, watchdog, failed"
     assert driver.refusals == []
     assert totals.delivered > len(driver.traffic.robots.kiva_ids) / 2

@@ -29,8 +29,8 @@ def served(robot, station):
 
 
 def test_a_queue_is_told_by_its_station():
-    told = Waiting(Queue(), [served(0, "pick1")]).long()
-    assert told == [
+    text = Waiting(Queue(), [served(0, "pick1")]).long()
+    assert text == [
         (1, "in the queue of pick1 behind kiva1"),
         (2, "in the queue of pick1 behind kiva2"),
         (3, "in the queue of pick1 behind kiva3"),
@@ -47,9 +47,9 @@ def test_what_stands_in_the_way_is_told():
     queue = Queue()
     queue.robots.mode[0] = Mode.MANUAL
     queue.robots.busy[0] = False
-    told = dict(Waiting(queue, []).long())
-    assert told[1] == "behind kiva1, which is MANUAL"
-    assert told[2] == "behind kiva2, in a queue behind kiva1"
+    waits = dict(Waiting(queue, []).long())
+    assert waits[1] == "behind kiva1, which is MANUAL"
+    assert waits[2] == "behind kiva2, in a queue behind kiva1"
     queue.robots.slowed_for_people[0] = True
     assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
 

@@ -12,29 +12,29 @@ GAP = 1.0  # mean of the fleet's [s]; a robot seldom has the same failure twice 
 
 
 @pytest.fixture(scope="module")
-def told():
-    """All events of a fleet that stands, while things break and are mended."""
-    failures = {"per_robot_hour": 3600 / GAP / ROBOTS, "repair_time": REPAIR}
-    world = World(seed=5, realism={"failures": failures})
+def recorded():
+    """Returns all events of a fleet that stands, while things break and are mended."""
+    settings = {"per_robot_hour": 3600 / GAP / ROBOTS, "repair_time": REPAIR}
+    world = World(seed=5, realism={"failures": settings})
     for i in range(ROBOTS):
         world.spawn_model("kiva", f"kiva{i + 1}", 2 * (i % 8), 2 * (i // 8))
-    begin, found = world.time, []
+    begin, events = world.time, []
     while world.time < begin + SECONDS:
         world.step(1000)
-        found.append(world.events().copy())
-    return np.concatenate(found), begin
+        events.append(world.events().copy())
+    return np.concatenate(events), begin
 
 
-def test_gaps_are_exponential_in_hours_of_all_robots(told):
-    events, begin = told
+def test_gaps_are_exponential_in_hours_of_all_robots(recorded):
+    events, begin = recorded
     stamps = events["time"][events["kind"] == EventKind.FAILED]
     gaps = np.diff(stamps, prepend=begin)
     assert stats.kstest(gaps, "expon", args=(0, GAP)).pvalue > 0.01
     assert gaps.mean() == pytest.approx(GAP, rel=3 / np.sqrt(len(gaps)))
 
 
-def test_repairs_take_exponential_times(told):
-    events, _ = told
+def test_repairs_take_exponential_times(recorded):
+    events, _ = recorded
     since, took = {}, []
     for event in events:
         if event["kind"] == EventKind.FAILED:

@@ -94,10 +94,10 @@ def test_a_warehouse_stands_in_its_building():
     ],
 )
 def test_what_is_wrong_is_told(path, values, sentence, tmp_path):
-    with pytest.raises(ValueError) as told:
+    with pytest.raises(ValueError) as error:
         World.layout(changed(path, tmp_path, **values))
-    assert sentence in str(told.value)
-    assert str(told.value).startswith(str(tmp_path / "changed.layout.yaml"))
+    assert sentence in str(error.value)
+    assert str(error.value).startswith(str(tmp_path / "changed.layout.yaml"))
 
 
 def test_another_grid_than_that_of_the_building_is_told(tmp_path):

@@ -217,9 +217,9 @@ def test_what_a_world_leaves_out_is_a_warning(tmp_path):
     )
     with pytest.warns(UserWarning) as warnings:
         assert World(file).names == ["wall"]
-    told = "\n".join(str(warning.message) for warning in warnings)
-    assert "libnowhere.so" in told
-    assert "left out: model 'kiva': a robot is called kiva<id>" in told
+    text = "\n".join(str(warning.message) for warning in warnings)
+    assert "libnowhere.so" in text
+    assert "left out: model 'kiva': a robot is called kiva<id>" in text
 
 
 def test_models_of_a_world_that_are_called_like_ours_are_no_robots(tmp_path):

@@ -108,15 +108,15 @@ def test_wrong_arguments_are_told():
 
 def test_other_threads_run_meanwhile_and_may_not_use_the_worlds():
     worlds = Worlds(2, "medium")
-    seen = []
+    refusals = []
 
     def look():
         # Without the GIL held by step(), this thread comes to run while it is under way.
-        while not seen:
+        while not refusals:
             try:
                 worlds.step(1)
             except RuntimeError as error:
-                seen.append(str(error))
+                refusals.append(str(error))
 
     thread = threading.Thread(target=look)
     thread.start()
@@ -124,9 +124,9 @@ def test_other_threads_run_meanwhile_and_may_not_use_the_worlds():
         try:
             worlds.step(200)
         except RuntimeError as error:
-            seen.append(str(error))
+            refusals.append(str(error))
     thread.join()
-    assert "in use by another thread" in seen[0]
+    assert "in use by another thread" in refusals[0]
 
 
 def _child(queue, worlds):

@@ -38,12 +38,12 @@ def free(layout, floor):
 
 
 def reached(start, free):
-    seen, queue = {start}, [start]
+    visited, queue = {start}, [start]
     for x, y in queue:
-        new = ({(x + dx, y + dy) for dx, dy in STEPS} & free) - seen
-        seen |= new
+        new = ({(x + dx, y + dy) for dx, dy in STEPS} & free) - visited
+        visited |= new
         queue += new
-    return seen
+    return visited
 
 
 @pytest.mark.parametrize("preset", ["small", "medium", "large"])
@@ -126,9 +126,9 @@ def test_a_map_becomes_cells():
     grid.info.width, grid.info.height = 3, 2
     grid.info.origin.position.x, grid.info.origin.position.y = -1.5, 3.5
     grid.data = [0, 100, 0, 0, 0, 100]
-    found = Cells.of_map(grid)
-    assert found.points() == {(0, 4), (1, 5)}
-    assert (found.floor.min_x, found.floor.max_x) == (-1.5, 1.5)
+    cells = Cells.of_map(grid)
+    assert cells.points() == {(0, 4), (1, 5)}
+    assert (cells.floor.min_x, cells.floor.max_x) == (-1.5, 1.5)
 
 
 def test_a_grid_of_another_spacing_is_refused():

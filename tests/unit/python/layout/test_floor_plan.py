@@ -29,11 +29,11 @@ def laid_out(request):
     return REQUESTS[request.param], generated.plan(REQUESTS[request.param])
 
 
-def same(one, other):
-    stations = [(s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in one.stations] == [
+def same(first, other):
+    stations = [(s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in first.stations] == [
         (s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in other.stations
     ]
-    return stations and all(np.array_equal(getattr(one, a), getattr(other, a)) for a in ARRAYS)
+    return stations and all(np.array_equal(getattr(first, a), getattr(other, a)) for a in ARRAYS)
 
 
 def test_no_layout_can_come_to_a_deadlock(laid_out):
@@ -156,12 +156,12 @@ def test_what_stands_in_a_lane_is_in_the_way_and_the_lane_stays():
     known = FloorPlan.of_world(world)
     cell = int(known.station("pick1").cells[2])
     world.spawn_model("person", "person1", *known.point_of(cell))
-    found = FloorPlan.of_world(world)
-    assert same(found, known)
-    assert found.obstructed.flat[cell]
-    found.check(obstructed=False)
+    plan = FloorPlan.of_world(world)
+    assert same(plan, known)
+    assert plan.obstructed.flat[cell]
+    plan.check(obstructed=False)
     with pytest.raises(FloorError, match="something stands at"):
-        found.check()
+        plan.check()
 
 
 def unmarked(size, belt=(7, 7), taken=()):
@@ -176,19 +176,19 @@ def unmarked(size, belt=(7, 7), taken=()):
 
 
 def test_a_belt_on_a_floor_without_markings_gets_a_lane():
-    found = unmarked(16, taken=[(0, 3), (1, 4), (5, 2)])
-    (station,) = found.stations
-    assert (station.kind, station.belt, found.without_lane) == ("PICK", "conveyor_belt1", ())
-    x, y = found.point_of(station.service_cell)
+    plan = unmarked(16, taken=[(0, 3), (1, 4), (5, 2)])
+    (station,) = plan.stations
+    assert (station.kind, station.belt, plan.without_lane) == ("PICK", "conveyor_belt1", ())
+    x, y = plan.point_of(station.service_cell)
     assert abs(x - 7.5) + abs(y - 7) <= 2  # beside the belt
-    found.check()
-    assert found.parking.flat[found.cell_of(0, 4)]  # in a niche without a way through
+    plan.check()
+    assert plan.parking.flat[plan.cell_of(0, 4)]  # in a niche without a way through
 
 
 def test_a_belt_without_room_says_which_cells_a_lane_lacks():
-    found = unmarked(6, belt=(2, 2))
-    assert found.stations == ()
-    (reason,) = found.without_lane
+    plan = unmarked(6, belt=(2, 2))
+    assert plan.stations == ()
+    (reason,) = plan.without_lane
     assert reason.startswith("conveyor_belt1 at (2.5, 2) has no lane: it would need (")
 
 

@@ -38,8 +38,8 @@ def write(tmp_path):
 
 
 def test_a_map_of_the_league(write):
-    file, told = formats.read(write(LEAGUE))
-    assert told == [] and lines_of(file.floor) == [
+    file, notes = formats.read(write(LEAGUE))
+    assert notes == [] and lines_of(file.floor) == [
         "############",
         "#..........#",
         "#.........B#",
@@ -54,9 +54,9 @@ def test_a_map_of_the_league(write):
 
 def test_a_map_of_a_game(write):
     path = write("type octile\r\nheight 2\r\nwidth 7\r\nmap\r\n.G@OTSW\r\n.......\r\n")
-    file, told = formats.read(path)
+    file, notes = formats.read(path)
     assert lines_of(file.floor) == ["..# #.x", "......."]
-    assert told == [
+    assert notes == [
         "1 cell of swamp 'S' became floor",
         "1 cell of water 'W' became keep-out 'x'",
     ]
@@ -76,7 +76,7 @@ robots: 1
 
 
 def test_a_map_is_written(write, tmp_path):
-    told = formats.convert(write(LAYOUT, "a.layout.yaml"), tmp_path / "b.map")
+    notes = formats.convert(write(LAYOUT, "a.layout.yaml"), tmp_path / "b.map")
     assert (tmp_path / "b.map").read_text().splitlines() == [
         "type octile",
         "height 4",
@@ -87,7 +87,7 @@ def test_a_map_is_written(write, tmp_path):
         "@.ETT.@",
         "@@@@@@@",
     ]
-    assert told == [
+    assert notes == [
         "conveyor belt became obstacles at [3, 1]",
         "keep-out area became obstacles at [4, 1]",
         "parking became floor at [5, 1]",
@@ -153,9 +153,9 @@ def test_names_of_files_tell_the_format(write, tmp_path):
 
 
 def test_a_layout_stays_as_it_is(write, tmp_path):
-    told = formats.convert(write(LAYOUT, "a.layout.yaml"), tmp_path / "b.layout.yaml")
+    notes = formats.convert(write(LAYOUT, "a.layout.yaml"), tmp_path / "b.layout.yaml")
     before, after = (layout_file.read(tmp_path / n) for n in ("a.layout.yaml", "b.layout.yaml"))
-    assert told == [] and (before.floor == after.floor).all()
+    assert notes == [] and (before.floor == after.floor).all()
     assert before.stations == after.stations
 
 
@@ -207,14 +207,14 @@ def test_a_damaged_file_is_told_or_read(write, tmp_path, suffix):
     text = WHOLE[suffix]
     formats.read(write(text, f"a{suffix}"))
     damaged = [text[: int(len(text) * share)] for share in np.linspace(0.05, 0.99, 20)]
-    for found in re.finditer(r"\d+(\.\d+)?", text):
-        damaged += [text[: found.start()] + value + text[found.end() :] for value in NUMBERS]
-    told = 0
-    for one in damaged:
+    for number in re.finditer(r"\d+(\.\d+)?", text):
+        damaged += [text[: number.start()] + value + text[number.end() :] for value in NUMBERS]
+    refused = 0
+    for content in damaged:
         try:
-            formats.convert(write(one, f"a{suffix}"), tmp_path / "b.layout.yaml")
+            formats.convert(write(content, f"a{suffix}"), tmp_path / "b.layout.yaml")
             formats.read(tmp_path / "b.layout.yaml")
         except FormatError as error:
-            told += 1
+            refused += 1
             assert str(error).startswith(str(tmp_path / "a.")) and "\n" not in str(error)
-    assert told > len(damaged) / 4
+    assert refused > len(damaged) / 4

@@ -56,9 +56,12 @@ EXPECTED = [
 def test_a_grid_in_csv(tmp_path, separator):
     path = tmp_path / "hall.csv"
     path.write_text(GRID.replace(",", separator))
-    file, told = formats.read(path, spacing=1.2)
-    assert told == [] and lines_of(file.floor) == EXPECTED
-    assert [(one.name, one.kind) for one in file.stations] == [("A", "pick"), ("pick 2", "pick")]
+    file, notes = formats.read(path, spacing=1.2)
+    assert notes == [] and lines_of(file.floor) == EXPECTED
+    assert [(station.name, station.kind) for station in file.stations] == [
+        ("A", "pick"),
+        ("pick 2", "pick"),
+    ]
     assert file.spacing == 1.2 and file.robots == 1
 
 
@@ -142,14 +145,14 @@ def plant(axis="position{}", more=""):
 def test_a_plant_model(tmp_path, axis):
     path = tmp_path / "plant.xml"
     path.write_text(plant(axis))
-    file, told = formats.read(path)
+    file, notes = formats.read(path)
     assert file.name == "ring" and file.spacing == 1.0
     assert lines_of(file.floor)[0][1] == "<" and lines_of(file.floor)[-1][1] == ">"
     assert lines_of(file.floor)[3][:5] == "vssss"
     assert file.floor[3, 2] == "p"
-    ((name, kind),) = [(one.name, one.kind) for one in file.stations]
+    ((name, kind),) = [(station.name, station.kind) for station in file.stations]
     assert (name, kind) == ("Bench 1", "pick")
-    assert told[-1] == "1 vehicle: say in robots how many there are"
+    assert notes[-1] == "1 vehicle: say in robots how many there are"
     layout_file.write(file, tmp_path / "a.layout.yaml")
     again = layout_file.read(tmp_path / "a.layout.yaml")
     assert (again.floor == file.floor).all() and again.stations == file.stations

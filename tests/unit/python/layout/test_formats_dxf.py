@@ -68,8 +68,8 @@ def path(tmp_path):
 @pytest.mark.parametrize("unit, insunits", [(1000.0, 4), (1.0, 6), (100.0, 5), (1 / 0.0254, 1)])
 def test_a_hall(path, unit, insunits):
     drawing(unit=unit, insunits=insunits).saveas(path)
-    file, told = formats.read(path)
-    assert lines_of(file.floor) == FLOOR and told == []
+    file, notes = formats.read(path)
+    assert lines_of(file.floor) == FLOOR and notes == []
     assert (file.name, file.stations[0].name, file.stations[0].kind) == (
         "hall",
         "Packing 1",
@@ -80,8 +80,8 @@ def test_a_hall(path, unit, insunits):
 @pytest.mark.parametrize("unit, name", [(1000.0, "millimetres"), (1.0, "metres")])
 def test_a_drawing_that_lies_askew_and_names_no_unit(path, unit, name):
     drawing(turn=math.radians(3), insunits=0, unit=unit).saveas(path)
-    file, told = formats.read(path)
-    assert told == [
+    file, notes = formats.read(path)
+    assert notes == [
         f"$INSUNITS names no unit of length: {name} were assumed",
         "turned by -3.00 degrees",
     ]
@@ -97,11 +97,11 @@ def test_layers_of_ones_own(path, tmp_path):
         "walls: A-walls-*\nstorage: [A-storage-NEW, other]\nstations: a station new\n"
         "parking: A-park*\ncharging: A-charg*\nbelts: A-BELT-NEW\n"
     )
-    file, told = formats.read(path, layers)
-    assert lines_of(file.floor) == FLOOR and told == []
+    file, notes = formats.read(path, layers)
+    assert lines_of(file.floor) == FLOOR and notes == []
     layers.write_text("walls: A-walls-*\nstorage: A-storage-NEW\n")
-    _, told = formats.read(path, layers)
-    assert "layer 'A-parking-NEW': 1 POINT left out; --layers can say what it holds" in told
+    _, notes = formats.read(path, layers)
+    assert "layer 'A-parking-NEW': 1 POINT left out; --layers can say what it holds" in notes
     for text, message in (
         ("wals: A", "'wals' is not one of our names; did you mean 'walls'"),
         ("walls: {a: 1}", "walls is {'a': 1}; names of layers were expected"),
@@ -130,8 +130,8 @@ def test_a_block_of_everything_and_streets(path):
     block.add_mtext("12 m", dxfattribs={"layer": "dimensions"})
     document.modelspace().add_blockref("FLOOR1", (100, 50), dxfattribs={"layer": "XREF"})
     document.saveas(path)
-    file, told = formats.read(path)
-    assert told == ["layer 'dimensions': 1 MTEXT left out; --layers can say what it holds"]
+    file, notes = formats.read(path)
+    assert notes == ["layer 'dimensions': 1 MTEXT left out; --layers can say what it holds"]
     assert lines_of(file.floor) == [
         "##########",
         "#......###",
@@ -151,8 +151,9 @@ def test_walls_with_gaps(path):
         space.add_line(*points, dxfattribs={"layer": "walls"})
     space.add_point((3.5, 2.5), dxfattribs={"layer": "storage"})
     document.saveas(path)
-    file, told = formats.read(path)
-    assert told == ["walls do not enclose all places: the floor is the rectangle about the drawing"]
+    file, notes = formats.read(path)
+    (note,) = notes
+    assert note == "walls do not enclose all places: the floor is the rectangle about the drawing"
     assert lines_of(file.floor)[-1] == "#######" and file.floor[2, 3] == "s"
 
 
@@ -188,9 +189,9 @@ def test_a_truncated_drawing_is_told_or_read(path):
 def test_layers_are_listed_with_what_is_on_them_and_a_proposal(path):
     own = {"walls": "A-WAND", "storage": "Regale", "station": "0-X", "parking": "AGV-PARK"}
     drawing(names=lambda name: own.get(name, "rest")).saveas(path)
-    with pytest.raises(FormatError) as told:
+    with pytest.raises(FormatError) as error:
         formats.read(path)
-    text = str(told.value)
+    text = str(error.value)
     assert "'A-WAND' (1 LWPOLYLINE, 2 LINE)" in text and "'Regale' (64 LWPOLYLINE" not in text
     assert "'walls: [A-WAND]'; 'storage: [Regale]'" in text and "parking: [AGV-PARK]" in text
     with pytest.raises(FormatError, match="its model space is empty"):
@@ -216,8 +217,8 @@ def test_loose_lines_are_joined(path):
     box(6.1, 1.1, 6.9, 1.9, "station")
     space.add_line((6.2, 4.5), (7.8, 4.5), dxfattribs={"layer": "belts"})
     document.saveas(path)
-    file, told = formats.read(path)
-    assert told == [] and lines_of(file.floor) == [
+    file, notes = formats.read(path)
+    assert notes == [] and lines_of(file.floor) == [
         "......==",
         "........",
         ".ssss...",
@@ -237,7 +238,7 @@ def test_loose_lines_are_joined(path):
 )
 def test_what_is_no_drawing_is_one_sentence(path, data, message):
     path.write_bytes(data)
-    with pytest.raises(FormatError) as told:
+    with pytest.raises(FormatError) as error:
         formats.read(path)
-    assert message in str(told.value)
-    assert "NoneType" not in str(told.value) and "attribute" not in str(told.value)
+    assert message in str(error.value)
+    assert "NoneType" not in str(error.value) and "attribute" not in str(error.value)

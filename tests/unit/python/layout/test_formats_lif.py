@@ -25,13 +25,13 @@ def plan(file):
 def test_there_and_back(tmp_path, preset):
     """Cells, directions, stations and lanes stay what they were; the rest is told."""
     file = generator.of_request(PRESETS[preset], preset)
-    told = formats.write(file, tmp_path / "a.lif.json")
-    assert [text.split(":")[0] for text in told] == [
+    notes = formats.write(file, tmp_path / "a.lif.json")
+    assert [text.split(":")[0] for text in notes] == [
         "LIF has no conveyor belts",
         "LIF holds none of",
     ]
-    back, told = formats.read(tmp_path / "a.lif.json")
-    assert told == [] and file_check.faults(back) == [] and back.name == preset
+    back, notes = formats.read(tmp_path / "a.lif.json")
+    assert notes == [] and file_check.faults(back) == [] and back.name == preset
     before, after = plan(file), plan(back)
     width = after.shape[1]  # the belts beyond are lost
     assert after.point_of(0) == before.point_of(0)
@@ -122,9 +122,9 @@ def write(tmp_path):
 
 
 def test_an_integrators_file(write):
-    file, told = formats.read(write(lif()))
+    file, notes = formats.read(write(lif()))
     # The rack has one edge to it; here it is entered from all streets around.
-    assert told == [
+    assert notes == [
         "2 cells may be left in more directions than before: [2, 0], [1, 1]",
         "a layout holds no maxSpeed: left out 5 times",
     ]
@@ -142,10 +142,10 @@ def test_an_integrators_file(write):
 def test_version_2(write):
     """In its drafts layouts lie in origins, and robots and actions have other names."""
     old = lif()
-    for one in old["layouts"][0]["nodes"]:
-        types = one.pop("vehicleTypeNodeProperties")[0]
+    for node in old["layouts"][0]["nodes"]:
+        types = node.pop("vehicleTypeNodeProperties")[0]
         robots = [{"manufacturer": "ACME", "seriesName": "Mouse"}]
-        one["mobileRobotTypeNodeProperties"] = [
+        node["mobileRobotTypeNodeProperties"] = [
             {"mobileRobotTypes": robots, "feasibleActions": types.get("actions", [])}
         ]
     new = {"metaInformation": {}, "origins": [{"originId": "O", "layouts": old["layouts"]}]}
@@ -209,8 +209,8 @@ def test_what_is_wrong_is_told(write, values, message):
 )
 def test_long_edges_are_divided(write, edge, spacing):
     values = lif()
-    for one in values["layouts"][0]["nodes"]:
-        one["nodePosition"] = {axis: v / 1.4 * edge for axis, v in one["nodePosition"].items()}
+    for node in values["layouts"][0]["nodes"]:
+        node["nodePosition"] = {axis: v / 1.4 * edge for axis, v in node["nodePosition"].items()}
     file, _ = formats.read(write(values))
     assert file.spacing == pytest.approx(spacing, abs=1e-3)
     assert file.shape[1] == round(6 * edge / spacing) + 1
@@ -218,10 +218,10 @@ def test_long_edges_are_divided(write, edge, spacing):
 
 def test_nodes_that_lie_on_no_grid(write):
     values = changed(**{"0__nodes__2__nodePosition": {"x": 4.9, "y": 3.3}})
-    file, told = formats.read(write(values))
+    file, notes = formats.read(write(values))
     assert file.spacing == 1.0
-    assert any(text.startswith("nodes were moved to the middle of their cells") for text in told)
-    assert any("is neither along x nor along y: it got a corner" in text for text in told)
+    assert any(text.startswith("nodes were moved to the middle of their cells") for text in notes)
+    assert any("is neither along x nor along y: it got a corner" in text for text in notes)
 
 
 def test_stations_one_above_the_other_are_told(write):
@@ -235,8 +235,8 @@ def test_stations_one_above_the_other_are_told(write):
         }
         for level, height in zip("ABC", (0.0, 2.5, 5.0))
     ]
-    file, told = formats.read(write(values))
-    assert told[-1] == (
+    file, notes = formats.read(write(values))
+    assert notes[-1] == (
         "a cell has one place, on the floor; node R1 has 3: rack A at 0 m, rack B at 2.5 m,"
         " rack C at 5 m"
     )

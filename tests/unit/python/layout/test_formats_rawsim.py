@@ -21,7 +21,7 @@ def plan(file):
 
 
 @pytest.mark.parametrize(
-    "write, told",
+    "write, notes",
     [
         (write_instance, []),
         (lambda path: write_instance(path, spacing=1.04, old=True), []),
@@ -31,13 +31,13 @@ def plan(file):
         ),
     ],
 )
-def test_an_instance(tmp_path, write, told):
+def test_an_instance(tmp_path, write, notes):
     """The drawing says for every cell by which headings it may be left, as the file does."""
     path = write(tmp_path / "a.xinst")
     instance = read_floor(path)
     layout = tmp_path / "a.layout.yaml"
     short = [text for text in formats.convert(path, layout) if "a lane has one way in" not in text]
-    assert short == told
+    assert short == notes
     file = layout_file.read(layout)
     before, after = instance.plan, plan(file)
     lanes = before.lane
@@ -56,16 +56,16 @@ def test_an_instance(tmp_path, write, told):
 
 
 def test_a_short_cut_in_a_queue_is_told(tmp_path):
-    told = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
-    assert any("a lane has one way in and one out; others end at [" in text for text in told)
+    notes = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
+    assert any("a lane has one way in and one out; others end at [" in text for text in notes)
 
 
 def test_a_station_without_a_queue_is_told(tmp_path):
     path = write_instance(tmp_path / "a.xinst")
     text = re.sub(r"<Queues>\d+/\d+</Queues>", "", path.read_text())
     path.write_text(text.replace('IsQueueWaypoint="true"', 'IsQueueWaypoint="false"'))
-    file, told = formats.read(path)
-    assert "station pick2 has no queue and no exit of its own" in told
+    file, notes = formats.read(path)
+    assert "station pick2 has no queue and no exit of its own" in notes
     assert [s.queue + s.exit for s in file.stations] == [()] * 4
 
 
@@ -132,9 +132,9 @@ def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
         NPickStationNorth=1,
         NReplenishmentStationSouth=2,
     )
-    file, told = formats.read(path)
+    file, notes = formats.read(path)
     if two_way == "false":
-        assert told == [
+        assert notes == [
             "a lane has one way in and one out: the buffers' short cuts and further entries are"
             " left out"
         ]

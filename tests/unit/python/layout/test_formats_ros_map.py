@@ -41,7 +41,7 @@ def picture(degrees=0.0, noise=0.0, seed=1):
     return grey.astype(np.uint8)
 
 
-def write_map(folder, grey, plain=False, **told):
+def write_map(folder, grey, plain=False, **fields):
     height, width = grey.shape
     header = f"P{2 if plain else 5}\n# made by a test\n{width} {height}\n255\n"
     if plain:
@@ -56,7 +56,7 @@ def write_map(folder, grey, plain=False, **told):
         "negate": 0,
         "occupied_thresh": 0.65,
         "free_thresh": 0.196,
-    } | told
+    } | fields
     path = folder / "map.yaml"
     path.write_text("".join(f"{k}: {v}\n" for k, v in values.items()))
     return path
@@ -64,8 +64,8 @@ def write_map(folder, grey, plain=False, **told):
 
 def read(path, **options):
     """The layout, and what is no mere note."""
-    file, told = formats.read(path, **options)
-    return file, [one for one in told if not isinstance(one, formats.Note)]
+    file, notes = formats.read(path, **options)
+    return file, [note for note in notes if not isinstance(note, formats.Note)]
 
 
 EXPECTED = [
@@ -84,8 +84,8 @@ EXPECTED = [
 
 @pytest.mark.parametrize("plain", [False, True])
 def test_a_clean_map(tmp_path, plain):
-    file, told = read(write_map(tmp_path, picture(), plain))
-    assert told == []
+    file, notes = read(write_map(tmp_path, picture(), plain))
+    assert notes == []
     assert similar(file.floor) >= 0.97
 
 
@@ -115,21 +115,21 @@ def test_a_wall_of_one_pixel_closes(tmp_path, spacing):
 
 @pytest.mark.parametrize("degrees", [2.0, -7.0, 31.0])
 def test_a_slam_map_is_straightened(tmp_path, degrees):
-    file, told = formats.read(write_map(tmp_path, picture(degrees, noise=0.015)))
-    turned = float(told[0].split()[2])
+    file, notes = formats.read(write_map(tmp_path, picture(degrees, noise=0.015)))
+    turned = float(notes[0].split()[2])
     assert turned == pytest.approx(-degrees, abs=0.3)
     assert similar(file.floor) > 0.9
-    assert any("of noise left out" in sentence for sentence in told)
+    assert any("of noise left out" in sentence for sentence in notes)
 
 
 def test_an_angle_given_and_a_yaw(tmp_path):
     path = write_map(tmp_path, picture(10.0))
-    file, told = formats.read(path, angle=math.radians(-10))
-    assert told[0] == "turned by -10.00 degrees" and similar(file.floor) > 0.9
+    file, notes = formats.read(path, angle=math.radians(-10))
+    assert notes[0] == "turned by -10.00 degrees" and similar(file.floor) > 0.9
     # With the yaw in the file the map lies along the axes already.
     path = write_map(tmp_path, picture(10.0), origin=f"[0, 0, {math.radians(-10)}]")
-    file, told = read(path)
-    assert not any("turned" in one for one in told) and similar(file.floor) > 0.9
+    file, notes = read(path)
+    assert not any("turned" in note for note in notes) and similar(file.floor) > 0.9
 
 
 def test_negate_png_and_spacing(tmp_path):
@@ -146,14 +146,14 @@ def test_a_thousand_cells_square(tmp_path):
     grey = np.full((1000, 1000), 254, np.uint8)
     grey[[0, -1]] = grey[:, [0, -1]] = 0
     path = write_map(tmp_path, grey, resolution=0.5)
-    file, told = read(path, spacing=0.5)
+    file, notes = read(path, spacing=0.5)
     assert file.shape == (1000, 1000)
-    assert told == ["poses of the map are moved by (-0.25, -0.25) m, to the middle of cells"]
+    assert notes == ["poses of the map are moved by (-0.25, -0.25) m, to the middle of cells"]
     assert (file.floor == "#").sum() == 3996
 
 
 @pytest.mark.parametrize(
-    "told, message",
+    "fields, message",
     [
         ({"resolution": -1}, "map.yaml: resolution is -1; a number from"),
         ({"resolution": ".nan"}, "resolution is nan; a number from"),
@@ -168,10 +168,10 @@ def test_a_thousand_cells_square(tmp_path):
         ({"resolution": 9.9}, "1 to 4000000 cells were expected"),
     ],
 )
-def test_a_wrong_map_is_told(tmp_path, told, message):
+def test_a_wrong_map_is_told(tmp_path, fields, message):
     grey = np.full((900, 900), 254, np.uint8)
     with pytest.raises(FormatError, match=message):
-        formats.read(write_map(tmp_path, grey, **told))
+        formats.read(write_map(tmp_path, grey, **fields))
 
 
 @pytest.mark.parametrize(
@@ -214,10 +214,10 @@ def small(pixels, degrees):
 def test_how_sure_the_angle_of_a_small_picture_is(tmp_path, pixels):
     for degrees in (-41.0, -29.5, -12.0, 7.0, 17.3, 32.7, 38.0):
         path = write_map(tmp_path, small(pixels, degrees), resolution=0.5)
-        _, told = formats.read(path, spacing=0.5)
-        words = told[0].split()
+        _, notes = formats.read(path, spacing=0.5)
+        words = notes[0].split()
         assert words[:2] == ["turned", "by"] and words[3:7] == ["degrees,", "give", "or", "take"]
-        assert "--angle sets it" in told[0]
+        assert "--angle sets it" in notes[0]
         off = (float(words[2]) + degrees + 45) % 90 - 45
         assert abs(off) <= float(words[7].rstrip(":")) <= math.degrees(1.6 / pixels)
 
@@ -268,18 +268,18 @@ def test_pixels_are_read_as_map_server_does(tmp_path, mode, negate, kind):
     grey.flat[:8] = [0, 100, 101, 205, 206, 254, 255, 89]
     path = tmp_path / f"m.{suffix}"
     Image.fromarray(grey, colours).save(path)
-    found = ros_map.occupancy(images.read(path), mode, negate, ros_map.Thresholds(0.65, 0.25))
-    assert (found == server(path, 0.65, 0.25, mode, negate)).all()
+    values = ros_map.occupancy(images.read(path), mode, negate, ros_map.Thresholds(0.65, 0.25))
+    assert (values == server(path, 0.65, 0.25, mode, negate)).all()
 
 
 def test_what_was_never_seen_is_no_floor_whatever_the_thresholds(tmp_path):
     usual, _ = formats.read(write_map(tmp_path, picture()))
-    file, told = formats.read(write_map(tmp_path, picture(), free_thresh=0.25))
+    file, notes = formats.read(write_map(tmp_path, picture(), free_thresh=0.25))
     assert (file.floor == usual.floor).all()
     unseen = int((picture() == 205).sum())
-    assert told[0].startswith(f"205 of a picture in 0, 205 and 254 is unknown: {unseen:,} pixels")
+    assert notes[0].startswith(f"205 of a picture in 0, 205 and 254 is unknown: {unseen:,} pixels")
     free, walls = int((picture() == 254).sum()), int((picture() == 0).sum())
-    assert told[-1] == (
+    assert notes[-1] == (
         f"of {340 * 260:,} pixels {free:,} are free, {walls:,} occupied, {unseen:,} unknown"
     )
     # Other greys beside them: the thresholds say what they are.
@@ -299,9 +299,9 @@ def test_poses_of_a_map_hold(tmp_path):
     """The pillar of the room is where the map has it."""
     for origin in ((-3.0, -2.0), (7.0, 11.0), (-3.3, 5.2)):
         path = write_map(tmp_path, picture(), origin=f"[{origin[0]}, {origin[1]}, 0]")
-        file, told = read(path)
+        file, notes = read(path)
         dx, dy = 0.0, 0.0
-        for text in told:
+        for text in notes:
             dx, dy = map(float, re.search(r"moved by \((\S+), (\S+)\) m", text).groups())
         # The pillar's middle in the picture: 3.5 m right of its centre, 1.5 m below.
         pillar = np.add(origin, (17.0 / 2 + 3.5 + dx, 13.0 / 2 - 1.5 + dy))
@@ -313,6 +313,6 @@ def test_poses_of_a_map_hold(tmp_path):
 
 def test_a_picture_of_another_computer_is_found_beside_the_map(tmp_path):
     for name in ("/home/them/maps/m.pgm", "C:\\\\maps\\\\m.pgm"):
-        file, told = formats.read(write_map(tmp_path, picture(), image=f'"{name}"'))
+        file, notes = formats.read(write_map(tmp_path, picture(), image=f'"{name}"'))
         plain = name.replace("\\\\", "\\")
-        assert told[0] == f"{plain} is not here: m.pgm beside map.yaml was read"
+        assert notes[0] == f"{plain} is not here: m.pgm beside map.yaml was read"

@@ -114,11 +114,11 @@ def test_a_shift_works_in_it(hall):
 def test_what_does_not_fit_is_refused_with_what_does():
     with pytest.raises(RequestError) as refused:
         laid_out("narrow_room", "small")
-    found, _ = fit_largest(cells_of("narrow_room"))
-    assert (found.robots, found.belts) == (3, 1)
-    assert found.shelves >= 10
+    largest, _ = fit_largest(cells_of("narrow_room"))
+    assert (largest.robots, largest.belts) == (3, 1)
+    assert largest.shelves >= 10
     assert "in the room of 34 free cells from (-40, 21) to (-36, 27)" in str(refused.value)
-    offer = f"{found.robots} robots, {found.shelves} storage units fit: size:=fit takes that"
+    offer = f"{largest.robots} robots, {largest.shelves} storage units fit: size:=fit takes that"
     assert offer in str(refused.value)
 
 

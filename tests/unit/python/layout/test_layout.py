@@ -59,12 +59,12 @@ def all_cells(layout):
 def reachable(grid, starts):
     """All grid points reached from `starts` (which themselves need not be free)."""
     queue = [point(p) for p in starts]
-    seen = set(queue)
+    visited = set(queue)
     for here in queue:
-        new = [q for q in grid.neighbours(here) if q not in seen]
-        seen.update(new)
+        new = [q for q in grid.neighbours(here) if q not in visited]
+        visited.update(new)
         queue += new
-    return seen
+    return visited
 
 
 def test_counts(case):
@@ -115,9 +115,9 @@ def test_parked_robots_face_a_street(case):
 def test_a_robot_without_load_reaches_every_unit_and_drop_point(case):
     layout = case[1]
     grid = Grid(layout.floor, belt_cells(layout) + list(layout.robots))
-    wanted = {*map(point, layout.units), *map(point, layout.drops)}
+    goals = {*map(point, layout.units), *map(point, layout.drops)}
     for robot in layout.robots[:: max(1, len(layout.robots) // 5)]:
-        assert wanted <= reachable(grid, [robot])
+        assert goals <= reachable(grid, [robot])
 
 
 def test_a_loaded_robot_reaches_every_drop_point_from_every_unit(case):

@@ -75,21 +75,21 @@ def test_a_blind_alley_is_named_with_its_cells():
 
 
 def test_a_place_without_a_street_is_named():
-    found = faults(".....", ".sss.", ".sss.", ".sss.", ".....")
-    assert [fault.cells for fault in found] == [((2, 2),)]
-    assert "storage places at [2, 2]" in found[0].text
+    sentences = faults(".....", ".sss.", ".sss.", ".sss.", ".....")
+    assert [fault.cells for fault in sentences] == [((2, 2),)]
+    assert "storage places at [2, 2]" in sentences[0].text
 
 
 def test_streets_that_only_lead_in_are_named():
-    found = faults("...>..", "...>..")
-    assert "can't get from the streets at [3, 0], [4, 0], [5, 0]" in found[0].text
+    sentences = faults("...>..", "...>..")
+    assert "can't get from the streets at [3, 0], [4, 0], [5, 0]" in sentences[0].text
 
 
 def test_a_lane_that_does_not_join_is_named():
     lane = "  A: {name: pick1, queue: [[1, 1]], exit: [[4, 1]]}\n"
-    found = faults(".....", "..A..", ".....", stations=lane)
-    assert "the lane of station pick1: cells in a row, each but once" in found[0].text
-    assert (4, 1) in found[0].cells
+    sentences = faults(".....", "..A..", ".....", stations=lane)
+    assert "the lane of station pick1: cells in a row, each but once" in sentences[0].text
+    assert (4, 1) in sentences[0].cells
 
 
 def test_two_stations_in_one_cell_are_named():
@@ -97,13 +97,13 @@ def test_two_stations_in_one_cell_are_named():
         "  A: {name: pick1, queue: [[1, 1]], exit: [[3, 1]]}\n"
         "  B: {name: pick2, queue: [[3, 1], [3, 2]], exit: [[5, 2]]}\n"
     )
-    found = faults(".......", "....B..", "..A....", ".......", stations=lanes)
-    assert any("pick2 and pick1 share the cell [3, 1]" in fault.text for fault in found)
+    sentences = faults(".......", "....B..", "..A....", ".......", stations=lanes)
+    assert any("pick2 and pick1 share the cell [3, 1]" in fault.text for fault in sentences)
 
 
 def test_a_station_without_room_says_so():
-    found = faults("....", ".A..", "....", stations="  A: {name: pick1}\n")
-    assert "station pick1 at [1, 1] has no room for a lane" in found[0].text
+    sentences = faults("....", ".A..", "....", stations="  A: {name: pick1}\n")
+    assert "station pick1 at [1, 1] has no room for a lane" in sentences[0].text
 
 
 def test_a_station_without_a_drawn_lane_gets_one():
@@ -126,9 +126,9 @@ def test_a_million_cells_are_checked_within_seconds(kind):
         passable = np.zeros((size, size), bool)
         passable[::2] = passable[1::4, -1] = passable[3::4, 0] = True
     begin = time.monotonic()
-    found = layout_faults(Floor(passable))
+    sentences = layout_faults(Floor(passable))
     assert time.monotonic() - begin < 10  # a search for each edge would take hours
-    assert [name for name, _ in found] == (["dead end"] if "back" in kind else [])
+    assert [name for name, _ in sentences] == (["dead end"] if "back" in kind else [])
 
 
 def ways_round(passable, exits):
@@ -160,8 +160,8 @@ def test_dead_ends_are_the_edges_without_another_way_back(seed):
     shape = tuple(rng.integers(1, 7, 2))
     passable = rng.random(shape) < 0.85
     exits = (rng.integers(0, 16, shape) | rng.integers(0, 16, shape)).astype(np.uint8)
-    found = dict(layout_faults(Floor(passable, exits=exits))).get("dead end", [])
-    pairs = set(zip(found[::2], found[1::2]))
+    sentences = dict(layout_faults(Floor(passable, exits=exits))).get("dead end", [])
+    pairs = set(zip(sentences[::2], sentences[1::2]))
     assert pairs == set(ways_round(passable, exits))
 
 
@@ -224,7 +224,7 @@ def test_stations_without_room_are_told_quickly_on_a_large_floor():
     floor = np.full((199, 401), "#")
     floor[::3, :] = floor[:, ::3] = "."
     services = [(column, row) for row in range(99, 120, 6) for column in range(100, 280, 12)]
-    told = "".join(
+    entries = "".join(
         f"  S{i}: {{name: S{i}, kind: pick, service: [{x}, {y}]}}\n"
         for i, (x, y) in enumerate(services)
     )
@@ -232,10 +232,13 @@ def test_stations_without_room_are_told_quickly_on_a_large_floor():
     began = time.process_time()
     faults(*lines, more="storage_units: 0\n")
     once = time.process_time() - began
-    found = faults(*lines, stations=told, more="storage_units: 0\n")
+    sentences = faults(*lines, stations=entries, more="storage_units: 0\n")
     # Each station has some forty lanes to be tried: they are not checked on the whole floor each.
     assert time.process_time() - began < 50 * once
-    assert sum("has no room for a lane: a lane enters" in one.text for one in found) == 60
+    assert (
+        sum("has no room for a lane: a lane enters" in sentence.text for sentence in sentences)
+        == 60
+    )
 
 
 def test_what_has_no_room_is_told_in_english():

@@ -182,8 +182,8 @@ def test_a_folder_that_is_none_is_told(run, good):
 def test_new_writes_a_preset(run, tmp_path):
     done = run("new", "medium", "--out", "medium.layout.yaml")
     assert done.returncode == 0
-    wanted = generator.of_request(PRESETS["medium"], "medium")
-    assert (tmp_path / "medium.layout.yaml").read_text() == lf.text_of(wanted)
+    expected = generator.of_request(PRESETS["medium"], "medium")
+    assert (tmp_path / "medium.layout.yaml").read_text() == lf.text_of(expected)
     assert run("check", "medium.layout.yaml").returncode == 0
 
 

@@ -22,10 +22,10 @@ robots: 1
 """
 
 
-def same(one, other):
-    names = [f.name for f in fields(one) if f.name not in ("floor", "path")]
-    equal = all(getattr(one, n) == getattr(other, n) for n in names)
-    return equal and np.array_equal(one.floor, other.floor)
+def same(first, other):
+    names = [f.name for f in fields(first) if f.name not in ("floor", "path")]
+    equal = all(getattr(first, n) == getattr(other, n) for n in names)
+    return equal and np.array_equal(first.floor, other.floor)
 
 
 def test_columns_count_from_the_left_and_rows_from_the_bottom():

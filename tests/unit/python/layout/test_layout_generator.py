@@ -20,18 +20,22 @@ def through_text(file):
     return lf.parse(lf.text_of(file))
 
 
-def assert_same(laid, wanted):
+def assert_same(laid, expected):
     for name in ARRAYS:
-        np.testing.assert_allclose(getattr(laid, name), getattr(wanted, name), atol=1e-9)
+        np.testing.assert_allclose(getattr(laid, name), getattr(expected, name), atol=1e-9)
     for name in PLAN:
-        assert (getattr(laid.plan, name) == getattr(wanted.plan, name)).all(), name
-    assert laid.plan.origin == wanted.plan.origin
-    assert laid.floor == wanted.floor
-    assert list(laid.plan.charging) == list(wanted.plan.charging)
-    for one, other in zip(laid.plan.stations, wanted.plan.stations, strict=True):
-        assert (one.name, one.kind, one.service) == (other.name, other.kind, other.service)
-        assert (one.cells == other.cells).all()
-        assert one.belt == other.belt
+        assert (getattr(laid.plan, name) == getattr(expected.plan, name)).all(), name
+    assert laid.plan.origin == expected.plan.origin
+    assert laid.floor == expected.floor
+    assert list(laid.plan.charging) == list(expected.plan.charging)
+    for station, other in zip(laid.plan.stations, expected.plan.stations, strict=True):
+        assert (station.name, station.kind, station.service) == (
+            other.name,
+            other.kind,
+            other.service,
+        )
+        assert (station.cells == other.cells).all()
+        assert station.belt == other.belt
 
 
 @pytest.mark.parametrize("preset", ["small", "medium", "large"])
@@ -77,8 +81,8 @@ def outward(station):
 @pytest.mark.parametrize("sides", [1, 2, 3, 4])
 def test_stations_are_on_as_many_sides_as_asked(sides):
     file = compact.of_request(Request(4, 40, 0, 6), 2, compact.Style(sides))
-    wanted = [(1, 0), (-1, 0), (0, 1), (0, -1)][:sides]
-    assert {outward(station) for station in file.stations} == set(wanted)
+    directions = [(1, 0), (-1, 0), (0, 1), (0, -1)][:sides]
+    assert {outward(station) for station in file.stations} == set(directions)
 
 
 def test_storage_lies_by_the_stations_of_all_sides_around_a_hole():

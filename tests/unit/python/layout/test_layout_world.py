@@ -88,31 +88,31 @@ def test_everything_stands_in_the_world(file, path):
 def test_fleets_find_the_floor_in_it_as_it_was_drawn(file, path):
     if (file.floor == lf.WALL).any():
         return  # beside walls the world's map leaves room to turn
-    found, wanted = FloorPlan.of_world(World(world=str(path))), placement.place(file).plan
-    column, row = np.round(np.subtract(wanted.origin, found.origin) / wanted.spacing).astype(int)
-    height, width = wanted.shape
+    standing, drawn = FloorPlan.of_world(World(world=str(path))), placement.place(file).plan
+    column, row = np.round(np.subtract(drawn.origin, standing.origin) / drawn.spacing).astype(int)
+    height, width = drawn.shape
     part = np.s_[row : row + height, column : column + width]
     for name in ("storage", "parking", "exits"):
-        assert (getattr(found, name)[part] == getattr(wanted, name)).all(), name
-    assert [s.name for s in found.stations] == [s.name for s in wanted.stations]
+        assert (getattr(standing, name)[part] == getattr(drawn, name)).all(), name
+    assert [s.name for s in standing.stations] == [s.name for s in drawn.stations]
 
 
 def test_it_is_read_as_it_was_drawn(file, path):
-    again, told = from_world.read(path)
-    assert told == []
+    again, notes = from_world.read(path)
+    assert notes == []
     assert lf.text_of(again) == lf.text_of(file)
 
 
 def test_it_means_the_same_without_the_text(file, path):
     again, _ = from_world.read(without_text(path))
-    now, wanted = placement.place(again), placement.place(file)
+    now, drawn = placement.place(again), placement.place(file)
     for name in ("passable", "storage", "parking"):
-        assert (getattr(now.plan, name) == getattr(wanted.plan, name)).all(), name
-    np.testing.assert_allclose(now.robots[:, :2], wanted.robots[:, :2], atol=1e-6)
-    np.testing.assert_allclose(now.units, wanted.units, atol=1e-6)
-    for one, other in zip(now.plan.stations, wanted.plan.stations, strict=True):
-        assert (one.name, one.kind) == (other.name, other.kind)
-        assert (one.cells == other.cells).all()
+        assert (getattr(now.plan, name) == getattr(drawn.plan, name)).all(), name
+    np.testing.assert_allclose(now.robots[:, :2], drawn.robots[:, :2], atol=1e-6)
+    np.testing.assert_allclose(now.units, drawn.units, atol=1e-6)
+    for station, other in zip(now.plan.stations, drawn.plan.stations, strict=True):
+        assert (station.name, station.kind) == (other.name, other.kind)
+        assert (station.cells == other.cells).all()
     for character in (lf.WALL, lf.BELT):
         assert ((again.floor == character) == (file.floor == character)).all()
     assert again.items == file.items
@@ -124,8 +124,8 @@ def test_a_robot_that_was_moved_is_where_it_is_now(tmp_path):
     text = (tmp_path / "w.sdf").read_text()
     moved = re.sub("(<name>kiva1</name><pose>)[^<]*", r"\g<1>0 -4 0 0 0 0", text)
     (tmp_path / "w.sdf").write_text(moved)
-    again, told = from_world.read(tmp_path / "w.sdf")
-    assert told == []
+    again, notes = from_world.read(tmp_path / "w.sdf")
+    assert notes == []
     assert (again.robots[0], len(again.robots)) == ((9, 2), 3)
     assert (again.floor == file.floor).all()
 
@@ -169,8 +169,8 @@ def test_a_layout_stands_in_its_building(tmp_path):
     world_export.write(file, tmp_path / "w.sdf")
     names = World(world=str(tmp_path / "w.sdf")).names
     assert {"wall_north", "storage_unit1", "floor_markings1"} <= set(names)
-    again, told = from_world.read(tmp_path / "w.sdf")
-    assert told == []
+    again, notes = from_world.read(tmp_path / "w.sdf")
+    assert notes == []
     assert lf.text_of(again) == lf.text_of(file)
 
 

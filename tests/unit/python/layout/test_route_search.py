@@ -85,8 +85,8 @@ def test_the_shortest_way_has_as_many_steps_as_a_search_of_all_cells_finds(loade
     for begin in streets[::40].tolist():
         steps = dijkstra(graph, indices=begin, unweighted=True)
         for end in streets[::7].tolist():
-            found = floor.shortest(begin, end, loaded=loaded)
-            assert found == (steps[end] if np.isfinite(steps[end]) else -1)
+            way = floor.shortest(begin, end, loaded=loaded)
+            assert way == (steps[end] if np.isfinite(steps[end]) else -1)
 
 
 def test_there_is_no_way_off_an_island():

@@ -39,9 +39,9 @@ def test_rows_are_bins_on_units(tmp_path):
 def test_wrong_rows_are_told_with_line_and_column(text, message, tmp_path):
     path = tmp_path / "stock.csv"
     path.write_text(text)
-    with pytest.raises(StockFileError) as told:
+    with pytest.raises(StockFileError) as error:
         stock_file.read(path, units=3)
-    assert str(told.value).startswith(str(path)) and message in str(told.value)
+    assert str(error.value).startswith(str(path)) and message in str(error.value)
 
 
 def test_items_lie_apart_on_the_units_of_their_rows(tmp_path):

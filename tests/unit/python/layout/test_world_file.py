@@ -24,18 +24,18 @@ def file(tmp_path):
 
 
 def test_all_models_are_added(file):
-    wanted = insertable(file, standing=["kiva7"])
-    assert wanted.names == ["ground_plane", "kiva1", "person", "crate"]
-    assert 'name="ground_plane"' in wanted.xml
-    assert (wanted.renamed, wanted.left_out) == ({}, [])
+    loaded = insertable(file, standing=["kiva7"])
+    assert loaded.names == ["ground_plane", "kiva1", "person", "crate"]
+    assert 'name="ground_plane"' in loaded.xml
+    assert (loaded.renamed, loaded.left_out) == ({}, [])
 
 
 def test_the_floor_stays_at_home_where_there_is_one(file):
-    wanted = insertable(file, standing=["ground_plane"])
-    assert wanted.names == ["kiva1", "person", "crate"]
-    assert wanted.left_out == ["ground_plane"]
-    assert "ground_plane" not in wanted.xml
-    assert "model://kiva" in wanted.xml
+    loaded = insertable(file, standing=["ground_plane"])
+    assert loaded.names == ["kiva1", "person", "crate"]
+    assert loaded.left_out == ["ground_plane"]
+    assert "ground_plane" not in loaded.xml
+    assert "model://kiva" in loaded.xml
 
 
 @pytest.mark.parametrize(
@@ -61,10 +61,10 @@ def test_what_is_numbered_takes_free_numbers(tmp_path):
       <include><uri>model://kiva</uri><name>kiva3</name></include>
       <model name="storage_unit1"><pose relative_to="kiva1">1 0 0 0 0 0</pose></model>
     </world></sdf>""")
-    wanted = insertable(path, ["kiva1", "kiva2", "storage_unit1", "storage_unit2"])
-    assert wanted.names == ["kiva4", "kiva3", "storage_unit3"]
-    assert wanted.renamed == {"kiva1": "kiva4", "storage_unit1": "storage_unit3"}
-    world = ElementTree.fromstring(wanted.xml).find("world")
+    loaded = insertable(path, ["kiva1", "kiva2", "storage_unit1", "storage_unit2"])
+    assert loaded.names == ["kiva4", "kiva3", "storage_unit3"]
+    assert loaded.renamed == {"kiva1": "kiva4", "storage_unit1": "storage_unit3"}
+    world = ElementTree.fromstring(loaded.xml).find("world")
     assert [i.findtext("name") for i in world.iter("include")] == ["kiva4", "kiva3"]
     assert world.find("model").get("name") == "storage_unit3"
     assert world.find("model/pose").get("relative_to") == "kiva4"

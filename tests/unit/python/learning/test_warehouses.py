@@ -72,21 +72,21 @@ def random_run(seed, decisions=40, n=3, **options):
     observer = Observer(warehouses)
     warehouses.reset(np.arange(n), [seed + i for i in range(n)])
     random = np.random.default_rng(seed)
-    seen, collisions = [], 0
+    steps, collisions = [], 0
     for _ in range(decisions):
         masks = warehouses.masks()
         actions = (masks * random.random(masks.shape)).argmax(-1)
         rewards, happened = warehouses.step(actions)
         collisions += int(happened["collided"].sum())
-        seen += [observer.observations(), rewards, observer.state()]
-    return warehouses, seen, collisions
+        steps += [observer.observations(), rewards, observer.state()]
+    return warehouses, steps, collisions
 
 
 def test_the_same_seed_is_the_same_episode_bit_by_bit():
-    first, seen, _ = random_run(5)
+    first, before, _ = random_run(5)
     again, same, _ = random_run(5)
     assert (first.worlds.state_hash() == again.worlds.state_hash()).all()
-    assert all((a == b).all() for a, b in zip(seen, same))
+    assert all((a == b).all() for a, b in zip(before, same))
     # In a world that has been used before, and alone, too.
     saved = first.worlds.state_hash()
     first.reset([1], [5])
@@ -97,7 +97,7 @@ def test_the_same_seed_is_the_same_episode_bit_by_bit():
 
 
 def test_reservations_keep_robots_apart():
-    warehouses, seen, collisions = random_run(1, decisions=150)
+    warehouses, steps, collisions = random_run(1, decisions=150)
     assert collisions == 0
     x, y = warehouses.grid.point_of(warehouses.cell)
     np.testing.assert_allclose(warehouses.worlds.x, x, atol=1e-3)
@@ -129,8 +129,8 @@ def test_without_reservations_physics_keeps_robots_apart(reserve):
 
 @pytest.mark.parametrize("options", [{}, {"decision": 0.5}, {"lasers": True}])
 def test_observations_stay_within_their_bounds(options):
-    _, seen, _ = random_run(2, decisions=20, **options)
-    for observations in seen[::3]:
+    _, steps, _ = random_run(2, decisions=20, **options)
+    for observations in steps[::3]:
         assert observations.dtype == np.float32
         assert observations.min() >= -1 and observations.max() <= 1
 
@@ -154,9 +154,9 @@ def seen_from(warehouses, w, robot, ahead, left):
 
 
 def test_robots_observe_what_is_around_them_as_they_face_it():
-    warehouses, seen, _ = random_run(4, decisions=60, n=2, radius=3)
+    warehouses, steps, _ = random_run(4, decisions=60, n=2, radius=3)
     assert (warehouses.load >= 0).any() and len(np.unique(warehouses.heading)) > 2
-    see = fields.split(seen[-3], fields.robot_fields(warehouses.options))
+    see = fields.split(steps[-3], fields.robot_fields(warehouses.options))
     grid = warehouses.grid
     longest = max(grid.width, grid.height) - 2 * grid.rim
     for w, robot in np.ndindex(warehouses.cell.shape):
@@ -291,7 +291,7 @@ def test_bad_actions_name_the_robot():
 
 
 def test_bad_options_are_named():
-    for given, said in (
+    for options, said in (
         ({"size": "vast"}, "size is 'vast'; one of tiny"),
         ({"robots": -1, "shelves": 3}, "robots is -1"),
         ({"requests": 99, "size": "tiny"}, "requests is 99; a whole number from 1 to 11"),
@@ -301,7 +301,7 @@ def test_bad_options_are_named():
         ({"colour": "red"}, "colour is not an option"),
     ):
         with pytest.raises(OptionError, match=said):
-            Options.of(given)
+            Options.of(options)
 
 
 @pytest.mark.parametrize(("name", "units"), [("north", 20), ("in_hall", 14)])
@@ -323,10 +323,10 @@ def test_a_layout_file_is_learned_in(name, units):
 
 
 def test_a_layout_that_is_none_is_told():
-    for given, message in (
+    for options, message in (
         ({"layout": "nix.layout.yaml"}, "layout: .*nix.layout.yaml: No such file"),
         ({"layout": str(LAYOUTS / "blocked.layout.yaml")}, "can't pass each other"),
         ({"layout": "small", "shelves": 3}, "shelves is 3; a layout has its own"),
     ):
         with pytest.raises(OptionError, match=message):
-            Options(**given)
+            Options(**options)

@@ -58,8 +58,8 @@ def test_rostest_brings_a_master_of_its_own():
     ],
 )
 def test_a_launch_that_other_machines_reach_is_told(environment, open_):
-    told = launching.openness(caller("warehouse_sim", "warehouse.launch"), environment)
-    assert ("ROS_HOSTNAME=localhost" in told) == open_
+    warning = launching.openness(caller("warehouse_sim", "warehouse.launch"), environment)
+    assert ("ROS_HOSTNAME=localhost" in warning) == open_
 
 
 def of_ours():

@@ -56,20 +56,20 @@ def test_policies_of_the_file_are_checked(tmp_path):
     ],
 )
 def test_what_contradicts_a_layout_is_told(values, sentence):
-    told = conflicts(**values)
-    assert [sentence in one for one in told] == ([True] if sentence else [])
+    faults = conflicts(**values)
+    assert [sentence in fault for fault in faults] == ([True] if sentence else [])
 
 
 def test_a_building_with_something_in_the_way_is_told(tmp_path):
     text = (LAYOUTS / "in_hall.layout.yaml").read_text().replace("[-5, -5]", "[-3, -5]")
     (tmp_path / "x.layout.yaml").write_text(text)
-    told = conflicts(layout=str(tmp_path / "x.layout.yaml"))
-    assert "something of hall stands at [9, 0], [10, 0]" in told[0]
+    faults = conflicts(layout=str(tmp_path / "x.layout.yaml"))
+    assert "something of hall stands at [9, 0], [10, 0]" in faults[0]
 
 
 def test_the_world_of_a_layout(tmp_path):
-    def world(layout, given=""):
-        return layout_argument.world_of(layout, given, LAYOUTS, tmp_path)
+    def world(layout, named=""):
+        return layout_argument.world_of(layout, named, LAYOUTS, tmp_path)
 
     assert world("medium") == ""
     assert world("in_hall.layout.yaml") == str(files.worlds() / "hall.sdf")

@@ -10,7 +10,7 @@ HOOK = ROOT / "src/warehouse_sim/env-hooks/50.loopback.sh"
 
 
 @pytest.mark.parametrize(
-    ("given", "hostname"),
+    ("environment", "hostname"),
     [
         ({}, "localhost"),
         ({"ROS_MASTER_URI": "http://localhost:11311"}, "localhost"),
@@ -21,7 +21,7 @@ HOOK = ROOT / "src/warehouse_sim/env-hooks/50.loopback.sh"
         ({"ROS_IP": "192.168.0.2"}, ""),
     ],
 )
-def test_after_sourcing_the_workspace(given, hostname):
+def test_after_sourcing_the_workspace(environment, hostname):
     script = f'. {HOOK}; printf %s "${{ROS_HOSTNAME:-}}"'
-    said = subprocess.check_output(["/bin/sh", "-euc", script], env=given, text=True)
+    said = subprocess.check_output(["/bin/sh", "-euc", script], env=environment, text=True)
     assert said == hostname

@@ -44,26 +44,26 @@ class Stage(FakeRos):
         self.status(kiva)
 
 
-def script(kiva, seen, steps=2):
+def script(kiva, events, steps=2):
     for step in range(steps):
         event = yield command("movx", kiva, distance=step)
-        seen.append((kiva, event.kind))
+        events.append((kiva, event.kind))
 
 
 def test_nothing_is_commanded_before_the_answers_can_be_heard():
-    stage, seen = Stage((Event.ACCEPTED, Event.DONE)), []
+    stage, events = Stage((Event.ACCEPTED, Event.DONE)), []
     stage.connections = 0
     stage.watch(3)
     with pytest.raises(DeadlineError):
-        stage.executor.play({3: script(3, seen)})
-    assert (stage.seconds, seen) == (0, [])
+        stage.executor.play({3: script(3, events)})
+    assert (stage.seconds, events) == (0, [])
 
 
 def test_commands_follow_each_other():
-    stage, seen = Stage((Event.ACCEPTED, Event.DONE), (Event.ACCEPTED, Event.BLOCKED)), []
+    stage, events = Stage((Event.ACCEPTED, Event.DONE), (Event.ACCEPTED, Event.BLOCKED)), []
     stage.watch(3)
-    stage.executor.play({3: script(3, seen)})
-    assert seen == [(3, Event.DONE), (3, Event.BLOCKED)]
+    stage.executor.play({3: script(3, events)})
+    assert events == [(3, Event.DONE), (3, Event.BLOCKED)]
     assert [text for _, _, text in stage.said] == [
         "movx distance 0",
         "DONE",
@@ -73,38 +73,38 @@ def test_commands_follow_each_other():
 
 
 def test_robots_act_at_once():
-    stage, seen = Stage(*[(Event.DONE,)] * 4), []
+    stage, events = Stage(*[(Event.DONE,)] * 4), []
     for kiva in (1, 2):
         stage.watch(kiva)
-    stage.executor.play({kiva: script(kiva, seen) for kiva in (1, 2)})
-    assert [kiva for kiva, _ in seen] == [1, 2, 1, 2]
+    stage.executor.play({kiva: script(kiva, events) for kiva in (1, 2)})
+    assert [kiva for kiva, _ in events] == [1, 2, 1, 2]
 
 
 def test_a_refusal_needs_no_new_status():
-    stage, seen = Stage((Event.REFUSED,)), []
+    stage, events = Stage((Event.REFUSED,)), []
     stage.status = lambda *_: None
     stage.executor.watch(1)
     Stage.status(stage, 1, seconds=0)
-    stage.executor.play({1: script(1, seen, steps=1)})
-    assert seen == [(1, Event.REFUSED)]
+    stage.executor.play({1: script(1, events, steps=1)})
+    assert events == [(1, Event.REFUSED)]
 
 
 def test_the_next_command_waits_until_the_robot_may_take_it():
-    stage, seen = Stage((Event.BLOCKED,)), []
+    stage, events = Stage((Event.BLOCKED,)), []
     stage.watch(1)
     stage.status = lambda kiva: Stage.status(stage, kiva, KivaStatus.STATUS_BLOCKED)
     with pytest.raises(DeadlineError, match="waiting: kiva1 for movx distance 0"):
-        stage.executor.play({1: script(1, seen)})
-    assert seen == []
+        stage.executor.play({1: script(1, events)})
+    assert events == []
 
 
 def test_an_old_status_does_not_count():
-    stage, seen = Stage((Event.DONE,)), []
+    stage, events = Stage((Event.DONE,)), []
     stage.watch(1)
     stage.status = lambda kiva: Stage.status(stage, kiva, seconds=0)
     with pytest.raises(DeadlineError):
-        stage.executor.play({1: script(1, seen)})
-    assert seen == []
+        stage.executor.play({1: script(1, events)})
+    assert events == []
 
 
 def test_nothing_starts_before_the_commands_are_heard():
@@ -124,12 +124,12 @@ def test_ctrl_c_ends_it():
 
 
 def test_other_robots_events_are_kept_but_change_nothing():
-    stage, seen = Stage((Event.DONE,)), []
+    stage, events = Stage((Event.DONE,)), []
     stage.watch(1)
     stage.event(Event.DONE, 7)
-    stage.executor.play({1: script(1, seen, steps=1)})
+    stage.executor.play({1: script(1, events, steps=1)})
     assert [event.model for event in stage.executor.events] == ["kiva7", "kiva1"]
-    assert seen == [(1, Event.DONE)]
+    assert events == [(1, Event.DONE)]
 
 
 def test_what_happens_is_told_with_its_reason():
@@ -147,6 +147,6 @@ def test_waiting_for_a_condition_has_an_end():
 
 
 def test_a_command_reads_well():
-    wanted = command("lift", 2, status=Lift.CARRY, shelf_id=7)
-    assert str(wanted) == "lift status 1, shelf_id 7"
-    assert wanted.message.kiva_id == 2
+    lift = command("lift", 2, status=Lift.CARRY, shelf_id=7)
+    assert str(lift) == "lift status 1, shelf_id 7"
+    assert lift.message.kiva_id == 2

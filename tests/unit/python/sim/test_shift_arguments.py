@@ -16,7 +16,7 @@ def place(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name, given, content, message",
+    "name, text, content, message",
     [
         ("orders", "bad.csv", b"reference,sku,quantity\nA,sku-1,x\n", "bad.csv:2: quantity is 'x'"),
         ("orders", "none.csv", None, "none.csv: No such file or directory"),
@@ -28,10 +28,10 @@ def place(tmp_path):
         ("database", "oracle-of-delphi://x:secret@y", None, "oracle-of-delphi"),
     ],
 )
-def test_what_is_wrong_is_told(place, name, given, content, message):
+def test_what_is_wrong_is_told(place, name, text, content, message):
     if content:
-        (place.cwd / given).write_bytes(content)
-    (said,) = faults({name: given}, place)
+        (place.cwd / text).write_bytes(content)
+    (said,) = faults({name: text}, place)
     assert said.startswith(f"{name}:=") and message in said
     assert "secret" not in said
 
@@ -40,17 +40,17 @@ def test_what_is_right_is_told_by_its_whole_path(place):
     (place.cwd / "good.csv").write_text("reference,sku,quantity\nA,any,1\n")
     (place.cwd / "good.yaml").write_text("orders: random")
     Operations(site=site(), database=place.cwd / "good.db").close()
-    for name, given in (
+    for name, text in (
         ("orders", "good.csv"),
         ("policies", "good.yaml"),
         ("database", "good.db"),
         ("database", "new.db"),
     ):
-        assert faults({name: given}, place) == []
-        assert value(name, given, place) == str(place.cwd / given)
-    for name, given in (("orders", "fill"), ("orders", "poisson:90"), ("database", "")):
-        assert faults({name: given}, place) == []
-        assert value(name, given, place) == given
+        assert faults({name: text}, place) == []
+        assert value(name, text, place) == str(place.cwd / text)
+    for name, text in (("orders", "fill"), ("orders", "poisson:90"), ("database", "")):
+        assert faults({name: text}, place) == []
+        assert value(name, text, place) == text
     assert not (place.cwd / "new.db").exists()
     with FileLock(place.cwd / "good.db"):
         assert "good.db: is in use by" in faults({"database": "good.db"}, place)[0]

@@ -82,7 +82,7 @@ class GridRobot(Driver):
 
     def report(self):
         moving = self.busy and not self.lifting and not self.stopped
-        told = Report(
+        status = Report(
             *map(float, self.cell),
             0.0,
             busy=self.busy,
@@ -92,7 +92,7 @@ class GridRobot(Driver):
             load=self.load,
             refusal=self.refusal,
         )
-        return replace(told, **self.extra)
+        return replace(status, **self.extra)
 
     def factsheet(self):
         return Factsheet()

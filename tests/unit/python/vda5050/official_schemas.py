@@ -17,5 +17,5 @@ VALIDATORS = {
 
 def faults(kind, payload):
     """Returns what is wrong with a message as it was sent, a line each."""
-    found = VALIDATORS[kind].iter_errors(json.loads(payload))
-    return [f"{kind.value} {list(fault.path)}: {fault.message}" for fault in found]
+    errors = VALIDATORS[kind].iter_errors(json.loads(payload))
+    return [f"{kind.value} {list(fault.path)}: {fault.message}" for fault in errors]

@@ -169,9 +169,9 @@ def test_actions_it_cannot_perform(type, key, value):
 
 
 def test_parameters_that_the_lift_meets_anyway():
-    told = {"height": "0", "depth": 0, "lhd": "lift", "side": "", "loadType": "unit"}
-    told |= {"stationType": "rack", "stationName": "S1", "loadId": "7"}
-    action = Action("pick", "a", BlockingType.HARD, tuple(told.items()))
+    parameters = {"height": "0", "depth": 0, "lhd": "lift", "side": "", "loadType": "unit"}
+    parameters |= {"stationType": "rack", "stationName": "S1", "loadId": "7"}
+    action = Action("pick", "a", BlockingType.HARD, tuple(parameters.items()))
     assert sent(Bench(units={"7": (2, 0)}), actions={2: [action]}).order_id == "o"
 
 
@@ -196,19 +196,19 @@ def fields_of(part, place=""):
 def test_each_field_of_the_official_schemas_has_a_rule(kind):
     schema = VALIDATORS[kind].schema
     refused = tuple(f"order.edges.{rule.name}" for rule in EDGE if rule.use is Use.REFUSED)
-    found = [
+    missing = [
         (place, name)
         for place, name in fields_of(resolved(schema, schema), kind.value)
         if not place.startswith(refused) and not place.endswith("actionParameters")
     ]
-    assert [one for one in found if one[1] not in {rule.name for rule in TABLE[one[0]]}] == []
-    assert len(found) > (40 if kind is Kind.ORDER else 10)
+    assert [path for path in missing if path[1] not in {rule.name for rule in TABLE[path[0]]}] == []
+    assert len(missing) > (40 if kind is Kind.ORDER else 10)
 
 
 def resolved(part, schema):
     """Returns a schema with its references replaced."""
     if isinstance(part, list):
-        return [resolved(one, schema) for one in part]
+        return [resolved(piece, schema) for piece in part]
     if not isinstance(part, dict):
         return part
     if "$ref" in part:
@@ -231,13 +231,13 @@ def test_each_demand_that_is_checked_or_refused_has_a_check():
 def test_each_field_of_a_state_is_told_or_named_as_left_out():
     bench = Bench(units={"7": (1, 0)})
     sent(bench, place={"theta": 0.0}, actions={1: [pick(), pick(id="p2")]})
-    told = set()
+    names = set()
     for state in [*bench.states, bench.tick(6), bench.instant("dance")]:
-        told |= set(paths(codec_for().to_json(state)))
+        names |= set(paths(codec_for().to_json(state)))
     schema = VALIDATORS[Kind.STATE].schema
     known = {f"{place}.{name}".strip(".") for place, name in fields_of(resolved(schema, schema))}
-    silent = {path for path in known - told if not path.startswith(NOT_TOLD)}
-    assert silent == set() and told <= known
+    silent = {path for path in known - names if not path.startswith(NOT_TOLD)}
+    assert silent == set() and names <= known
 
 
 def paths(value, place=""):

@@ -215,8 +215,8 @@ class Floor:
         rows = [robot.row(n) for n, robot in self.robots.items() if n != self.number]
         shadow = shadow_of(self.master, self.now)
         if shadow:
-            told = {**vars(shadow), "vx": 0.0, "vy": 0.0, "mode": 0}
-            rows.append(tuple(told[name] for name in REPORT.names))
+            fields = {**vars(shadow), "vx": 0.0, "vy": 0.0, "mode": 0}
+            rows.append(tuple(fields[name] for name in REPORT.names))
         else:
             rows.append(self.robots[self.number].row(self.number))
         return np.array(sorted(rows), REPORT)
@@ -224,14 +224,14 @@ class Floor:
     def step(self):
         self.now += TICK
         control = self.controller
-        seen = Observation(
+        observation = Observation(
             self.now,
             self.rows(),
             refused=self.refused,
             units=self.units(),
             look_at_units=self.units,
         )
-        decision, self.refused = control.tick(seen), []
+        decision, self.refused = control.tick(observation), []
         self.demand.advance(self.now, control.transports.take_events())
         self.carry_out(decision)
         for message in self.master.messages(self.now):
@@ -259,13 +259,13 @@ class Floor:
                 self.master.command(Cancel())
             else:
                 self.robots[number].cancel()
-        told, at = decision.releases, 0
+        granted, at = decision.releases, 0
         for number, path, first, count, released in zip(
-            told.kiva_id, told.path_id, told.first, told.points, told.released
+            granted.kiva_id, granted.path_id, granted.first, granted.points, granted.released
         ):
             points = [
                 (float(x), float(y))
-                for x, y in zip(told.x[at : at + count], told.y[at : at + count])
+                for x, y in zip(granted.x[at : at + count], granted.y[at : at + count])
             ]
             at += count
             if number == self.number:
@@ -327,19 +327,19 @@ class Floor:
         """What the vehicle or its load touches."""
         loaded = bool(self.vehicle.load)
         mine = corners(self.vehicle, LOAD if loaded else CHASSIS)
-        found = []
+        touching = []
         for number, robot in self.robots.items():
             if number == self.number:
                 continue
             if overlap(mine, corners(robot, LOAD if robot.load else CHASSIS)):
-                found.append(f"kiva{number}")
+                touching.append(f"kiva{number}")
         if loaded:
             carried = {robot.load for robot in self.robots.values()} | {self.master.load}
             for unit, (x, y) in self.stored.items():
                 near = max(abs(x - self.vehicle.x), abs(y - self.vehicle.y)) < 1.2
                 if unit not in carried and near and overlap(mine, corners(Robot(x, y), LOAD)):
-                    found.append(f"storage_unit{unit}")
-        return found
+                    touching.append(f"storage_unit{unit}")
+        return touching
 
 
 def corners(body, half):
@@ -348,11 +348,11 @@ def corners(body, half):
     return [(body.x + c * a - s * b, body.y + s * a + c * b) for a, b in ends]
 
 
-def overlap(one, other):
+def overlap(first, other):
     """Whether two rectangles do, by the axes of both."""
-    for a, b in [*zip(one, one[1:]), *zip(other, other[1:])]:
+    for a, b in [*zip(first, first[1:]), *zip(other, other[1:])]:
         normal = (b[1] - a[1], a[0] - b[0])
-        p = [normal[0] * x + normal[1] * y for x, y in one]
+        p = [normal[0] * x + normal[1] * y for x, y in first]
         q = [normal[0] * x + normal[1] * y for x, y in other]
         if max(p) <= min(q) + 1e-9 or max(q) <= min(p) + 1e-9:
             return False
@@ -373,6 +373,6 @@ def test_no_robot_is_driven_into_a_vehicle_that_jumps(seed, turns):
                 next_jump = floor.now + floor.chance.uniform(0.5, 2 * JUMPS)
     finally:
         floor.close()
-    told = [event.text for event in floor.events if event.kind is EventKind.BLOCKED]
-    assert sum(jumps.values()) > 3 and told, floor.events
+    texts = [event.text for event in floor.events if event.kind is EventKind.BLOCKED]
+    assert sum(jumps.values()) > 3 and texts, floor.events
     assert floor.vehicle.orders < LONG, "it is asked again and again"

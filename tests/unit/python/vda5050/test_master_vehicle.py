@@ -59,11 +59,11 @@ class Bench:
         return self.vehicle.messages(self.now)
 
     def order(self, wait=0.0):
-        (order,) = [one for one in self.sent(wait) if isinstance(one, VehicleOrder)]
+        (order,) = [message for message in self.sent(wait) if isinstance(message, VehicleOrder)]
         return order
 
     def instants(self, wait=0.0):
-        messages = [one for one in self.sent(wait) if isinstance(one, InstantActions)]
+        messages = [instant for instant in self.sent(wait) if isinstance(instant, InstantActions)]
         return [action for message in messages for action in message.actions]
 
     def events(self):
@@ -206,7 +206,7 @@ def test_a_vehicle_that_refuses_is_asked_less_and_less_often(bench):
     times = []
     for _ in range(1200):
         bench.vehicle.command(Follow(9, 0, (), 4))  # as the coordinator does
-        for order in [one for one in bench.sent(0.1) if isinstance(one, VehicleOrder)]:
+        for order in [message for message in bench.sent(0.1) if isinstance(message, VehicleOrder)]:
             times.append(bench.now)
             refer = (("orderId", order.id), ("orderUpdateId", str(order.update)))
             bench.tell(errors=(Error("orderUpdateError", description="no", references=refer),))
@@ -395,10 +395,10 @@ def test_a_state_from_before_ends_no_cancelled_path(bench):
 
 def test_stop_and_go_on(bench):
     bench.vehicle.command(Stop(True))
-    assert [one.type for one in bench.instants()] == ["startPause"]
+    assert [a.type for a in bench.instants()] == ["startPause"]
     bench.vehicle.command(Stop(False))
-    assert [one.type for one in bench.instants()] == ["stopPause"]
-    assert [one.type for one in bench.instants(2.5)] == ["stopPause"]  # the stop is not sent again
+    assert [a.type for a in bench.instants()] == ["stopPause"]
+    assert [a.type for a in bench.instants(2.5)] == ["stopPause"]  # the stop is not sent again
 
 
 def test_an_order_of_an_earlier_run_is_cancelled(bench):
@@ -471,7 +471,7 @@ def test_a_vehicle_that_begins_again_unseen_is_heard(bench):
 def test_a_vehicle_that_comes_back_is_asked_for_its_state(bench):
     bench.vehicle.take_connection(ConnectionState.CONNECTIONBROKEN, 0)
     bench.vehicle.take_connection(ConnectionState.ONLINE, 0)
-    assert [action.type for action in bench.instants()] == ["stateRequest"]
+    assert [a.type for a in bench.instants()] == ["stateRequest"]
 
 
 def test_a_load_that_it_tells_is_believed(bench):

@@ -52,7 +52,7 @@ class Site:
         self.robots, self.vehicles = [], []
         for k in range(count):
             self.add(k)
-        self.told, self.faults = [], []
+        self.received, self.faults = [], []
         self.listens, self.coordinate = True, lambda: None
         filters = [(TOPICS.everyone(kind), 1) for kind in (*FROM_VEHICLE, Kind.ORDER)]
         self.master = self.loop.add(Link("master", self.settings, filters, self._on_message))
@@ -69,14 +69,14 @@ class Site:
         if not self.listens:
             return
         who, kind = TOPICS.parse(topic)
-        told = None if kind is Kind.ORDER else CODEC.decode(kind, payload).message
-        self.told.append((who.serial, kind, told, retained))
-        self.faults += faults(kind, payload) if told else []
+        decoded = None if kind is Kind.ORDER else CODEC.decode(kind, payload).message
+        self.received.append((who.serial, kind, decoded, retained))
+        self.faults += faults(kind, payload) if decoded else []
 
     def until(self, condition, steps=True, seconds=10):
         end = time.monotonic() + seconds
         while not condition():
-            assert time.monotonic() < end, (self.told[-3:], self.link_faults())
+            assert time.monotonic() < end, (self.received[-3:], self.link_faults())
             self.loop.poll(0.01)
             self.coordinate()
             for robot, vehicle in zip(self.robots, self.vehicles):
@@ -92,7 +92,7 @@ class Site:
         self.until(self.connected)
         self.until(
             lambda: (
-                len({s for s, kind, *_ in self.told if kind is Kind.FACTSHEET}) >= len(self.robots)
+                len({s for s, k, *_ in self.received if k is Kind.FACTSHEET}) >= len(self.robots)
             )
         )
         for vehicle in self.vehicles:
@@ -102,7 +102,7 @@ class Site:
         return self.master.connected and all(v.link.connected for v in self.vehicles)
 
     def last(self, kind, serial="1"):
-        return next((m for s, k, m, _ in reversed(self.told) if (s, k) == (serial, kind)), None)
+        return next((m for s, k, m, _ in reversed(self.received) if (s, k) == (serial, kind)), None)
 
     def send(self, kind, message, serial="1", retain=False):
         payload = message if isinstance(message, bytes) else CODEC.encode(message)
@@ -128,14 +128,14 @@ def site():
 
 
 def connection_is(site, state):
-    return lambda: (told := site.last(Kind.CONNECTION)) and told.state is state
+    return lambda: (latest := site.last(Kind.CONNECTION)) and latest.state is state
 
 
 def test_order_over_the_wire(site):
     site.until(lambda: site.last(Kind.STATE) and site.last(Kind.FACTSHEET))
     site.send(Kind.ORDER, order("o", row(0, 3)))
     site.until(lambda: site.last(Kind.STATE).last_node == "c3_0" and is_over(site.last(Kind.STATE)))
-    ids = [m.header.header_id for _, kind, m, _ in site.told if kind is Kind.STATE]
+    ids = [m.header.header_id for _, kind, m, _ in site.received if kind is Kind.STATE]
     assert ids == list(range(ids[0], ids[0] + len(ids)))
 
 
@@ -179,7 +179,7 @@ def test_what_is_removed_from_the_broker_is_no_message(site):
         site.send(kind, b"", retain=True)
     site.send(Kind.ORDER, order("o", row(0, 1)), retain=False)
     site.until(lambda: (s := site.last(Kind.STATE)) and s.order_id == "o")
-    assert not any(s.errors for _, kind, s, _ in site.told if kind is Kind.STATE)
+    assert not any(s.errors for _, kind, s, _ in site.received if kind is Kind.STATE)
 
 
 def test_broker_killed_in_mid_order(site):
@@ -188,7 +188,7 @@ def test_broker_killed_in_mid_order(site):
     site.broker.stop(kill=True)
     site.until(lambda: site.robots[0].cell == (5, 0))  # to the end of its base
     site.broker.start()
-    site.told.clear()
+    site.received.clear()
     site.begin()
     site.until(lambda: site.last(Kind.STATE))
     assert site.last(Kind.STATE).last_node == "c5_0"
@@ -258,12 +258,12 @@ def test_leftovers_are_not_acted_upon(site):
     site.send(Kind.ORDER, order("left", row(0, 3)), serial="2", retain=True)
     pause = InstantActions((Action("startPause", "left", BlockingType.NONE),))
     site.send(Kind.INSTANT_ACTIONS, pause, serial="2", retain=True)
-    site.until(lambda: any(kind is Kind.ORDER for _, kind, *_ in site.told))
+    site.until(lambda: any(kind is Kind.ORDER for _, kind, *_ in site.received))
     site.add(1)
     site.until(lambda: (s := site.last(Kind.STATE, "2")) and len(s.errors) == 2)
-    told = site.last(Kind.STATE, "2")
-    assert all("retained" in error.description for error in told.errors)
-    assert not told.order_id and not told.paused and not told.actions
+    latest = site.last(Kind.STATE, "2")
+    assert all("retained" in error.description for error in latest.errors)
+    assert not latest.order_id and not latest.paused and not latest.actions
 
 
 def test_a_state_of_an_earlier_run_does_not_tell_our_master_where_a_vehicle_is(site):
@@ -271,9 +271,9 @@ def test_a_state_of_an_earlier_run_does_not_tell_our_master_where_a_vehicle_is(s
     state = site.last(Kind.STATE)
     site.vehicles[0].close()
     site.until(connection_is(site, ConnectionState.OFFLINE))
-    site.told.clear()
+    site.received.clear()
     site.send(Kind.STATE, state, retain=True)
-    site.until(lambda: site.told)  # the broker keeps it now
+    site.until(lambda: site.received)  # the broker keeps it now
     fleet = RemoteFleet([RemoteRobot(1, Identity("kiva", "1"))], GRID, "run")
     view, heard = fleet.vehicles[0].view, []
     take = lambda who, message: fleet.take(who, message, 0.0) or heard.append(message)  # noqa: E731

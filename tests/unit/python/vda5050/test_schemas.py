@@ -71,8 +71,8 @@ def test_instant_actions_under_both_names_where_peers_differ():
     message = replace(
         InstantActions((Action("stateRequest", "a"),)), header=HEADERS.next(Kind.ORDER)
     )
-    told = json.loads(codec_for("2.0.0").encode(message))
-    assert told["instantActions"] == told["actions"] != []
+    text = json.loads(codec_for("2.0.0").encode(message))
+    assert text["instantActions"] == text["actions"] != []
     assert "instantActions" not in json.loads(codec_for("2.1.0").encode(message))
 
 

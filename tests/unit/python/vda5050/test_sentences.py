@@ -72,9 +72,9 @@ def test_the_state_is_published_at_receiving_an_order(cells):
     """6.10.1. Each time: also a copy, and also the same order refused again."""
     bench = Bench(moving=30.0)
     for _ in range(3):
-        told = len(bench.states)
+        count = len(bench.states)
         bench.vehicle.on_order(order("o", cells), bench.now)
-        assert bench.vehicle.take_state(bench.now) and len(bench.states) == told
+        assert bench.vehicle.take_state(bench.now) and len(bench.states) == count
 
 
 def test_the_state_is_published_at_receiving_an_instant_action():

@@ -39,8 +39,8 @@ def test_fetches_carries_and_drops_in_one_order():
     state = bench.until(is_over)
     assert statuses(state) == {"p1": "FINISHED", "d1": "FINISHED"}
     assert bench.robot.units == {"7": (4, 2)}
-    told = [e for e in bench.robot.events if e[0] != "at"]
-    assert told == [("pick", "7", (2, 0)), ("drop", "7", (4, 2))]
+    acts = [e for e in bench.robot.events if e[0] != "at"]
+    assert acts == [("pick", "7", (2, 0)), ("drop", "7", (4, 2))]
 
 
 def test_stops_at_the_end_of_the_base_and_goes_on_with_an_update():
@@ -297,20 +297,20 @@ def test_unknown_instant_action_fails():
 def test_requests(type, tmp_path):
     bench = Bench(logs=tmp_path)
     bench.vehicle.take_factsheet()
-    told = len(bench.states)
+    count = len(bench.states)
     state = bench.instant(type, reason="why")
-    assert statuses(state) == {"i1": "FINISHED"} and len(bench.states) == told + 1
+    assert statuses(state) == {"i1": "FINISHED"} and len(bench.states) == count + 1
     assert bool(bench.vehicle.take_factsheet()) == (type == "factsheetRequest")
     assert len([*tmp_path.iterdir()]) == (type == "logReport")
 
 
 def test_state_at_the_latest_after_the_interval():
     bench = Bench(interval=30.0)
-    told = len(bench.states)
+    count = len(bench.states)
     bench.tick(59)
-    assert len(bench.states) == told + 1
+    assert len(bench.states) == count + 1
     bench.tick(3)
-    assert len(bench.states) == told + 2
+    assert len(bench.states) == count + 2
 
 
 def test_what_is_not_heard_is_sent_again():
@@ -375,12 +375,12 @@ def test_positions_are_told_while_it_moves():
     bench.tick(5)
     assert bench.vehicle.take_visualization(bench.now) is None  # it stands where it stood
     bench.order("o", row(0, 9))
-    told = []
+    positions = []
     for _ in range(12):
         bench.tick()
-        told.append(bench.vehicle.take_visualization(bench.now))
-    seen = [one.position.x for one in told if one]
-    assert len(seen) == 5 and seen == sorted(set(seen))
+        positions.append(bench.vehicle.take_visualization(bench.now))
+    xs = [entry.position.x for entry in positions if entry]
+    assert len(xs) == 5 and xs == sorted(set(xs))
 
 
 def test_without_an_interval_no_positions_are_told():

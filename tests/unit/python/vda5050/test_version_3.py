@@ -18,8 +18,8 @@ CODEC = codec_for("3.0.0")
 
 def errors(bench):
     """Returns (type, level) of each error as 3.0.0 tells it."""
-    told = CODEC.to_json(bench.tick())["errors"]
-    return [(one["errorType"], one["errorLevel"]) for one in told]
+    entries = CODEC.to_json(bench.tick())["errors"]
+    return [(error["errorType"], error["errorLevel"]) for error in entries]
 
 
 def malformed(bench):
@@ -185,7 +185,9 @@ def test_fleet_control_can_pass_an_order_id_to_reference_which_order_shall_be_ca
 def test_the_factsheet_names_blocking_types_and_what_can_be_paused():
     """7.9: pauseAllowed and cancelAllowed are booleans."""
     sheet = CODEC.to_json(Bench().vehicle.take_factsheet())
-    actions = {one["actionType"]: one for one in sheet["protocolFeatures"]["mobileRobotActions"]}
+    actions = {
+        entry["actionType"]: entry for entry in sheet["protocolFeatures"]["mobileRobotActions"]
+    }
     pick_up = actions["pick"]
     assert pick_up["blockingTypes"] == ["NONE", "SINGLE", "SOFT", "HARD"]
     assert (pick_up["pauseAllowed"], pick_up["cancelAllowed"]) == (True, False)

@@ -65,7 +65,9 @@ class WarehouseWatch:
             self.scenery = message
 
     def _on_stations(self, message: StationStates) -> None:
-        manual = [one.name for one in message.stations if one.mode == StationState.MANUAL]
+        manual = [
+            station.name for station in message.stations if station.mode == StationState.MANUAL
+        ]
         self.by_hand = frozenset(manual)
 
     def _on_fleet(self, message: FleetState) -> None:

@@ -79,4 +79,4 @@ def best_known(path: str | PathLike[str], robots: int) -> BestKnown | None:
     stem = Path(path).stem
     names = (stem, *(prefix + stem for prefix in ("MR23-", "MR24-", "TR23-")))
     known = [BEST_KNOWN[name] for name in names if name in BEST_KNOWN]
-    return next((one for one in known if one.robots == robots), None)
+    return next((entry for entry in known if entry.robots == robots), None)

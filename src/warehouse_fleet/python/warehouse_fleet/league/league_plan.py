@@ -123,7 +123,7 @@ class _Result:
         entries = self._list("start")
         if len(entries) != robots:
             self._fail(f"start has {len(entries)} robots; actualPaths has {robots}")
-        start, heading = zip(*(self._start(i, one, passable) for i, one in enumerate(entries)))
+        start, heading = zip(*(self._start(i, row, passable) for i, row in enumerate(entries)))
         first: dict[int, int] = {}
         for robot, location in enumerate(start):
             if first.setdefault(location, robot) != robot:

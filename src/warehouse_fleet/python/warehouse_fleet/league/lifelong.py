@@ -141,7 +141,7 @@ class Lifelong:
         place = [divmod(int(cell), width) for cell in self.problem.agents]
         letters = LETTERS[np.array(self.actions, int).reshape(self.tick, len(place))]
         paths = [",".join(row) for row in letters.T]
-        given = sorted(int(one.split(":")[1]) for row in self.schedule for one in row)
+        errand = sorted(int(errand.split(":")[1]) for row in self.schedule for errand in row)
         return {
             "actionModel": "MAPF_T",
             "version": "2024 LoRR",
@@ -159,7 +159,7 @@ class Lifelong:
             "actualSchedule": [",".join(row) for row in self.schedule],
             "plannerSchedule": [",".join(row) for row in self.schedule],
             "events": self.events,
-            "tasks": [[task, 0, self._errands(task, width)] for task in given],
+            "tasks": [[task, 0, self._errands(task, width)] for task in errand],
         }
 
     def _errands(self, task: int, width: int) -> list[int]:

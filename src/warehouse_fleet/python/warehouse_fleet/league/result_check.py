@@ -45,7 +45,7 @@ def check(problem: Problem, path: str | PathLike[str], rules: Rules, threads: in
     def faults_at(tick: int) -> list[str]:
         fleet = Fleet(cell[tick], heading[tick], np.full(checked.robots, -1, np.int32))
         violations = validate(floor, fleet, actions[:, tick : tick + 1], rules)
-        return [f"tick {tick}: {one.describe(floor)}" for one in violations[:MOST_FAULTS]]
+        return [f"tick {tick}: {v.describe(floor)}" for v in violations[:MOST_FAULTS]]
 
     with concurrent.futures.ThreadPoolExecutor(threads or os.cpu_count()) as pool:
         for faults in pool.map(faults_at, range(checked.ticks)):

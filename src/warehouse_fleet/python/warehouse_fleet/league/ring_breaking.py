@@ -40,9 +40,9 @@ def rings_of(before: Cells, after: Cells, at: Cells) -> list[list[int]]:
     NO_ROBOT.
     """
     count = len(before)
-    moves, found = before != after, at[after]
+    moves, followers = before != after, at[after]
     leader = np.full(count + 1, count)  # whose cell it enters; `count`: no robot's
-    leader[:count] = np.where(moves & (found != NO_ROBOT) & moves[found], found, count)
+    leader[:count] = np.where(moves & (followers != NO_ROBOT) & moves[followers], followers, count)
     jump = leader
     for _ in range(count.bit_length()):  # a robot in no ring comes to the end of its queue
         jump = jump[jump]
@@ -96,7 +96,7 @@ class RingBreaker:
         for cell in detour:
             if now[cell] == NO_ROBOT:
                 continue
-            _, way = self._way(cell, lambda one: now[one] == NO_ROBOT, kept, now)
+            _, way = self._way(cell, lambda next_cell: now[next_cell] == NO_ROBOT, kept, now)
             if not way:
                 return None
             for start, end in reversed(list(zip([cell, *way], way))):
@@ -125,9 +125,9 @@ class RingBreaker:
         column = cell % self._columns
         near = (cell + 1, cell - 1, cell + self._columns, cell - self._columns)
         is_inside = (column + 1 < self._columns, column > 0, True, True)
-        for one, inside in zip(near, is_inside):
-            if inside and 0 <= one < len(self._passable) and self._passable[one]:
-                yield one
+        for neighbour, inside in zip(near, is_inside):
+            if inside and 0 <= neighbour < len(self._passable) and self._passable[neighbour]:
+                yield neighbour
 
 
 def _way_back(end: int, before: dict[int, int]) -> list[int]:

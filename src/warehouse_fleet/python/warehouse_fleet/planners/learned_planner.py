@@ -96,15 +96,15 @@ class Rollout:
         scores = score(scene)
         targets = self.view.targets(scene)
         pibt = Pibt(scene.cell, targets, free, self._closed, scene.goal)
-        wanted = pibt.assign(scores, self.view.ranks(scene))
-        actions = self._towards(wanted, free)
+        wishes = pibt.assign(scores, self.view.ranks(scene))
+        actions = self._towards(wishes, free)
         if self.at < self._committed.shape[1]:
             kept = self._committed[:, self.at]
             actions = np.where(kept != FREE, kept, actions)
         if self.fleet.stopped.size:
             actions = np.where(self.fleet.stopped, WAIT, actions).astype(np.uint8)
         self.perform(actions)
-        scene.intent = wanted
+        scene.intent = wishes
         return actions
 
     def perform(self, actions: np.ndarray) -> None:

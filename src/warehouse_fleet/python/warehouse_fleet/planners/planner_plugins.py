@@ -107,9 +107,9 @@ class ValidatedPlanner:
         violations = validate(self.floor, fleet, actions, self.rules, self.ticks)
         if violations:
             first = {
-                tuple(one.robots): one for one in reversed(violations)
+                tuple(violation.robots): violation for violation in reversed(violations)
             }  # one for the same robots
-            texts = [one.describe(self.floor, self.names) for one in reversed(first.values())]
+            texts = [v.describe(self.floor, self.names) for v in reversed(first.values())]
             raise PlanRefusedError("; ".join(texts[:5]))
         return actions
 
@@ -131,12 +131,12 @@ class PythonPlanner:
         of those actions are closed to all others. `seconds` and `attempts` have no effect."""
         committed = fleet.committed  # (robots, ticks); no ticks if no robot is committed
         kept = committed != FREE
-        seen: Any = _Narrowed(fleet, _ahead(self.floor, fleet)) if kept.any() else fleet
-        answer = np.asarray(self.planner.plan(seen))
+        narrowed: Any = _Narrowed(fleet, _ahead(self.floor, fleet)) if kept.any() else fleet
+        answer = np.asarray(self.planner.plan(narrowed))
         if answer.ndim == 2:
             actions = self._checked(answer, len(fleet))
         else:
-            actions = np.where(kept.any(axis=1)[:, None], 0, self._towards(seen, answer))
+            actions = np.where(kept.any(axis=1)[:, None], 0, self._towards(narrowed, answer))
         ticks = max(actions.shape[1], committed.shape[1])
         plan = np.zeros((len(fleet), ticks), np.uint8)
         plan[:, : actions.shape[1]] = actions

@@ -71,7 +71,7 @@ class UnitMap:
             covers = frozenset(int(plan.cell_of(x + dx, y + dy)) for dx, dy in around)
             self.crooked[int(poses.shelf_id[unit])] = Crooked(float(x), float(y), covers)
         cells = np.where(poses.carried | crooked, NOWHERE, cells)
-        obstructed = set().union(*(one.cells for one in self.crooked.values()))
+        obstructed = set().union(*(heap.cells for heap in self.crooked.values()))
         return dict(zip(poses.shelf_id.tolist(), cells.tolist())), obstructed
 
     def update(self, cells: dict[int, int], stamp: float, lifted: Iterable[int]) -> None:

@@ -28,7 +28,7 @@ def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> N
 
     random = np.random.default_rng(seed)
     envs = RwareVectorEnv.of_task(ENVIRONMENTS, task)
-    seen, told = [], []
+    inputs, targets = [], []
     observations, _ = envs.reset(seed=seed)
     planned = [Planned(task, envs.warehouses, i) for i in range(ENVIRONMENTS)]
     adam = Adam(actor.parameters)
@@ -36,22 +36,22 @@ def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> N
     for number in range(rounds):
         for _ in range(ROUND):
             rows = encoder.encode(observations)
-            chosen = np.stack([one.act() for one in planned])
-            seen.append(rows.reshape(-1, encoder.size))
-            told.append(chosen.ravel())
-            own = drawn(actor.forward(seen[-1])[0], random).reshape(chosen.shape)
+            chosen = np.stack([planner.act() for planner in planned])
+            inputs.append(rows.reshape(-1, encoder.size))
+            targets.append(chosen.ravel())
+            own = drawn(actor.forward(inputs[-1])[0], random).reshape(chosen.shape)
             leads = random.random(ENVIRONMENTS) < number / rounds
             actions = np.where(leads[:, None], own, chosen).astype(np.int8)
             observations = envs.step(actions)[0]
         passes = LATE_PASSES if number == rounds - 1 else PASSES
-        _learn(actor, adam, np.concatenate(seen), np.concatenate(told), passes, random)
+        _learn(actor, adam, np.concatenate(inputs), np.concatenate(targets), passes, random)
 
 
-def _learn(actor, adam, seen, told, passes, random):
+def _learn(actor, adam, inputs, targets, passes, random):
     """Makes what was told more likely, by cross entropy."""
-    for _ in range(passes * min(len(told), 20 * BATCH) // BATCH):
-        rows = random.integers(len(told), size=BATCH)
-        logits, kept = actor.forward(seen[rows])
+    for _ in range(passes * min(len(targets), 20 * BATCH) // BATCH):
+        rows = random.integers(len(targets), size=BATCH)
+        logits, kept = actor.forward(inputs[rows])
         slopes = np.exp(log_softmax(logits))
-        slopes[np.arange(BATCH), told[rows]] -= 1
+        slopes[np.arange(BATCH), targets[rows]] -= 1
         adam.step(actor.backward(kept, slopes / np.float32(BATCH)), RATE)

@@ -37,7 +37,7 @@ class Rollouts:
     def begin(self) -> None:
         """Begins episodes, of different lengths: a rollout has all parts of an episode in it."""
         observations, _ = self._envs.reset(seed=int(self._random.integers(2**31)))
-        self._seen = self._encoder.encode(observations)
+        self._observations = self._encoder.encode(observations)
         n = self._envs.num_envs
         self._returns = np.zeros(n)
         self._starts = self._random.integers(0, self._envs.task.max_steps, n)
@@ -56,14 +56,14 @@ class Rollouts:
             end=np.empty(lead[:2], bool),
         )
         for t in range(steps):
-            out.seen[t] = self._seen
-            logits, _ = actor.forward(self._seen.reshape(-1, size))
+            out.seen[t] = self._observations
+            logits, _ = actor.forward(self._observations.reshape(-1, size))
             action = drawn(logits, self._random)
             out.action[t] = action.reshape(lead[1:])
             logs = log_softmax(logits)
             out.log[t] = logs[np.arange(len(action)), action].reshape(lead[1:])
             self._step(out, t)
-        out.seen[steps] = self._seen
+        out.seen[steps] = self._observations
         return out
 
     def _step(self, out, t):
@@ -83,4 +83,4 @@ class Rollouts:
             self._returns[late] = 0
             self._is_whole |= late
         out.end[t] = ends | late
-        self._seen = self._encoder.encode(observations)
+        self._observations = self._encoder.encode(observations)

@@ -71,10 +71,10 @@ class Training:
         self.encoder = encoder = Encoder(width, height, agents, envs.task.vector_size)
         hidden = settings.hidden
         self.actor = Mlp([encoder.size, hidden, hidden, ACTIONS], 0.01, self.random)
-        seen, values = encoder.size, 1
+        inputs, values = encoder.size, 1
         if settings.algorithm == "mappo":
-            seen, values = agents * encoder.size, agents
-        self.critic = Mlp([seen, hidden, hidden, values], 0.01, self.random)
+            inputs, values = agents * encoder.size, agents
+        self.critic = Mlp([inputs, hidden, hidden, values], 0.01, self.random)
         self._optimisers = Adam(self.actor.parameters), Adam(self.critic.parameters)
         self.done, self.seconds = 0, 0.0
         self.curve: list[tuple[int, float]] = []
@@ -128,14 +128,16 @@ class Training:
         if rollout.finished:
             self.curve.append((self.done, float(np.mean(rollout.finished))))
 
-    def _values(self, seen):
+    def _values(self, observations):
         """(…, agents) of (…, agents, size)."""
-        return self.critic.forward(self._critic_rows(seen))[0].reshape(seen.shape[:-1])
+        return self.critic.forward(self._critic_rows(observations))[0].reshape(
+            observations.shape[:-1]
+        )
 
-    def _critic_rows(self, seen):
-        width = seen.shape[-1]
+    def _critic_rows(self, observations):
+        width = observations.shape[-1]
         is_joint = self.settings.algorithm == "mappo"
-        return seen.reshape(-1, seen.shape[-2] * width if is_joint else width)
+        return observations.reshape(-1, observations.shape[-2] * width if is_joint else width)
 
     def _advantages(self, rollout):
         """Generalised advantage estimation (Schulman et al., 2016), and the values that it begins
@@ -143,8 +145,8 @@ class Training:
         settings, value = self.settings, self._values(rollout.seen)
         reward = rollout.reward
         # Time cuts episodes off: what would have come after counts.
-        for t, which, seen in rollout.cut:
-            reward[t, which] += settings.discount * self._values(seen)
+        for t, which, observations in rollout.cut:
+            reward[t, which] += settings.discount * self._values(observations)
         out = np.empty_like(reward)
         trace = np.zeros(out.shape[1:], np.float32)
         for t in reversed(range(len(out))):

@@ -43,13 +43,13 @@ def _sizes(rows, columns, height, agents, requests, cells):
 
 def _sized(views, ranges, heights):
     agents = range(1, MOST_AGENTS + 1)
-    for size, diff, (view, seen), (sight, cells), (tall, height), n in product(
+    for size, diff, (view, observes), (sight, cells), (tall, height), n in product(
         SIZES, REQUESTS_PER_AGENT, views, ranges.items(), heights.items(), agents
     ):
         rows, columns = SIZES[size]
         name = f"rware{view}{sight}-{size}{tall}-{n}ag{diff}-v2"
         requests = int(n * REQUESTS_PER_AGENT[diff])
-        yield name, seen | _sizes(rows, columns, height, n, requests, cells)
+        yield name, observes | _sizes(rows, columns, height, n, requests, cells)
 
 
 def plain() -> Iterator[tuple[str, dict[str, Any]]]:
@@ -67,12 +67,12 @@ def full() -> Iterator[tuple[str, dict[str, Any]]]:
     views = list(_views(VECTORS | {"-img": ObservationType.IMAGE}))
     yield from _sized(views, RANGES, {f"-{height}h": height for height in range(1, 16)})
     agents = range(1, MOST_AGENTS + 1)
-    for rows, columns, height, n, requests, reward, (view, seen), sight in product(
+    for rows, columns, height, n, requests, reward, (view, observes), sight in product(
         range(1, 5), range(3, 10, 2), range(1, 16), agents, agents, REWARDS, views, RANGES
     ):
         name = f"rware{view}{sight}-{rows}x{columns}-{height}h-{n}ag-{requests}req-{reward}-v2"
         sizes = _sizes(rows, columns, height, n, requests, RANGES[sight])
-        yield name, seen | sizes | {"reward_type": REWARDS[reward]}
+        yield name, observes | sizes | {"reward_type": REWARDS[reward]}
 
 
 def register_all(tasks: Iterable[tuple[str, dict[str, Any]]]) -> None:

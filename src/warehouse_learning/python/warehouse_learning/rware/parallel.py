@@ -35,14 +35,14 @@ class RwareParallelEnv(ParallelEnv):
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode; see Warehouse.reset."""
-        observations, told = self._env.reset(seed=seed, options=options)
+        observations, infos = self._env.reset(seed=seed, options=options)
         self.agents = list(self.possible_agents)
-        return self._each(observations), self._by_agent(told)
+        return self._each(observations), self._by_agent(infos)
 
     def step(self, actions: Mapping[str, Any]) -> tuple[dict[str, Any], ...]:
         """Takes {agent: action}; returns observations, rewards, ends, truncations and infos."""
         chosen = [actions[agent] for agent in self.possible_agents]
-        observations, rewards, ends, _, told = self._env.step(chosen)
+        observations, rewards, ends, _, infos = self._env.step(chosen)
         agents = self.agents
         if ends:
             self.agents = []
@@ -51,7 +51,7 @@ class RwareParallelEnv(ParallelEnv):
             self._each(map(float, rewards)),
             dict.fromkeys(agents, ends),
             dict.fromkeys(agents, False),
-            self._by_agent(told),
+            self._by_agent(infos),
         )
 
     def render(self) -> np.ndarray | None:

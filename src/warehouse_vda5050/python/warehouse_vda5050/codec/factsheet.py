@@ -85,7 +85,7 @@ def _action_json(action: SupportedAction) -> dict[str, Any]:
 
 
 def _described(action: SupportedAction) -> str:
-    types = ", ".join(one.value for one in action.blocking if one is not BlockingType.SINGLE)
+    types = ", ".join(kind.value for kind in action.blocking if kind is not BlockingType.SINGLE)
     return f"{action.description}; blocking types: {types}"
 
 

@@ -101,17 +101,17 @@ class CodecV3(CodecV2):
         value = _renamed(super().to_json(message), NAMES[kind], VALUES)
         if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
-            for told, error in zip(value["errors"], message.errors):
-                _tell_error(told, error)
+            for row, error in zip(value["errors"], message.errors):
+                _tell_error(row, error)
         for node in value.get("nodes", ()):
             _give_axes(node.get("nodePosition", {}))
         for edge in value.get("edges", ()):
             edge.pop("startNodeId", None), edge.pop("endNodeId", None)
         if isinstance(message, Factsheet):
             told_actions = value["protocolFeatures"]["mobileRobotActions"]
-            for told, action in zip(told_actions, message.actions):
-                told["blockingTypes"] = [blocking.value for blocking in action.blocking]
-                told["pauseAllowed"], told["cancelAllowed"] = action.can_pause, action.can_cancel
+            for row, action in zip(told_actions, message.actions):
+                row["blockingTypes"] = [blocking.value for blocking in action.blocking]
+                row["pauseAllowed"], row["cancelAllowed"] = action.can_pause, action.can_cancel
         return value
 
     def of_json(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
@@ -124,8 +124,8 @@ class CodecV3(CodecV2):
         instant = value.pop("instantActionStates", None)
         if kind is Kind.STATE and isinstance(instant, list):
             marked = [{**item, "instant": True} for item in instant if isinstance(item, dict)]
-            told = value.get("actionStates")
-            value["actionStates"] = [*(told if isinstance(told, list) else ()), *marked]
+            reported = value.get("actionStates")
+            value["actionStates"] = [*(reported if isinstance(reported, list) else ()), *marked]
         return value
 
     def read(self, kind: Kind, fields: Fields) -> Any:
@@ -179,8 +179,8 @@ def _former(error: Error) -> Error:
 
 def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:
     """Parts the states of instant actions from those of the order, and tells what is paused."""
-    told = value.pop("actionStates")
-    for item, action in zip(told, actions):
+    reported = value.pop("actionStates")
+    for item, action in zip(reported, actions):
         item["actionStatus"] = action.status.value
-    value["actionStates"] = [a for a, b in zip(told, actions) if not b.instant]
-    value["instantActionStates"] = [a for a, b in zip(told, actions) if b.instant]
+    value["actionStates"] = [a for a, b in zip(reported, actions) if not b.instant]
+    value["instantActionStates"] = [a for a, b in zip(reported, actions) if b.instant]

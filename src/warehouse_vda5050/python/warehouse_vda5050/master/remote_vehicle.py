@@ -364,13 +364,13 @@ class RemoteVehicle:
             self._end(EventKind.BLOCKED, f"others ended its order at {state.last_node}")
             return
         mine = {action.id for action in way.actions}
-        states = {one.id: one for one in state.actions if one.id in mine}
-        failed = [one for one in states.values() if one.status == ActionStatus.FAILED]
+        states = {act.id: act for act in state.actions if act.id in mine}
+        failed = [act for act in states.values() if act.status == ActionStatus.FAILED]
         if failed:
             self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
             return
         is_told = way.is_whole and all(name in states for name in mine)
-        if is_told and all(one.status.is_over for one in states.values()):
+        if is_told and all(act.status.is_over for act in states.values()):
             self._finish(way)
 
     def _finish(self, way: Journey) -> None:

@@ -48,7 +48,7 @@ def read(path: Path) -> list[RemoteRobot]:
         raise RobotsFileError(
             f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}"
         )
-    robots = [_robot(f"{path}: robot {number}", number, one) for number, one in entries.items()]
+    robots = [_robot(f"{path}: robot {number}", number, entry) for number, entry in entries.items()]
     _check_distinct(path, robots)
     return sorted(robots, key=lambda robot: robot.number)
 
@@ -88,9 +88,9 @@ def _frame(where: str, origin: Any) -> Frame:
 
 
 def _check_distinct(path: Path, robots: list[RemoteRobot]) -> None:
-    seen: dict[Identity, int] = {}
+    numbers: dict[Identity, int] = {}
     for robot in robots:
-        other = seen.setdefault(robot.identity, robot.number)
+        other = numbers.setdefault(robot.identity, robot.number)
         if other != robot.number:
             name = f"{robot.identity.manufacturer}/{robot.identity.serial}"
             raise RobotsFileError(f"{path}: robots {other} and {robot.number} are both {name}")

@@ -48,7 +48,7 @@ class Link:
         self.name, self.broker = name, broker
         self.connected = False
         self.fault = "not connected yet"  # why it is not connected, '' if it is
-        self.wanted = True  # whether to connect
+        self.is_wanted = True  # whether to connect
         self.closed = False
         self._subscriptions = list(subscriptions)
         self._on_message, self._on_connect, self._make_will = on_message, on_connect, make_will
@@ -67,18 +67,18 @@ class Link:
 
     def cut(self) -> None:
         """Ends the connection as a lost radio does, until restore()."""
-        self.wanted = False
+        self.is_wanted = False
         if self._client is not None and self._attempt is None:
             cut(self._client)
             self._lose("cut")
 
     def restore(self) -> None:
         """Lets the link connect after cut()."""
-        self.wanted = True
+        self.is_wanted = True
 
     def close(self, farewell: Outgoing | None = None) -> None:
         """Sends a last message and disconnects in good order; MqttLoop.close() waits for it."""
-        self.wanted, self.closed = False, True
+        self.is_wanted, self.closed = False, True
         if not self.connected:
             return
         if farewell:
@@ -116,7 +116,7 @@ class Link:
             if not self.connected and self._client and now - self._asked_at > PATIENCE:
                 cut(self._client)
                 self._lose("the broker does not answer")
-        elif self.wanted and now >= self._next_attempt:
+        elif self.is_wanted and now >= self._next_attempt:
             self._attempt = pool.submit(self._connect)
 
     def _connect(self) -> Any:
@@ -139,7 +139,7 @@ class Link:
             self._client = attempt.result()
         except OSError as error:
             self._lose(str(error))
-        if not self.wanted and self._client is not None:
+        if not self.is_wanted and self._client is not None:
             cut(self._client)
             self._lose("cut")
 
@@ -205,18 +205,18 @@ class MqttLoop:
 
     def _watch(self) -> None:
         """Brings the selector up to date; of a thousand links few change from time to time."""
-        wanted = {}
+        waiting = {}
         for link in self.links:
             socket = link.socket
             if socket is not None and socket.fileno() >= 0:
                 writes = selectors.EVENT_WRITE if link.wants_to_write else 0
-                wanted[link] = socket, selectors.EVENT_READ | writes
+                waiting[link] = socket, selectors.EVENT_READ | writes
         # First those that go: a new socket may have the number of a closed one.
-        for link in [link for link in self._watched if self._watched[link] != wanted.get(link)]:
+        for link in [link for link in self._watched if self._watched[link] != waiting.get(link)]:
             self._selector.unregister(self._watched.pop(link)[0])
-        for link in wanted.keys() - self._watched.keys():
-            self._watched[link] = wanted[link]
-            self._selector.register(*wanted[link], link)
+        for link in waiting.keys() - self._watched.keys():
+            self._watched[link] = waiting[link]
+            self._selector.register(*waiting[link], link)
 
     def close(self, timeout: float = 2.0) -> None:
         """Waits until links that were closed have said goodbye; ends the others."""

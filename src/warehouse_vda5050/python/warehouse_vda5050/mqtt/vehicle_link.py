@@ -55,7 +55,7 @@ class VehicleLink:
         self.vehicle.update(now)
         report = self.vehicle.report
         if report is not None and not report.answers:
-            if self.link.wanted:
+            if self.link.is_wanted:
                 self._cut(report.silent)
         elif not self.link.closed:
             self.link.restore()
@@ -72,9 +72,9 @@ class VehicleLink:
         state = self.vehicle.take_state(now)
         if state:
             self._send(Kind.STATE, state)
-        seen = self.vehicle.take_visualization(now)
-        if seen:
-            self._send(Kind.VISUALIZATION, seen)
+        visualization = self.vehicle.take_visualization(now)
+        if visualization:
+            self._send(Kind.VISUALIZATION, visualization)
         factsheet = self.vehicle.take_factsheet()
         if factsheet:
             self._send(Kind.FACTSHEET, factsheet)

@@ -190,9 +190,9 @@ def _apart(a: float, b: float) -> float:
 def check_maps(order: VehicleOrder, map_id: str) -> None:
     """Raises MessageError, of type orderError, for nodes of another map than `map_id`."""
     for node in order.nodes:
-        told = node.position.map_id if node.position else ""
-        if told not in ("", map_id):
-            text = f"{told[:60]!r}; {map_id!r} was expected"
+        node_map = node.position.map_id if node.position else ""
+        if node_map not in ("", map_id):
+            text = f"{node_map[:60]!r}; {map_id!r} was expected"
             _refuse(order, "mapId", text, node, Predefined.UNKNOWN_MAP_ID)
 
 

@@ -68,7 +68,7 @@ class ActionQueue:
             return None
         if holds(action) and not standing:
             return None
-        if action.type in STANDING and any(one.type in STANDING for one in self.running):
+        if action.type in STANDING and any(other.type in STANDING for other in self.running):
             return None  # the robot has one lift
         self.running.append(self._due.pop(0))
         self._set(action.id, ActionStatus.RUNNING)

@@ -30,7 +30,7 @@ class Teller:
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
-        self._told: VehicleState | None = None  # without what changes all the time
+        self._published: VehicleState | None = None  # without what changes all the time
         self.due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
         self._factsheet_due = True
@@ -59,13 +59,13 @@ class Teller:
         state = self.state()
         lasting = _lasting(state)
         due = now >= self.due
-        if lasting == self._told and not due and not self._requested:
+        if lasting == self._published and not due and not self._requested:
             return None
         settings = self._vehicle.settings
         interval = min(settings.moving, settings.interval) if state.driving else settings.interval
         # A state that comes a little late does not delay the next.
         self.due = interval + (self.due if due and now < self.due + interval else now)
-        self._told, self._requested = lasting, False
+        self._published, self._requested = lasting, False
         return state
 
     def take_visualization(self, now: float) -> Visualization | None:
