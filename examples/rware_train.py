@@ -32,7 +32,9 @@ def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's Ctrl-C
     options = arguments()
     out = Path(options.out)
-    settings = TrainingSettings(algorithm=options.algorithm, steps=options.steps, imitation=options.imitate)
+    settings = TrainingSettings(
+        algorithm=options.algorithm, steps=options.steps, imitation=options.imitate
+    )
     try:
         begin = policy.load(options.policy) if options.policy else None
     except policy.PolicyError as error:
@@ -51,7 +53,10 @@ def arguments():
     parser.add_argument("task", help="as RWARE registers it, without rware- and -v2: tiny-4ag")
     parser.add_argument("--algorithm", choices=ALGORITHMS, default="mappo")
     parser.add_argument(
-        "--steps", type=int, default=TrainingSettings.steps, help="of all environments (%(default)s)"
+        "--steps",
+        type=int,
+        default=TrainingSettings.steps,
+        help="of all environments (%(default)s)",
     )
     parser.add_argument(
         "--imitate",

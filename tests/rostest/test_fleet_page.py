@@ -101,9 +101,14 @@ class FleetPage(PageTest):
     def test_a_robot_is_given_to_a_person_and_back(self):
         self.page.read("page.select('kiva3')")
         self.page.until(f"{MODE} === 'AUTOMATIC'")
+        self.page.until("document.getElementById('mode').textContent === 'automatic'")
+        row = "document.querySelector('#robots [data-name=kiva3]')"
         for mode, ids in (("MANUAL", "manual"), ("OUT_OF_SERVICE", "out_of_service")):
             self.page.driver.find_element("css selector", f"[data-mode={mode}]").click()
             self.page.until(f"{MODE} === '{mode}'")
+            word = mode.lower().replace("_", " ")
+            self.page.until(f"document.getElementById('mode').textContent === '{word}'")
+            self.page.until(f"{row}.textContent.includes('kiva3{word}')")
             self.assertEqual(list(getattr(self.state.until(), f"{ids}_kiva")), [3])
             self.assertEqual(ask("/coordinator")[1][ids], [3])
         self.assertEqual(ask("/robots/3/mode", {"mode": "AUTOMATIC"})[0], 200)

@@ -57,6 +57,13 @@ LEFT_OUT = """(() => {
   return isAsked;
 })()"""
 
+# Whether the legend of the heat map lies between the panels at its sides.
+BESIDE = """(() => {
+  const [heat, left, right] = ['heat-panel', 'list-panel', 'details-panel']
+    .map((id) => document.getElementById(id).getBoundingClientRect());
+  return right.width > 0 && heat.left >= left.right && heat.right <= right.left;
+})()"""
+
 
 class OperationsPage(WorkPageTest):
     """In this order: what one test leaves the next one finds."""
@@ -92,7 +99,7 @@ class OperationsPage(WorkPageTest):
         self.press("pick2", 1)
         self.press("pick1", 2)
         self.page.until("document.querySelector('[data-station=pick2]').classList.contains('shut')")
-        self.page.until(f"{HAND}.textContent === 'Automatic'")
+        self.page.until(f"{HAND}.ariaPressed === 'true'")
         number = submit("page-2", "sku-4", 3)
         self.click(CARD.format("pick1", "a"))
         self.screen("pick1")
@@ -172,6 +179,7 @@ class OperationsPage(WorkPageTest):
         self.assertLess(self.page.read("document.querySelectorAll('.order').length"), 50)
         self.page.type("many-777", "search")
         self.page.until("page.orders.total === 11")  # many-777 and many-7770 to 7779
+        self.page.until("page.orders.rows[0].reference === 'many-777'")
         self.click("[data-filter='']")
         self.page.read("document.getElementById('search').value = 'sku-4'")
         self.page.type(" ", "search")
@@ -191,6 +199,12 @@ class OperationsPage(WorkPageTest):
         self.page.until("Boolean(page.heat.object)")
         self.click("[data-heat=waiting]")
         self.page.until("document.getElementById('heat-text').textContent.includes('waited')")
+        self.page.read("page.select('kiva1')")
+        self.page.until(BESIDE)  # the legend lies on no panel
+        self.page.read("page.select('pick1')")
+        self.page.until("document.getElementById('facts').textContent.includes('automatically')")
+        self.assertIn("/station/pick1", self.page.read("document.querySelector('#facts a').href"))
+        self.page.read("page.select(null)")
         self.page.click_on("heat")
         self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")
 
@@ -204,16 +218,24 @@ class OperationsPage(WorkPageTest):
         self.page.until(
             "document.querySelector('.entry-lines .fault')?.textContent.includes('no-such-sku')"
         )
+        fault = "document.querySelector('.entry-lines .fault:not([hidden])')"
+        self.page.type("x")  # a fault goes with the text that had it
+        self.page.until(f"!{fault}")
         self.page.read("(document.querySelector('#entry-lines input').value = 'sku-2')")
         self.page.read("document.getElementById('entry-form').requestSubmit()")
         self.page.until("!document.getElementById('entry').open")
         self.page.type("typed-1", "search")
         self.page.until(ROW.format("typed-1"))
         wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
-        self.let_fall(wrong)
-        self.page.until(
-            "document.querySelector('#sheet-faults tbody').textContent.startsWith('3quantity')"
+        self.let_fall(wrong.replace("sku-1,none", "sku-no,none"))
+        table = "document.querySelector('#sheet-faults tbody').textContent"
+        self.page.until(f"{table}.startsWith('3sku')")
+        self.assertIn(
+            "3quantityquantity is 'none'; a whole number from 1 on", self.page.read(table)
         )
+        self.page.read("document.getElementById('sheet').close()")
+        self.let_fall(wrong)
+        self.page.until(f"{table}.startsWith('3quantity')")
         self.assertEqual(ask("/orders?search=up-1")[1]["total"], 0)
         self.page.read("document.getElementById('sheet').close()")
         self.let_fall(wrong.replace("none", "2"))
@@ -232,6 +254,22 @@ class OperationsPage(WorkPageTest):
             file.flush()
             self.page.drop(file.name, *self.page.read(CENTRE.format("orders")))
             self.page.until("document.getElementById('sheet').open")
+
+    def test_7_what_is_put_in_leaves_what_is_picked_its_height(self):
+        chart = "page.chart.plot.chart"
+        self.page.until(f"{chart} && {chart}.data.datasets[0].data.length > 0")
+        tallest = (
+            f"Math.max(10, ...[0, 2].flatMap((i) => {chart}.data.datasets[i].data.map((p) => p.y)))"
+        )
+        self.page.until(f"{chart}.scales.y.max <= 1.5 * {tallest}")
+        put_in = f"Math.max(...{chart}.data.datasets[1].data.map((p) => p.y))"
+        self.page.until(f"{chart}.scales.stored.max >= {put_in}")
+
+    def test_7_the_last_hour_says_what_of_it_is_known(self):
+        self.page.read("Object.assign(page.gantt.spans, {begin: 420, now: 840})")
+        self.page.read("(page.gantt.spans.take = () => {}, page.gantt.take(null), 0)")
+        self.assertEqual(self.page.text("gantt-known"), "its last 7 min: watched since 0:07:00")
+        self.overview()
 
     def test_7_all_can_use_it(self):
         self.assertEqual(axe.findings(self.page), [])

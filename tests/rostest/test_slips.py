@@ -99,7 +99,7 @@ class SlipsTest(WorkPageTest):
         """Nor does a tap confirm what was drawn only a moment ago."""
         self.press("pick1", 2)
         self.press("pick1", 1)  # at once: neither undoes the other
-        self.page.until(f"{HAND}.textContent === 'Automatic'")
+        self.page.until(f"{HAND}.ariaPressed === 'true'")
         numbers = [submit(f"tap-{i}", "sku-4", 1) for i in range(3)]
         self.page.read("(location.hash = '#pick1')")  # a link of old
         self.page.until(f"location.pathname === '/station/pick1' && {READY}")

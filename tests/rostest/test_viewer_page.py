@@ -13,6 +13,7 @@ import time
 import axe
 import rospy
 import rostest
+from browser import SETTLES
 from node_test import PATIENCE, Robot, wait_until
 from page_test import PageTest
 from PIL import Image
@@ -75,6 +76,29 @@ BACKDROP = """(() => {
   return [drawn.filter((byte, i) => i % 4 < 3 && Math.abs(byte - whole[i]) > 8).length,
     new Set(new Uint32Array(drawn.buffer)).size];
 })()"""
+
+
+# A colour of the design, and that of an element's ground.
+COLOURS = """(() => {{
+  const probe = document.body.appendChild(document.createElement('i'));
+  probe.style.backgroundColor = '{}';
+  const shown = [probe, document.getElementById('{}')]
+    .map((e) => getComputedStyle(e).backgroundColor);
+  probe.remove();
+  return shown;
+}})()"""
+# A server that answers, and says nothing.
+SILENT = """window.WebSocket = class extends EventTarget {
+  static OPEN = 1;
+  constructor() {
+    super();
+    Object.assign(this, { isSilent: true, readyState: 1 });
+    setTimeout(() => this.dispatchEvent(new Event('open')));
+  }
+  send() {}
+  close() {}
+};"""
+SILENT_FILTERS = ["all", "needs", "help", "waiting", "working", "moving", "resting"]
 
 
 class ViewerPage(PageTest):
@@ -149,6 +173,17 @@ class ViewerPage(PageTest):
         self.page.type("q")
         self.page.until(f"Math.abs(Math.sin(page.world.pose[8] - {before}) - 1) < 0.001")
 
+    def test_buttons_that_can_not_be_pressed_say_why(self):
+        self.page.read("page.select('kiva2')")
+        why = "document.getElementById('why')"
+        self.page.until(f"{why}.checkVisibility()")
+        self.assertIn("Drop: it carries no storage unit.", self.page.text("why"))
+        self.page.read("(location.hash = 't=0.5', 0)")
+        past = "Left, Right, Carry, Drop, Remove: the time line shows the past"
+        self.page.until(f"{why}.textContent.startsWith('{past}')")
+        self.page.click_on("replay-live")
+        self.until_link("live")
+
     def test_a_robot_stopped_by_an_obstacle_needs_help(self):
         x, y, _ = place("kiva4")
         Robot(4).do("mov", x=x, y=4.0)
@@ -172,6 +207,29 @@ class ViewerPage(PageTest):
         self.page.until("page.selected === 'kiva2'")
         self.page.type(Keys.BACKSPACE * 5 + Keys.ESCAPE)
         self.page.until(f"page.list.rows.length === {ROBOTS}")
+
+    def test_the_search_finds_stations_and_selects_nothing_that_is_not_there(self):
+        self.page.type("pick2" + Keys.ENTER, "search")
+        self.page.until("page.selected === 'pick2' && page.details.thing.kind === 'station'")
+        self.page.until("!page.navigator.flight && page.overlays.ring.visible")
+        self.assertIn("no shift is running", self.page.text("facts"))
+        self.page.type(Keys.ESCAPE)
+        self.page.until("page.selected === null")
+        self.page.type("pick77" + Keys.ENTER, "search")
+        self.page.read("page.list.showPieces('pick77', new Map())")
+        self.page.type(Keys.ENTER)
+        self.assertEqual(self.page.read("page.selected"), None)
+        self.page.type(Keys.ESCAPE)
+
+    def test_a_click_on_a_sign_selects_its_station(self):
+        self.page.read("page.showAll(false)")
+        signs = "[...document.querySelectorAll('#labels .sign:not([hidden])')]"
+        self.page.until(f"{signs}.some((s) => s.textContent === 'pick1')")
+        box = f"{signs}.find((s) => s.textContent === 'pick1').getBoundingClientRect().toJSON()"
+        time.sleep(SETTLES)
+        sign = self.page.read(box)
+        self.page.click_at(sign["x"] + sign["width"] / 2, sign["y"] + sign["height"] / 2)
+        self.page.until("page.selected === 'pick1'")
 
     def test_space_pauses_whatever_was_clicked_before(self):
         self.page.click_on("trails")
@@ -232,6 +290,20 @@ class ViewerPage(PageTest):
         self.page.type("14")
         self.page.until("page.drawers.isOpen('list-panel') && !page.drawers.isOpen('log-panel')")
 
+    def test_the_floor_follows_the_theme_of_the_system(self):
+        self.page.read("localStorage.removeItem('theme')")
+        command = "Emulation.setEmulatedMedia"
+        self.addCleanup(self.page.driver.execute_cdp_cmd, command, {"features": []})
+        background = "page.stage.scene.background.getHex()"
+        seen = []
+        for theme in ("dark", "light", "dark"):
+            feature = {"name": "prefers-color-scheme", "value": theme}
+            self.page.driver.execute_cdp_cmd(command, {"features": [feature]})
+            self.page.until(f"document.documentElement.dataset.theme === '{theme}'")
+            self.page.until(f"{background} !== {seen[-1] if seen else -1}")
+            seen.append(self.page.read(background))
+        self.assertEqual(seen[0], seen[2])
+
     def test_axe_finds_nothing(self):
         self.page.read("[page.select('kiva1'), page.drawers.open('log-panel')]")
         self.assertEqual(axe.findings(self.page), [])
@@ -291,6 +363,46 @@ class ViewerPage(PageTest):
         self.page.until("!document.getElementById('pause').disabled")
         Robot(2).do("movx", distance=1.0)
 
+    def test_a_link_holds_the_moment_the_selection_and_the_camera(self):
+        self.page.until("page.timeline.track.end - page.timeline.track.begin > 5")
+        self.page.read("page.find('kiva2')")
+        self.page.until("!page.navigator.flight")
+        target = "page.stage.controls.target.toArray()"
+        seen, then = self.page.read(target), self.page.read("page.world.stamp - 1")
+        self.page.read("(page.tip.say = () => {}, navigator.clipboard.writeText = undefined, 0)")
+        self.page.click_on("replay-copy")
+        self.page.until("location.hash.includes('&see=kiva2&from=')")
+        link = self.page.read("location.href")
+        self.page.open("about:blank")
+        self.page.open(link)
+        self.page.until(
+            "page.selected === 'kiva2' && document.body.classList.contains('replaying')"
+        )
+        self.page.until(f"{target}.every((n, i) => Math.abs(n - {seen}[i]) < 0.02)")
+        self.assertGreaterEqual(self.page.read("page.timeline.player.time"), then)
+        self.page.click_on("replay-live")
+        self.until_link("live")
+
+    def test_a_mark_is_meant_by_a_click_beside_it(self):
+        self.page.until("page.timeline.track.end - page.timeline.track.begin > 10")
+        track = "page.timeline.track"
+        # Between two looks for new marks, which come every ten seconds.
+        self.page.read(
+            f"({track}.setMarks([{{time: ({track}.begin + {track}.end) / 2, kind: 'ALARM',"
+            " model: 'kiva1', text: ''}]), page.timeline.refresh = () => {}, 0)"
+        )
+        box = self.page.read(f"{track}.marks.firstChild.getBoundingClientRect().toJSON()")
+        mark = self.page.read(f"Number({track}.marks.firstChild.dataset.time)")
+        self.page.click_at(box["x"] + box["width"] / 2 + 9, box["y"] + 20)
+        self.page.until("document.body.classList.contains('replaying')")
+        self.page.until(
+            f"Math.abs(page.timeline.player.time - Math.max({track}.begin, {mark} - 1)) < 0.2"
+        )
+        self.page.click_on("replay-live")
+        self.until_link("live")
+        self.page.read("location.reload()")
+        self.page.until(self.ready)
+
     def test_pauses(self):
         self.page.click_on("pause")
         self.until_link("paused")
@@ -318,6 +430,10 @@ class ViewerPage(PageTest):
         self.assertAlmostEqual(place("kiva2")[0], x - 1, places=3)
         self.page.click_on("reset")
         self.page.until("document.getElementById('question').open")
+        # What can't be meant by a key in haste: red, and Cancel has the focus.
+        self.assertEqual(self.page.read("document.activeElement.id"), "question-no")
+        red = self.page.read(COLOURS.format("var(--needs-help)", "question-yes"))
+        self.assertEqual(red[0], red[1])
         self.page.click_on("question-yes")
         wait_until(lambda: math.dist(place("kiva2")[:2], (x, y)) < 1e-3, "a reset")
         self.page.until("!document.getElementById('notice').hidden")
@@ -390,6 +506,24 @@ class ViewerPage(PageTest):
         self.build("small")
         self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
 
+    def test_the_dialog_begins_with_what_stands_here_and_says_what_is_lost(self):
+        self.page.click_on("build")
+        self.page.until("document.getElementById('size').value === 'small'")
+        self.assertTrue(self.page.read("document.getElementById('plan-loss').hidden"))
+        self.page.driver.find_element("css selector", "#plan .answers button").click()
+        self.page.until("!document.getElementById('builder').open")
+        # As with a robot more, and a fleet at work.
+        self.page.read(
+            "(page.builder.present = () =>"
+            " ({robots: 5, shelves: 24, items: 96, isWorking: true}), 0)"
+        )
+        self.page.click_on("build")
+        self.page.until("document.getElementById('own-robots').value === '5'")
+        self.page.until("document.getElementById('size').value === ''")
+        self.assertIn("5 robots are at work here", self.page.text("plan-loss"))
+        self.page.driver.find_element("css selector", "#plan .answers button").click()
+        self.page.read("(page.builder.present = () => page.present(), 0)")
+
     def test_the_dialog_says_why_a_warehouse_can_not_be_built(self):
         self.build("custom", robots=3, shelves=0, items=20)
         told = "document.getElementById('plan-answer').textContent"
@@ -406,7 +540,7 @@ class ViewerPage(PageTest):
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)
         for name, count in counts.items():
             self.page.type(Keys.BACKSPACE * 4 + str(count), f"own-{name}")
-        self.page.driver.find_element("css selector", "#plan .strong").click()
+        self.page.driver.find_element("css selector", "#plan .danger").click()
 
     # --- the log as a file
     def test_saves_the_events(self):
@@ -425,6 +559,28 @@ class ViewerPage(PageTest):
                 events = json.load(text)["events"]
         self.assertEqual([int(row["id"]) for row in rows], [event["id"] for event in events])
         self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
+
+
+class Loading(PageTest):
+    """The page of a server that answers and has not sent its warehouse yet."""
+
+    ready = "page.world.scene.robots.length > 0"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        command, script = "Page.addScriptToEvaluateOnNewDocument", {"source": SILENT}
+        added = cls.page.driver.execute_cdp_cmd(command, script)
+        cls.page.read("location.reload()")
+        cls.page.until("page.connection.socket.isSilent")
+        cls.page.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+    def test_nothing_is_said_that_is_not_known(self):
+        self.page.until("document.getElementById('link').textContent === 'loading …'")
+        self.assertEqual(self.page.text("filters").split(), SILENT_FILTERS)
+        speed = "document.getElementById('speed').selectedOptions[0].textContent"
+        self.assertEqual(self.page.read(speed), "–")
+        self.assertIn("loading", self.page.read("document.getElementById('pause').title"))
 
 
 class Phone(PageTest):

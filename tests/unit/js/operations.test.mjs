@@ -10,7 +10,8 @@ import { whole } from '../../../src/warehouse_viewer/web/js/operations/order_ent
 import { lateness } from '../../../src/warehouse_viewer/web/js/operations/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/operations/order_upload.js';
 import { sharesOf } from '../../../src/warehouse_viewer/web/js/operations/robot_shares.js';
-import { waitsOf, Choice } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
+import { Choice } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
+import { waitsOf } from '../../../src/warehouse_viewer/web/js/base/station_waits.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/operations/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/scene/where.js';

@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { read } from '../../../src/warehouse_viewer/web/js/replay/chunk.js';
 import { hms, readClock } from '../../../src/warehouse_viewer/web/js/replay/clock.js';
-import { linkTo, momentOf, timeOf, wallAt } from '../../../src/warehouse_viewer/web/js/replay/link.js';
+import { linkTo, lookOf, momentOf, timeOf, wallAt } from '../../../src/warehouse_viewer/web/js/replay/link.js';
 import { Player } from '../../../src/warehouse_viewer/web/js/replay/player.js';
 import { Recording } from '../../../src/warehouse_viewer/web/js/replay/recording.js';
 import { State } from '../../../src/warehouse_viewer/web/js/replay/state.js';
@@ -99,6 +99,20 @@ test('an address names a moment by seconds or by the clock', () => {
   for (const other of ['', '#sku-17', '#t=', '#t=soon', '#at=25:61', '#at=noon']) assert.equal(momentOf(other), null);
   assert.equal(linkTo('http://here/#sku-1', 630.46), 'http://here/#t=630.5');
   assert.deepEqual(momentOf(linkTo('http://here/', 12.3).slice('http://here/'.length)), { t: 12.3 });
+});
+
+test('a link holds what is selected and from where it is looked at', () => {
+  const view = { position: [1, -2.004, 3.5], target: [0, 0.126, 0], zoom: 0 };
+  const link = linkTo('http://here/', 12.3, { name: 'kiva7', view });
+  assert.equal(link, 'http://here/#t=12.3&see=kiva7&from=1,-2,3.5,0,0.13,0');
+  const hash = link.slice('http://here/'.length);
+  assert.deepEqual(momentOf(hash), { t: 12.3 });
+  assert.deepEqual(lookOf(hash), { name: 'kiva7', view: { position: [1, -2, 3.5], target: [0, 0.13, 0], zoom: 0 } });
+  const above = linkTo('http://here/', 1, { view: { ...view, zoom: 41.5 } });
+  assert.equal(lookOf(above.slice('http://here/'.length)).view.zoom, 41.5);
+  for (const wrong of ['', '#t=1', '#t=1&from=', '#t=1&from=1,2,3', '#t=1&from=1,2,3,4,5,x', '#t=1&from=1,2,3,4,5,6,-1']) {
+    assert.deepEqual(lookOf(wrong), { name: null, view: null });
+  }
 });
 
 const at = (hour, minute) => new Date(2026, 10, 23, hour, minute).getTime() / 1000;

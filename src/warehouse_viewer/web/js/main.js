@@ -6,7 +6,7 @@ import { Bar } from './panels/bar.js';
 import { Builder } from './panels/builder.js';
 import { Connection } from './base/connection.js';
 import { Details } from './panels/details.js';
-import { $, isPressed, on, press, tell } from './base/dom.js';
+import { $, isPressed, on, onTheme, press, tell } from './base/dom.js';
 import { Drawers, marginsOf } from './base/drawers.js';
 import { FallenItems } from './panels/fallen.js';
 import { FleetPanel } from './panels/fleet.js';
@@ -33,6 +33,7 @@ import { World } from './base/world.js';
 
 const PANELS_EVERY = 250; // [ms]
 const NOTABLE = 60; // between two pictures; a person sees it [ms]
+const STATION = 0.5; // how far the mark around a station reaches [m]
 const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
@@ -42,18 +43,20 @@ class Page {
     const select = (name) => this.select(name);
     const say = (text, kind, at) => this.tip.say(text, kind, at);
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
-    this.list = new RobotList(this.world, select, (name) => this.find(name), (text) => this.lookFor(text));
+    this.list = new RobotList(this.world, select, (name) => this.find(name), (text) => this.lookFor(text),
+      (id) => this.fleet?.modeOf(id));
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
-    this.builder = new Builder(say);
+    this.builder = new Builder(say, () => this.present());
     this.people = new People(say);
     this.placers = [this.builder, this.people];
     this.fallen = new FallenItems(this.world, () => this.selected,
       (request) => this.builder.attempt(request));
     this.requested = new Requested(this.world);
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
-      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
+      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id),
+      stationOf: (name) => this.signs?.stations.get(name) });
     this.drawers = new Drawers(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
@@ -230,7 +233,7 @@ class Page {
     if (!this.stage) return;
     const thing = this.details.thing;
     const place = thing ? this.world.placeOf(thing) : null;
-    this.overlays.select(place, thing && halfOf(this.actors.boundsOf(thing)));
+    this.overlays.select(place, thing?.kind === 'station' ? STATION : thing && halfOf(this.actors.boundsOf(thing)));
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
     if (robot >= 0 && isPressed($('path'))) this.showPath(place, id);
@@ -316,6 +319,12 @@ class Page {
     this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
   }
 
+  /** What a warehouse that is built would replace. */
+  present() {
+    const { robots, units, items } = this.world.scene;
+    return { robots: robots.length, shelves: units.length, items: items.length, isWorking: this.fleet.runs };
+  }
+
   goToSearch() {
     this.drawers.open('list-panel');
     $('search').focus();
@@ -374,7 +383,21 @@ class Page {
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));
     on($('theme'), 'click', () => this.changeTheme());
+    onTheme(() => this.dress());
     on($('remove'), 'click', () => this.builder.remove(this.selected));
+  }
+
+  /** {name, view}: what is selected, and from where all is looked at. */
+  looks() {
+    return { name: this.selected, view: this.navigator?.view };
+  }
+
+  /** Looks as an address says; null: as it does. */
+  look({ name, view }) {
+    if (name && this.world.indexOf.has(name)) this.select(name);
+    if (!view) return;
+    this.follow(false);
+    this.navigator?.restore(view);
   }
 
   showAll(above) {
@@ -393,6 +416,10 @@ class Page {
     const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
     document.documentElement.dataset.theme = theme;
     localStorage.setItem('theme', theme);
+  }
+
+  dress() {
+    const { theme } = document.documentElement.dataset;
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
     this.actors?.setTheme(theme);

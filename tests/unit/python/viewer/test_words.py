@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Page, API and events have one word for one thing."""
 
+import inspect
 import json
 import subprocess
 from typing import get_args
@@ -9,13 +10,20 @@ import pytest
 from paths import ROOT
 
 from warehouse_client import message_names
+from warehouse_fleet.transports.waiting import Waiting
 from warehouse_layout.message_enums import EventKind, State, Status
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.api.schemas.pydantic_versions import names_of
-from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
+from warehouse_viewer.page.activities import (
+    IN_QUEUE,
+    Activity,
+    activity,
+    shown_status,
+    wait_too_long,
+)
 
 WEB = ROOT / "src/warehouse_viewer/web/js/base/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
@@ -88,6 +96,20 @@ def test_only_those_that_wait_for_half_a_minute_wait_too_long():
     state.header.stamp.secs = 100
     assert wait_too_long(state) == [2]
     assert wait_too_long(None) == []
+
+
+def test_robots_in_a_queue_that_moves_do_not_wait_too_long():
+    texts = [
+        "in the queue of pick1 behind kiva4",
+        "behind kiva5",
+        "in the queue of pick2 behind kiva6",
+    ]
+    state = CoordinatorState(
+        waiting_kiva=[1, 2, 3], waiting_since=[920.0, 920.0, 880.0], waiting_text=texts
+    )
+    state.header.stamp.secs = 1000
+    assert wait_too_long(state) == [2, 3]
+    assert f'f"{IN_QUEUE}{{station}}' in inspect.getsource(Waiting)  # the coordinator's words
 
 
 def test_a_command_that_ended_blocked_shows_in_the_status():

@@ -27,6 +27,7 @@ from warehouse_operations.stock import acceptance
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
 MOST_FAULTS = 20
 MOST_SECONDS, DAY = 1e9, 86_400.0  # of a time of the shift [s]
+LARGE = 1e6  # numbers from which on a limit is not named to a person
 TEXT = "orders"  # what a text in place of a file is called in messages
 
 
@@ -102,13 +103,15 @@ def _read(
     faults: list[Fault] = []
     orders = _Orders(skus, capacity)
     for row in table:
+        errors: list[ValueError]
         try:
-            orders.add(row, table.decimal_comma)
+            errors = [*orders.add(row, table.decimal_comma)]
         except ValueError as error:
-            faults.append(Fault(table.line, getattr(error, "column", ""), str(error)))
-        if len(faults) == MOST_FAULTS:
+            errors = [error]
+        faults += [Fault(table.line, getattr(e, "column", ""), str(e)) for e in errors]
+        if len(faults) >= MOST_FAULTS:
             break
-    return orders.wanted(), faults
+    return orders.wanted(), faults[:MOST_FAULTS]
 
 
 class _Orders:
@@ -121,29 +124,27 @@ class _Orders:
         self._unknown: set[str] = set()  # SKUs, each of which is named once
         self._dated = False  # whether times are dates
 
-    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
-        """Adds a row. Raises ValueError, which says what is wrong with it."""
+    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> list[_FieldError]:
+        """Adds a row; returns what is wrong with its fields. Raises ValueError, which says what is
+        wrong with the row."""
         row = fields(row)
         if not row:
-            return
-        reference, sku = row["reference"], row["sku"]
-        if not reference:
-            raise _FieldError("reference", "reference is empty")
-        if fault := acceptance.fault_of_head(reference):
-            raise _FieldError("reference", fault)
-        if not sku or (self._skus is not None and sku not in self._skus):
-            if sku and sku in self._unknown:
-                return
-            self._unknown.add(sku)
-            raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
-        quantity = _field(row, "quantity", int, 1, 2**31 - 1)
+            return []
         if decimal_comma:
             row |= {name: row.get(name, "").replace(",", ".") for name in ("at", "due")}
-        rest = (
-            self._time(row, "at"),
-            self._time(row, "due"),
-            _field(row, "priority", int, 0, 255),
-        )
+        faults: list[_FieldError] = []
+        values = [
+            _tried(read, row, faults)
+            for read in (self._reference, self._sku, _quantity, self._at, self._due, _priority)
+        ]
+        if not faults and None not in values:
+            reference, sku, quantity, *rest = values
+            self._take(reference, sku, quantity, tuple(rest))
+        return faults
+
+    def _take(
+        self, reference: str, sku: str, quantity: int, rest: tuple[float, float, int]
+    ) -> None:
         lines, first = self._rows.setdefault(reference, ({}, rest))
         if rest != first:
             raise ValueError(f"at, due or priority differ from the first row of {reference}")
@@ -153,6 +154,30 @@ class _Orders:
             raise ValueError(f"{reference} has more than {acceptance.MOST_LINES} lines")
         if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
             raise _FieldError("quantity", f"{reference}: {fault}")
+
+    def _reference(self, row: Mapping[str, str]) -> str:
+        reference = row["reference"]
+        if not reference:
+            raise _FieldError("reference", "reference is empty")
+        if fault := acceptance.fault_of_head(reference):
+            raise _FieldError("reference", fault)
+        return reference
+
+    def _sku(self, row: Mapping[str, str]) -> str | None:
+        """Returns a known SKU; None for an unknown one that was named before."""
+        sku = row["sku"]
+        if sku and (self._skus is None or sku in self._skus):
+            return sku
+        if sku and sku in self._unknown:
+            return None
+        self._unknown.add(sku)
+        raise _FieldError("sku", f"sku '{shown(sku)}' is unknown: the stock has none of it")
+
+    def _at(self, row: Mapping[str, str]) -> float:
+        return self._time(row, "at")
+
+    def _due(self, row: Mapping[str, str]) -> float:
+        return self._time(row, "due")
 
     def _time(self, row: Mapping[str, str], name: str) -> float:
         """Returns a time [s]: of the shift, or of a date, since 1970."""
@@ -184,6 +209,25 @@ class _Orders:
         ]
 
 
+def _tried(
+    read: Callable[[Mapping[str, str]], Any], row: Mapping[str, str], faults: list[_FieldError]
+) -> Any:
+    """Returns what is read of a row; None, with one fault more, where it is wrong."""
+    try:
+        return read(row)
+    except _FieldError as error:
+        faults.append(error)
+        return None
+
+
+def _quantity(row: Mapping[str, str]) -> Any:
+    return _field(row, "quantity", int, 1, 2**31 - 1)
+
+
+def _priority(row: Mapping[str, str]) -> Any:
+    return _field(row, "priority", int, 0, 255)
+
+
 def _date(text: str) -> float | None:
     """Returns the seconds since 1970 of a date as people write it; None for other texts."""
     if not re.match(r"\d{4}-\d\d-\d\d", text):
@@ -208,7 +252,10 @@ def _field(
         value = None
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
+        # A limit that no order comes near says nothing to a person who has mistyped.
+        is_near = most < LARGE or (value is not None and value > most)
+        limit = f"to {most:,.0f}" if is_near else "on"
         raise _FieldError(
-            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:.10g} was expected"
+            name, f"{name} is '{shown(text)}'; {what} from {least} {limit} was expected"
         )
     return value

@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from sqlalchemy import and_, exists, func, or_, select
+from sqlalchemy import and_, case, exists, func, or_, select
 from sqlalchemy.engine import Engine
 
 from warehouse_layout.message_enums import OrderState
@@ -28,8 +28,9 @@ def find_orders(
     """Returns the number of matching orders and [(row of orders, rows of its lines)], the newest
     first, limited to MOST_ROWS.
 
-    order_id: 0: any. search: a part of the reference, or a whole SKU. late_at: only orders that
-    are past their due time at this simulated time [s], or were completed after their due time.
+    order_id: 0: any. search: a part of the reference, a whole SKU, or the number of an order; an
+    order with that reference or number precedes the others. late_at: only orders that are past
+    their due time at this simulated time [s], or were completed after their due time.
     """
     if not (0 <= order_id <= LARGEST and search.isprintable() and len(search) <= LONGEST):
         return 0, []
@@ -43,9 +44,12 @@ def find_orders(
         query = query.where(_late(orders.c, late_at))
     if search:
         with_sku = exists().where(lines.c.order_id == orders.c.id, lines.c.sku == search)
-        query = query.where(or_(orders.c.reference.contains(search, autoescape=True), with_sku))
+        part = orders.c.reference.contains(search, autoescape=True)
+        named = _is_named(orders.c, search)
+        query = query.where(or_(part, with_sku, named)).order_by(case((named, 0), else_=1))
     with engine.connect() as connection:
-        total: Any = connection.execute(select(func.count()).select_from(query.subquery())).scalar()
+        matches = query.order_by(None).subquery()
+        total: Any = connection.execute(select(func.count()).select_from(matches)).scalar()
         newest = _page(query.order_by(orders.c.id.desc()), limit, offset)
         rows: Sequence[Any] = connection.execute(newest).all()
         of_them = select(lines).where(lines.c.order_id.in_([row.id for row in rows]))
@@ -54,6 +58,13 @@ def find_orders(
         for line in matching_lines:
             by_order[line.order_id].append(line)
     return total, [(row, by_order[row.id]) for row in rows]
+
+
+def _is_named(order: Any, text: str) -> Any:
+    """Returns whether a text is the reference or the number of an order."""
+    is_reference = func.lower(order.reference) == text.lower()
+    is_number = text.isascii() and text.isdecimal() and int(text) <= LARGEST
+    return or_(is_reference, order.id == int(text)) if is_number else is_reference
 
 
 def _page(query: Any, limit: int, offset: int) -> Any:

@@ -29,7 +29,7 @@ class Permission:
     """Who may have an assistant change something: all who use the hub, or who brings a token."""
 
     everybody: bool = False
-    token: str = ""  # "": there is none
+    token: str = ""  # "": no request holds it
 
     def holds(self, headers: Headers) -> bool:
         """Returns whether a request with these headers has it."""

@@ -28,6 +28,8 @@ class Activity(IntEnum):
 
 
 TOO_LONG = 30.0  # to wait [s, simulated]
+QUEUED_TOO_LONG = 120.0  # to stand in the queue of a station, while a unit is served [s, simulated]
+IN_QUEUE = "in the queue of "  # how the coordinator's reason begins there
 
 
 def shown_status(fleet: FleetState) -> np.ndarray:
@@ -42,12 +44,21 @@ def shown_status(fleet: FleetState) -> np.ndarray:
 
 
 def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
-    """Returns the numbers of the robots that wait for TOO_LONG, by a CoordinatorState or None."""
+    """Returns the numbers of the robots that wait for too long, by a CoordinatorState or None.
+
+    A robot in the queue of a station stands while a unit before it is served: it waits for too
+    long from QUEUED_TOO_LONG on, others from TOO_LONG on.
+    """
     if coordinator is None:
         return []
-    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since)
+    texts = list(coordinator.waiting_text) or [""] * len(coordinator.waiting_kiva)
+    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since, texts)
     now = coordinator.header.stamp.to_sec()
-    return [robot for robot, since in waits if now - since >= TOO_LONG]
+    return [
+        robot
+        for robot, since, text in waits
+        if now - since >= (QUEUED_TOO_LONG if text.startswith(IN_QUEUE) else TOO_LONG)
+    ]
 
 
 def activity(fleet: FleetState, waiting: Collection[int] = ()) -> np.ndarray:

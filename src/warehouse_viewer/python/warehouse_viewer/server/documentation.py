@@ -33,6 +33,15 @@ def routes(folders: Sequence[Path] = FOLDERS) -> list[BaseRoute]:
     return [Route("/docs", _to_folder), Mount("/docs", Documentation(folders))]
 
 
+def is_built() -> bool:
+    """Returns whether there is a documentation to be shown."""
+    return _built(FOLDERS) is not None
+
+
+def _built(folders: Sequence[Path]) -> Path | None:
+    return next((folder for folder in folders if (folder / "index.html").is_file()), None)
+
+
 async def _to_folder(_: Request) -> Response:
     return RedirectResponse("/docs/")
 
@@ -44,8 +53,7 @@ class Documentation:
         self._folders = folders
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        built = (folder for folder in self._folders if (folder / "index.html").is_file())
-        folder = next(built, None)
+        folder = _built(self._folders)
         if folder is None:
             await HTMLResponse(MISSING, 404)(scope, receive, send)
             return

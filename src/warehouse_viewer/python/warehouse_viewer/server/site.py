@@ -10,7 +10,7 @@ from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount, Route
 
 from warehouse_viewer.json_text import JSONResponse
-from warehouse_viewer.server import font
+from warehouse_viewer.server import documentation, font
 from warehouse_viewer.server.static_files import Files, FreshFiles
 from warehouse_viewer.shared_files import CHART, THREE, WEB
 
@@ -19,13 +19,14 @@ class Page(NamedTuple):
     """A page: where it is, what the way to it is called, and its file in the folder web.
 
     `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
-    Without a file it is served by others, and only the way to it is shown.
+    Without a file it is served by others, and only the way to it is shown, if it is there.
     """
 
     path: str
     title: str
     file: str
     counted: str = ""
+    is_there: Callable[[], bool] = lambda: True
 
 
 HUB = Page("/", "Simulations", "hub.html")
@@ -34,7 +35,7 @@ OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")
 WHATIF = Page("/whatif", "What-if", "whatif.html")
 API = Page("/api/docs", "API", "docs.html")
-DOCS = Page("/docs/", "Docs", "")
+DOCS = Page("/docs/", "Docs", "", is_there=documentation.is_built)
 
 
 class Site:
@@ -67,5 +68,6 @@ class Site:
             {"path": page.path, "title": page.title}
             | ({"count": page.counted} if page.counted else {})
             for page in self._pages
+            if page.is_there()
         ]
         return JSONResponse(pages, headers={"cache-control": "no-cache"})

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_viewer.page.activities import Activity
+from warehouse_viewer.page.activities import QUEUED_TOO_LONG, Activity
 from warehouse_viewer.watch.troubles import UNATTENDED
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 QUARTER = 900.0  # over which pieces per hour are told [s, simulated]
 SAMPLES = 30.0  # between two counts of pieces [s, simulated]
-QUEUED_TOO_LONG = 120.0  # for a robot with a storage unit to stand in a queue [s, simulated]
 UNIT_TOO_LONG = 60.0  # for a station with orders to be without a unit [s, simulated]
 STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
 

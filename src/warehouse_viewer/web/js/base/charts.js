@@ -2,7 +2,7 @@
 // Charts by Chart.js, in the colours and the type of the design. The library comes when the first
 // chart is wanted.
 
-import { make, on } from './dom.js';
+import { make, on, onTheme } from './dom.js';
 
 const LIBRARY = '/chart/chart.min.js';
 let loading = null;
@@ -17,11 +17,6 @@ export function token(name) {
 export function faint(name, opacity) {
   const [r, g, b] = token(name).match(/[\da-f]{2}/gi).map((part) => parseInt(part, 16));
   return `rgba(${r}, ${g}, ${b}, ${opacity})`;
-}
-
-/** Calls `act` whenever the colours are others: dark or light. */
-export function onTheme(act) {
-  new MutationObserver(act).observe(document.documentElement, { attributeFilter: ['data-theme'] });
 }
 
 function library() {

@@ -8,6 +8,11 @@ export function on(target, type, handler) {
   target.addEventListener(type, handler);
 }
 
+/** Calls `act` whenever the colours are others: dark or light. */
+export function onTheme(act) {
+  new MutationObserver(act).observe(document.documentElement, { attributeFilter: ['data-theme'] });
+}
+
 /** An element with properties and children; `click` is called when it is clicked. */
 export function make(tag, { click, ...properties } = {}, ...children) {
   const out = Object.assign(document.createElement(tag), properties);
@@ -43,5 +48,6 @@ export function enable(button, lack, titled = button) {
   const why = withheld || lack;
   titled.dataset.title ??= titled.title;
   button.disabled = Boolean(why);
+  button.dataset.why = why || '';
   titled.title = why ? `${titled.dataset.title} – not now: ${why}` : titled.dataset.title;
 }

@@ -15,6 +15,8 @@ async function showPages() {
   }
   const hub = ROOT ? [make('a', { href: '/', textContent: 'Simulations' })] : [];
   document.querySelector('.site')?.replaceChildren(...hub, ...(links.length > 1 ? links : []));
+  // What leads to a page that may not be there, as the documentation that was not built.
+  for (const part of document.querySelectorAll('[data-needs]')) part.hidden = !pages.some(({ path }) => path === part.dataset.needs);
   pages.forEach(({ count, title }, i) => count && followCount(links[i], title, count));
 }
 

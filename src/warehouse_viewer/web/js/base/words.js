@@ -2,13 +2,14 @@
 // The words for the constants of messages: the same on every page, and those of the API and of the
 // events (message_names.py); a test compares them.
 
-import { EventKind, FailureKind, OrderState, State } from './message_enums.js';
+import { EventKind, FailureKind, OrderState, RobotMode, State } from './message_enums.js';
 
 /** An array of the texts of {number: text}. */
 const byNumber = (texts) => Object.assign([], texts);
 
 /** What a robot does at a glance, by Activity (activities.py), from what needs no attention to what
- *  needs a person; a `waiting` robot has waited for half a minute, or stands before an obstacle. */
+ *  needs a person; a `waiting` robot has waited for half a minute, in a station's queue for two
+ *  minutes, or stands before an obstacle. */
 export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'];
 export const NEEDS_HELP = 4;
 /** The class that gives each its colour; design.css has them. */
@@ -29,6 +30,8 @@ export const STATE = byNumber({
   [State.BLOCKED]: 'blocked',
   [State.WAITING]: 'waits for its turn',
 });
+/** Who commands a robot. */
+export const MODE_WORDS = { [RobotMode.AUTOMATIC]: 'automatic', [RobotMode.MANUAL]: 'manual', [RobotMode.OUT_OF_SERVICE]: 'out of service' };
 /** What is broken, by bit: an empty battery, then the kinds of failures. */
 export const FAILURE = byNumber({
   0: 'battery empty',

@@ -21,6 +21,7 @@ export class World {
     const robots = scene.robots.length;
     this.robotOf = new Map(scene.robots.map((id, i) => [id, i]));
     this.indexOf = new Map([
+      ...(scene.stations ?? []).map(({ name }, i) => [name, { kind: 'station', index: i }]),
       ...scene.units.map((name, i) => [name, { kind: 'unit', index: i }]),
       ...scene.items.map((name, i) => [name, { kind: 'item', index: i }]),
       ...scene.scenery.map((name, i) => [name, { kind: 'scenery', index: i }]),
@@ -120,10 +121,16 @@ export class World {
       return [x, y, 0, wrapped(yaw)];
     }
     if (kind === 'scenery') return planar(this.sceneryPose, index);
+    if (kind === 'station') return this.placeOfStation(index);
     if (kind === 'item') return this.placeOfItem(index);
     const own = planar(this.unitPose, index);
     const carrier = this.carrierOf(index);
     return carrier < 0 ? own : within(this.placeOf({ kind: 'robot', index: carrier }), own);
+  }
+
+  placeOfStation(index) {
+    const { x, y } = this.scene.stations[index];
+    return [x, y, 0, 0];
   }
 
   placeOfItem(index) {
@@ -134,8 +141,8 @@ export class World {
 
   nameOf({ kind, index }) {
     const { robots, units, items, scenery } = this.scene;
-    return kind === 'robot' ? `kiva${robots[index]}`
-      : { unit: units, item: items, scenery }[kind][index];
+    if (kind === 'robot') return `kiva${robots[index]}`;
+    return kind === 'station' ? this.scene.stations[index].name : { unit: units, item: items, scenery }[kind][index];
   }
 
   /** Index of the unit that stands within a robot's reach over [x, y], -1 = none. */

@@ -2,7 +2,7 @@
 // The page /layout.
 
 import { post, reloadIfLockedOut } from '../base/api.js';
-import { $, enable, make, on } from '../base/dom.js';
+import { $, enable, make, on, onTheme } from '../base/dom.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
 import { build, compare, Files, tellLost } from './files.js';
@@ -54,11 +54,7 @@ function begin(editor, store, about) {
 }
 
 function follow(editor) {
-  const light = matchMedia('(prefers-color-scheme: light)');
-  on(light, 'change', () => {
-    document.documentElement.dataset.theme = localStorage.getItem('theme') || (light.matches ? 'light' : 'dark');
-    editor.dress();
-  });
+  onTheme(() => editor.dress());
   editor.dress();
   editor.on('change', () => { $('hint').hidden = Boolean(editor.bounds); });
 }
@@ -84,7 +80,6 @@ async function main() {
   begin(editor, store, about);
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
-  $('floor').hidden = !about.builds;
   $('compare').hidden = !about.compares;
   on($('compare'), 'click', () => compare(editor));
   on($('build'), 'click', () => build(editor, post));

@@ -2,8 +2,7 @@
 // The last hour of robots and stations: a row for each, coloured by what it did. Only rows in sight
 // are drawn, whatever their number.
 
-import { onTheme } from '../base/charts.js';
-import { $, make, on } from '../base/dom.js';
+import { $, make, on, onTheme, tell } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
@@ -12,9 +11,16 @@ import { Spans } from './spans.js';
 import { clock, lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
+const HOUR = 3590; // [s], nearly
 const PERIOD = 2000; // between two requests [ms]
 const BIG = matchMedia('(pointer: coarse)');
 const NAMES = [120, 84]; // the width of names on a wide and on a narrow page [px]
+
+/** What of the hour is known, where it is not all of it. */
+export function knownOf({ begin, now }) {
+  if (begin < 1 || now - begin > HOUR) return '';
+  return `its last ${lasting(now - begin)}: watched since ${clock(begin)}`;
+}
 
 export class Gantt {
   constructor() {
@@ -66,6 +72,7 @@ export class Gantt {
   take(buffer) {
     this.spans.take(buffer);
     Object.assign(this.view, { begin: this.spans.begin, now: this.spans.now });
+    tell($('gantt-known'), knownOf(this.spans));
     this.resort();
   }
 

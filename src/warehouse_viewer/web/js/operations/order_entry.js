@@ -7,11 +7,12 @@ import { $, make, on } from '../base/dom.js';
 const TYPING = 150; // after a key [ms]
 const SHOWN = 20; // SKUs that a list offers
 const MOST_PIECES = 2 ** 31 - 1;
+const LARGE = 1e6; // limits from here on say nothing to a person who has mistyped
 
 /** A whole number in a text, from least to most; an Error that says what was expected. */
 export function whole(text, least, most) {
   const value = /^\s*\d+\s*$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} to ${most.toLocaleString('en')} was expected`);
+  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} ${most < LARGE || value > most ? `to ${most.toLocaleString('en')}` : 'on'} was expected`);
   return value;
 }
 
@@ -41,6 +42,8 @@ export class OrderEntry {
     on($('new-order'), 'click', () => this.open());
     on($('entry-no'), 'click', () => $('entry').close());
     on($('entry-more'), 'click', () => this.add().sku.focus());
+    // A fault goes with the text that had it.
+    on($('entry-form'), 'input', ({ target }) => target.ariaInvalid === 'true' && mark(target, '', $(target.getAttribute('aria-describedby'))));
     on($('entry-form'), 'submit', (event) => {
       event.preventDefault();
       this.submit();

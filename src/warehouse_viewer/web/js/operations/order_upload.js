@@ -65,7 +65,7 @@ export class OrderUpload {
 
   show(answer) {
     if (!answer.accepted) {
-      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : 'The first fault';
+      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : `The first ${MOST_FAULTS} faults`;
       this.say(`${this.name} is not accepted`, `None of its orders is in the list. ${some}:`, answer.faults);
       return;
     }

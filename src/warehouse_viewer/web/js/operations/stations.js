@@ -3,13 +3,13 @@
 // themselves or by hand.
 
 import { put } from '../base/api.js';
-import { $, make } from '../base/dom.js';
+import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
 import { ROOT } from '../base/root.js';
+import { waitsOf } from '../base/station_waits.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
-const UNATTENDED = 60; // [s], simulated
 const CHIPS = 8; // of a queue that are shown
 const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
@@ -105,7 +105,9 @@ class Row {
     this.rate.lastChild.textContent = Math.round(station.pieces_per_hour).toLocaleString('en');
     this.busy.lastChild.textContent = `${Math.round(100 * station.busy_fraction)} %`;
     this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
+    this.hand.textContent = 'Manual';
+    press(this.hand, this.isByHand);
+    this.hand.title = this.isByHand ? 'A person works here; press for automatic' : 'It works automatically; press for a person at its screen';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
     this.screen.href = `${ROOT}/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
@@ -135,14 +137,4 @@ function chip({ unit, robot, stands, is_long: isLong }) {
   const title = robot ? `storage unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `storage unit ${unit}: a robot is on its way to it`;
   const out = make('span', { className: isLong ? 'chip is-long' : robot ? 'chip' : 'chip is-far', title, textContent: waits ? `${unit} · ${lasting(stands)}` : `${unit}` });
   return out;
-}
-
-/** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
-export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders }, now) {
-  const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));
-  if (waiting) return [`unit ${unit} has waited for a person for ${lasting(waiting)}`, waiting >= UNATTENDED ? 'is-bad' : ''];
-  if (unit) return [`unit ${unit} is there, for ${span}`, ''];
-  if (next) return [`waits for unit ${next}, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  if (open && orders?.length) return [`waits for a unit, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  return ['', ''];
 }

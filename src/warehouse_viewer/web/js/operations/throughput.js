@@ -54,7 +54,7 @@ function look() {
     type: 'bar',
     datasets: [
       { label: 'picked', backgroundColor: token('moving'), borderRadius: 2, categoryPercentage: 1, barPercentage: 0.8, maxBarThickness: 12 },
-      { type: 'line', label: 'put in', borderColor: token('working'), backgroundColor: faint('working', 0.2), borderWidth: 1.5, pointRadius: 0, tension: 0.2 },
+      { type: 'line', label: 'put in', yAxisID: 'stored', borderColor: token('working'), backgroundColor: faint('working', 0.2), borderWidth: 1.5, pointRadius: 0, tension: 0.2 },
       { type: 'line', label: 'upper bound', borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25, pointRadius: 0 },
     ],
     options: {
@@ -62,6 +62,8 @@ function look() {
       scales: {
         x: axis('minutes ago', { ticks: { stepSize: 15, callback: (minutes) => (minutes ? -minutes : 'now') }, grid: { display: false }, scale: { min: -HOUR, max: 0, offset: false } }),
         y: axis('pieces per hour', { ticks: { callback: (rate) => rate.toLocaleString('en') }, scale: { beginAtZero: true, grace: '5%' } }),
+        // Bundles are many pieces at once: upon one scale they would press what is picked to the floor.
+        stored: axis('put in per hour', { ticks: { callback: (rate) => rate.toLocaleString('en') }, grid: { display: false }, scale: { position: 'right', beginAtZero: true, suggestedMax: 10, grace: '5%' } }),
       },
       plugins: {
         legend: { display: false },

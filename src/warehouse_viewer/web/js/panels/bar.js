@@ -75,8 +75,8 @@ export class Bar {
   }
 
   showLink(live, reason) {
-    this.live = live;
-    this.link(live ? 'live' : 'away', live ? 'live' : `${reason}; trying again`);
+    this.live = false; // until its state is known
+    this.link('away', live ? 'loading …' : `${reason}; trying again`);
     this.enable();
   }
 
@@ -87,6 +87,7 @@ export class Bar {
 
   showStatus(status) {
     this.lacks = status.lacks;
+    this.live = true;
     if (status.away) {
       this.link('away', 'the simulation does not answer');
       this.enable();
@@ -124,7 +125,7 @@ export class Bar {
       undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
     };
     for (const [id, action] of Object.entries(NEEDS)) {
-      const lack = this.live ? this.lacks[action] || early[id] : 'no connection';
+      const lack = this.live ? this.lacks[action] || early[id] : $('link').textContent;
       enable($(id), lack, id === 'speed' ? $(id).parentElement : $(id));
     }
   }

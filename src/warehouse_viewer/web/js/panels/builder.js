@@ -9,10 +9,11 @@ import { confirmed } from '../base/question.js';
 const COUNTS = ['robots', 'shelves', 'items'];
 
 export class Builder extends Placer {
-  /** `say(text, kind, at)` shows the person at the page a text. */
-  constructor(say) {
+  /** `say(text, kind, at)` shows the person at the page a text; `present()`: what stands here now,
+   *  {robots, shelves, items}, and `isWorking`, whether a fleet works there. */
+  constructor(say, present) {
     super('add', { what: 'a robot', hint: 'click a cell for the new robot' }, say);
-    this.sizes = { presets: {}, limits: {} };
+    Object.assign(this, { present, sizes: { presets: {}, limits: {} } });
     on($('build'), 'click', () => this.open());
     on($('size'), 'change', () => this.showCounts());
     on($('plan'), 'submit', (event) => event.submitter.value && this.build(event));
@@ -27,12 +28,16 @@ export class Builder extends Placer {
 
   async open() {
     this.answer('');
+    const { isWorking, ...counts } = this.present();
+    $('plan-loss').hidden = !isWorking;
+    $('plan-loss').textContent = `${counts.robots} robots are at work here. Their transports are lost, and a shift ends: its stock lies on storage units that go.`;
     $('builder').showModal();
     try {
       this.sizes = await get('/warehouse/sizes');
     } catch (error) {
       this.answer(error.message);
     }
+    this.offer(counts);
     for (const what of COUNTS) {
       const field = $(`own-${what}`), limit = this.sizes.limits[what];
       if (!limit) continue;
@@ -40,6 +45,13 @@ export class Builder extends Placer {
       field.parentElement.querySelector('span').textContent = `at most ${limit.toLocaleString('en')}`;
     }
     this.showCounts();
+  }
+
+  /** Begins with the size of what stands here. */
+  offer(counts) {
+    const same = Object.entries(this.sizes.presets).find(([, preset]) => COUNTS.every((what) => preset[what] === counts[what]));
+    $('size').value = same?.[0] ?? '';
+    for (const what of COUNTS) $(`own-${what}`).value = counts[what];
   }
 
   /** A size has counts of its own; with others it is one that has a name of its own. */

@@ -2,12 +2,15 @@
 // The panel of the selection: its facts, and the commands for it.
 
 import { command, post } from '../base/api.js';
-import { $, enable, make, on, press } from '../base/dom.js';
-import { LiftStatus, RobotMode, Turn } from '../base/message_enums.js';
+import { $, enable, make, on, press, tell } from '../base/dom.js';
+import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
 import { vda5050Of } from './vda5050.js';
-import { ACTIVITY, ACTIVITY_CLASS, FAILURE, STATE } from '../base/words.js';
+import { ROOT } from '../base/root.js';
+import { waitsOf } from '../base/station_waits.js';
+import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, STATE, STATION_STATES } from '../base/words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
+const COMMANDS = ['left', 'right', 'carry', 'drop', 'remove'];
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
 const MODE = {
   [RobotMode.AUTOMATIC]: 'the coordinator commands it',
@@ -19,9 +22,10 @@ const WAITS = 'sent; the simulation is paused: the robot starts when it resumes,
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
    *  `isPaused()`: whether time stands still; `fleet` is the FleetPanel, `fallen` the
-   *  FallenItems, and `wayOf(id)` what the coordinator plans for a robot. */
-  constructor(world, select, say, { isPaused, fleet, fallen, wayOf }) {
-    Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, name: null, robot: null });
+   *  FallenItems, `wayOf(id)` what the coordinator plans for a robot, and `stationOf(name)`
+   *  what the shift says of a station. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf, stationOf }) {
+    Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, stationOf, name: null, robot: null });
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
@@ -58,7 +62,7 @@ export class Details {
     const isRobot = thing?.kind === 'robot';
     $('orders').hidden = !isRobot;
     for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
-    $('badge').hidden = !isRobot;
+    $('badge').hidden = $('mode').hidden = !isRobot;
     $('modes').hidden = !isRobot || !this.fleet.runs;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
@@ -77,6 +81,16 @@ export class Details {
     enable($('remove'), load ? 'it carries a storage unit' : '');
     const mode = this.fleet.modeOf(this.world.scene.robots[i]);
     for (const button of $('modes').children) press(button, button.dataset.mode === mode);
+    $('mode').hidden = !mode;
+    tell($('mode'), mode ? MODE_WORDS[mode] : '');
+    this.tellWhy();
+  }
+
+  /** Says below the buttons why some can't be pressed: a finger reads no title. */
+  tellWhy() {
+    const buttons = COMMANDS.map($).filter((button) => button.disabled);
+    tell($('why'), whyNot(buttons.map((button) => [button.textContent.trim(), button.dataset.why])));
+    $('why').hidden = !buttons.length;
   }
 
   factsOf(thing) {
@@ -84,9 +98,9 @@ export class Details {
     const { index } = thing;
     const out = [['position', `${metres(x)}, ${metres(y)} m`]];
     if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
-    out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
+    if (thing.kind !== 'station') out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
     return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
-      item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
+      item: () => this.factsOfItem(index), station: () => this.factsOfStation() }[thing.kind]?.() ?? []);
   }
 
   factsOfRobot(index) {
@@ -114,13 +128,25 @@ export class Details {
     return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
   }
 
+  /** What a station does, waits for and has in its queue, and the way to its screen. */
+  factsOfStation() {
+    const station = this.stationOf(this.name);
+    if (!station) return [['state', 'no shift is running']];
+    const { open, activity, mode, queue } = station;
+    const [waits] = waitsOf(station, this.world.stamp);
+    const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
+    return [['state', !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity]],
+      ['works', mode === StationMode.MANUAL ? 'manually' : 'automatically'], ...waits ? [['unit', waits]] : [],
+      ['queue', robots.length ? robots : 'no robot'], ['screen', { link: 'open', href: `${ROOT}/station/${encodeURIComponent(this.name)}` }]];
+  }
+
   /** Where the coordinator sends a robot, and for whom it waits. */
   planOf(id) {
     const way = this.wayOf(id), out = [];
     if (way?.goal) {
       const [x, y] = way.goal;
       const station = this.world.scene.stations.find((s) => Math.hypot(s.x - x, s.y - y) < 0.1);
-      out.push(['goes to', station ? station.name : `${metres(x)}, ${metres(y)} m`]);
+      out.push(['goes to', station ? link(station.name) : `${metres(x)}, ${metres(y)} m`]);
     }
     if (way?.waitsFor) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
     return out;
@@ -131,8 +157,14 @@ export class Details {
     if (text === this.shownFacts) return;
     this.shownFacts = text;
     $('facts').replaceChildren(...facts.flatMap(([what, value]) => [
-      make('dt', { textContent: what }), make('dd', {}, typeof value === 'object' ? make('button',
-        { textContent: value.link, click: () => this.select(value.link) }) : value)]));
+      make('dt', { textContent: what }), make('dd', {}, ...[value].flat().map((part) => this.shown(part)))]));
+  }
+
+  /** A value as it is shown: a text, a link to a thing, or to a page. */
+  shown(value) {
+    if (typeof value !== 'object') return value;
+    const { link: textContent, href } = value;
+    return href ? make('a', { href, textContent }) : make('button', { textContent, click: () => this.select(textContent) });
   }
 
   // --- commands; `at` is where in the window the answer belongs
@@ -189,6 +221,13 @@ export class Details {
       answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
     }
   }
+}
+
+/** Why buttons can't be pressed, of [label, reason] each: 'Carry: …. Drop, Remove: …'. */
+export function whyNot(buttons) {
+  const labels = new Map();
+  for (const [label, why] of buttons) labels.set(why, [...labels.get(why) ?? [], label]);
+  return [...labels].map(([why, all]) => `${all.join(', ')}: ${why}.`).join(' ');
 }
 
 const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00

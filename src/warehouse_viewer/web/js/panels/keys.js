@@ -42,11 +42,21 @@ export class Keys {
     const { key, target } = event;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     if (target.matches(TYPED)) {
-      if (key === 'Escape') giveUp(target);
+      if (key === 'Escape') this.giveUp(target);
       return;
     }
     const isPressing = key === ' ' && target.matches('button, input'); // it presses that one
     if (!isPressing && this.obey(key, event.repeat)) event.preventDefault();
+  }
+
+  /** Leaves a field; a search that is given up finds everything again, and what it selected is left. */
+  giveUp(field) {
+    if (field.type === 'search') {
+      field.value = '';
+      field.dispatchEvent(new Event('input'));
+      this.leave();
+    }
+    field.blur();
   }
 
   /** True if the key means something here; one that is held down presses a button but once. */
@@ -56,15 +66,6 @@ export class Keys {
     act?.();
     return Boolean(act);
   }
-}
-
-/** Leaves a field; a search that is given up finds everything again. */
-function giveUp(field) {
-  if (field.type === 'search' && field.value) {
-    field.value = '';
-    field.dispatchEvent(new Event('input'));
-  }
-  field.blur();
 }
 
 /** Panels by number, as they stand in the rail. */

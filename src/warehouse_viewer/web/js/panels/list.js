@@ -2,16 +2,17 @@
 // The list of robots, those that need help first, of which only the rows in sight exist; and the search.
 
 import { $, make, on, press, tell } from '../base/dom.js';
+import { RobotMode } from '../base/message_enums.js';
 import { found, rowsOf, wanted } from '../base/search.js';
-import { ACTIVITY, ACTIVITY_CLASS, STATE } from '../base/words.js';
+import { ACTIVITY, ACTIVITY_CLASS, MODE_WORDS, STATE } from '../base/words.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
 
 export class RobotList {
   /** `select(name)` is called for what was clicked, `find(name)` for what was searched, `unknown(text)` for what is the name of nothing
-   *  ('': nothing is searched that way). */
-  constructor(world, select, find, unknown) {
-    Object.assign(this, { world, select, find, unknown, filter: '', text: '', chosen: null, rows: [] });
+   *  ('': nothing is searched that way); `modeOf(id)` has who commands a robot, if a coordinator runs. */
+  constructor(world, select, find, unknown, modeOf) {
+    Object.assign(this, { world, select, find, unknown, modeOf, filter: '', text: '', chosen: null, rows: [] });
     this.box = $('robots');
     this.inside = make('div');
     this.box.append(this.inside);
@@ -39,8 +40,8 @@ export class RobotList {
 
   search(text) {
     this.text = wanted(text);
-    const { units, items, scenery } = this.world.scene;
-    const names = found([...units, ...items, ...scenery], this.text);
+    const { units, items, scenery, stations } = this.world.scene;
+    const names = found([...new Set([...stations.map(({ name }) => name), ...units, ...items, ...scenery])], this.text);
     $('found').replaceChildren(...names.map((name) => (
       make('button', { textContent: name, click: () => this.find(name) }))));
     $('found').hidden = names.length === 0;
@@ -67,9 +68,9 @@ export class RobotList {
   }
 
   takeFirst() {
-    const exact = this.world.indexOf.has(this.text) ? this.text : null;
-    const first = this.rows.length ? this.nameOf(this.rows[0]) : $('found').firstChild?.textContent;
-    if (exact ?? first) this.find(exact ?? first);
+    const name = this.world.indexOf.has(this.text) ? this.text : this.rows.length ? this.nameOf(this.rows[0]) : '';
+    if (name) this.find(name);
+    else $('found').querySelector('button')?.click();
   }
 
   nameOf(i) {
@@ -83,12 +84,12 @@ export class RobotList {
 
   /** Counts and sorts the robots, and draws the rows. */
   refresh() {
-    const { activity } = this.world;
+    const { activity, scene } = this.world, isKnown = 'protocol' in scene;
     const counts = ACTIVITY.map(() => 0);
     for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      tell(button.querySelector('b'), String(filter === '' ? activity.length : counts[filter]));
+      tell(button.querySelector('b'), isKnown ? String(filter === '' ? activity.length : counts[filter]) : '');
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
@@ -107,7 +108,7 @@ export class RobotList {
   /** A row that says the same already stays. */
   drawRow(old, i, at) {
     const { activity, state, shelf } = this.world;
-    const shows = [i, at, activity[i], state[i], shelf[i], this.nameOf(i) === this.chosen].join();
+    const shows = [i, at, activity[i], state[i], shelf[i], this.byPerson(i), this.nameOf(i) === this.chosen].join();
     if (old?.shows === shows) return;
     const row = Object.assign(this.row(i, at), { shows });
     if (old) old.replaceWith(row);
@@ -117,16 +118,23 @@ export class RobotList {
   row(i, at) {
     const { activity, state, shelf } = this.world;
     const name = this.nameOf(i);
-    const does = activity[i];
+    const does = activity[i], byPerson = this.byPerson(i);
     const load = shelf[i] ? `carries ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
       make('span', { className: `badge ${ACTIVITY_CLASS[does]}`, textContent: ACTIVITY[does] }), name,
+      ...byPerson ? [make('span', { className: 'badge', textContent: byPerson })] : [],
       make('span', { className: 'load', textContent: load }));
     Object.assign(out.style, { top: `${this.rowHeight * at}px`, height: `${this.rowHeight}px` });
     out.dataset.name = name;
     out.setAttribute('role', 'option');
     out.setAttribute('aria-selected', String(name === this.chosen));
     return out;
+  }
+
+  /** The word for a robot's mode where the coordinator does not command it, or ''. */
+  byPerson(i) {
+    const mode = this.modeOf(this.world.scene.robots[i]) ?? RobotMode.AUTOMATIC;
+    return mode === RobotMode.AUTOMATIC ? '' : MODE_WORDS[mode];
   }
 
   onKey(event) {

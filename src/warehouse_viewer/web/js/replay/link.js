@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Addresses of a moment: /#t=630.5 in seconds of simulated time, /#at=10:42 by the clock on the wall
-// where it is known, else by that of the shift.
+// where it is known, else by that of the shift; with &see=kiva7 for what is selected, and &from= for
+// where the camera is, what it looks at, and its zoom from above.
 
 import { readClock } from './clock.js';
 
@@ -8,7 +9,7 @@ const DAY = 86400; // [s]
 
 /** {t}, {clock} in seconds, or null where an address names no moment. */
 export function momentOf(hash) {
-  const [, name, text] = /^#?(t|at)=(.+)$/.exec(hash) ?? [];
+  const [, name, text] = /^#?(t|at)=([^&]+)/.exec(hash) ?? [];
   if (name === 't') {
     const t = Number(text);
     return text.trim() && Number.isFinite(t) ? { t } : null;
@@ -17,9 +18,22 @@ export function momentOf(hash) {
   return clock || clock === 0 ? { clock } : null;
 }
 
-/** The address of a moment [s, simulated] on the page at `href`. */
-export function linkTo(href, t) {
-  return `${href.replace(/#.*/, '')}#t=${Math.round(10 * t) / 10}`;
+/** The address of a moment [s, simulated] on the page at `href`, with the name of what is selected
+ *  and a view {position, target, zoom} of the floor, if there are such. */
+export function linkTo(href, t, { name, view } = {}) {
+  const see = name ? `&see=${encodeURIComponent(name)}` : '';
+  const numbers = view ? [...view.position, ...view.target, ...view.zoom ? [view.zoom] : []] : [];
+  const from = view ? `&from=${numbers.map((n) => Math.round(100 * n) / 100).join()}` : '';
+  return `${href.replace(/#.*/, '')}#t=${Math.round(10 * t) / 10}${see}${from}`;
+}
+
+/** {name, view} that an address has beside its moment; null for each that it has not. */
+export function lookOf(hash) {
+  const query = new URLSearchParams(hash.replace(/^#/, ''));
+  const numbers = (query.get('from') ?? '').split(',').map((text) => (text ? Number(text) : NaN));
+  const isView = [6, 7].includes(numbers.length) && numbers.every(Number.isFinite) && (numbers[6] ?? 1) > 0;
+  const view = isView ? { position: numbers.slice(0, 3), target: numbers.slice(3, 6), zoom: numbers[6] ?? 0 } : null;
+  return { name: query.get('see'), view };
 }
 
 /** The simulated time [s] of a moment, by the chunks of a recording, [{begin, end, wall}]. */

@@ -4,7 +4,7 @@
 import { $, on, press, setIcon } from '../base/dom.js';
 import { hms, wallClock } from './clock.js';
 import { freeze } from './frozen.js';
-import { linkTo, momentOf, timeOf, wallAt } from './link.js';
+import { linkTo, lookOf, momentOf, timeOf, wallAt } from './link.js';
 import { Player } from './player.js';
 import { Recording } from './recording.js';
 import { Track } from './track.js';
@@ -81,7 +81,9 @@ export class Timeline {
   /** Shows the moment that the address names, if it names one. */
   async follow() {
     const moment = momentOf(location.hash);
-    if (moment) await this.enter(timeOf(moment, this.recording.chunks));
+    if (!moment) return;
+    await this.enter(timeOf(moment, this.recording.chunks));
+    this.page.look(lookOf(location.hash));
   }
 
   seek(time) {
@@ -138,7 +140,7 @@ export class Timeline {
   }
 
   async copy() {
-    const link = linkTo(location.href, this.isLive ? this.stamp : this.player.time);
+    const link = linkTo(location.href, this.isLive ? this.stamp : this.player.time, this.page.looks());
     try {
       await navigator.clipboard.writeText(link);
       this.page.tip.say('the link is copied', 'done');

@@ -5,7 +5,7 @@ import { make, on } from '../base/dom.js';
 
 const STEPS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -60, PageUp: 60 }; // [s]
 const COARSE = 10; // times a step, with the shift key
-const NEAR = 6; // of a mark, which the pointer then means [px]
+const NEAR = { mouse: 12, touch: 22 }; // of a mark, which the pointer then means [px]
 
 export class Track {
   /** `seek(time)` is called for a time that a person chose, `told(time)` has it as text. */
@@ -19,7 +19,10 @@ export class Track {
     on(box, 'pointermove', (event) => this.onMove(event));
     on(box, 'pointerup', () => { this.isHeld = false; });
     on(box, 'pointercancel', () => { this.isHeld = false; });
-    on(box, 'pointerleave', () => { this.tip.hidden = true; });
+    on(box, 'pointerleave', () => {
+      this.tip.hidden = true;
+      this.light(null);
+    });
   }
 
   setRange(begin, end) {
@@ -65,10 +68,18 @@ export class Track {
     return this.begin + Math.min(1, Math.max(0, (clientX - left) / width)) * (this.end - this.begin);
   }
 
-  /** The mark that a pointer is at, if any. */
-  markAt(time) {
-    const near = NEAR * (this.end - this.begin) / this.box.clientWidth;
-    return this.shownMarks?.find((mark) => Math.abs(mark.time - time) < near);
+  /** The mark nearest to a pointer, if it is near. */
+  markAt(time, pointerType) {
+    const near = (NEAR[pointerType] ?? NEAR.mouse) * (this.end - this.begin) / this.box.clientWidth;
+    const away = ({ time: at }) => Math.abs(at - time);
+    const nearest = this.shownMarks?.reduce((best, mark) => (best && away(best) <= away(mark) ? best : mark), null);
+    return nearest && away(nearest) < near ? nearest : null;
+  }
+
+  /** Shows which mark a click would mean; null: none. */
+  light(mark) {
+    const at = this.shownMarks?.indexOf(mark) ?? -1;
+    [...this.marks.children].forEach((element, i) => element.classList.toggle('meant', i === at));
   }
 
   onKey(event) {
@@ -84,12 +95,13 @@ export class Track {
   onDown(event) {
     this.box.setPointerCapture(event.pointerId);
     this.isHeld = true;
-    const time = this.timeAt(event), mark = this.markAt(time);
+    const time = this.timeAt(event), mark = this.markAt(time, event.pointerType);
     this.seek(mark ? Math.max(this.begin, mark.time - 1) : time);
   }
 
   onMove(event) {
-    const time = this.timeAt(event), mark = this.markAt(time);
+    const time = this.timeAt(event), mark = this.markAt(time, event.pointerType);
+    this.light(this.isHeld ? null : mark);
     if (this.isHeld) this.seek(time);
     this.tip.hidden = false;
     this.tip.style.left = this.left(time);

@@ -42,6 +42,19 @@ export class Navigator {
       zoom: scaleFor(this.stage.bounds, heading, free) });
   }
 
+  /** Where the camera is and what it looks at; `zoom` from above, else 0. */
+  get view() {
+    const { camera, controls, isAbove } = this.stage;
+    return { position: camera.position.toArray(), target: controls.target.toArray(), zoom: isAbove ? camera.zoom : 0 };
+  }
+
+  /** Looks from a view of before. */
+  restore(view) {
+    this.showAll(Boolean(view.zoom)); // its near and far
+    if (!view.zoom) this.stage.camera.near = 0.1;
+    this.take(view);
+  }
+
   take({ position, target, zoom }) {
     const { camera, controls } = this.stage;
     camera.position.set(...position);

@@ -47,8 +47,18 @@ export class Pointer {
     if (solid) return { hit: solid };
     const cell = this.page.wantsCell ? this.cellAt(...at) : null;
     if (cell && world.unitAt(cell) < 0) return { cell };
-    const hit = this.picker.pick(...at);
+    const hit = this.signAt(at) ?? this.picker.pick(...at);
     return hit ? { hit } : { cell };
+  }
+
+  /** The station whose sign is there, as {kind, index}; none while a cell is wanted, which a sign may hide. */
+  signAt([x, y]) {
+    if (this.page.wantsCell) return null;
+    const sign = [...this.page.labels.box.querySelectorAll('.sign:not([hidden])')].find((element) => {
+      const { left, right, top, bottom } = element.getBoundingClientRect();
+      return x >= left && x <= right && y >= top && y <= bottom;
+    });
+    return (sign && this.page.world.indexOf.get(sign.textContent)) ?? null;
   }
 
   /** The grid point of the cell there, or null. */

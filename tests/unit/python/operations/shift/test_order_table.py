@@ -47,6 +47,24 @@ def test_where_one_is_wrong_none_is_accepted(table, line, column, text):
     assert not the_book.orders
 
 
+def test_every_fault_of_a_row_is_named_with_limits_that_a_person_can_use():
+    table = TWO + "C,sku-none,none,soon,999\nD,sku-1,3000000000,,\nE,sku-none,0,,\n"
+    faults = order_table.submit(book(), table).faults
+    assert [(fault.line, fault.column) for fault in faults] == [
+        *((5, column) for column in ("sku", "quantity", "due", "priority")),
+        (6, "quantity"),
+        (7, "quantity"),
+    ]
+    texts = [fault.text.partition("; ")[2] for fault in faults]
+    assert texts[1:] == [
+        "a whole number from 1 on was expected",
+        "a number from 0 on was expected",
+        "a whole number from 0 to 255 was expected",
+        "a whole number from 1 to 2,147,483,647 was expected",
+        "a whole number from 1 on was expected",
+    ]
+
+
 def test_so_many_orders_as_would_stop_the_shift_are_refused(monkeypatch):
     monkeypatch.setattr(order_table, "MOST_ORDERS", 1)
     assert order_table.submit(book(), TWO).faults[0].text == "2 orders; 1 or fewer were expected"

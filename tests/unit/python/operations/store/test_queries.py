@@ -39,6 +39,21 @@ def test_orders_are_found(engine):
     assert (total, orders[0][0].reference) == (3, "AB1")
 
 
+def test_the_order_that_is_named_comes_before_others_with_a_part_of_its_name(tmp_path):
+    path = tmp_path / "run.db"
+    with Operations(site=site(), database=path, orders="none") as ops:
+        for reference in ("A-1", "a-12", "A-13", "2"):
+            ops.shift.submit([("sku-1", 1)], reference=reference)
+        ops.run(minutes=1)
+    named = lambda text: [  # noqa: E731
+        row.reference for row, _ in find_orders(open_engine(path), search=text)[1]
+    ]
+    assert named("a-1") == ["A-1", "A-13", "a-12"]
+    assert named("2") == ["2", "a-12"]  # its reference, and the number of the other
+    assert named("3") == ["A-13"]
+    assert find_orders(open_engine(path), search="A-1", limit=1)[0] == 3
+
+
 def test_stock_is_found(engine):
     total, pieces, rows = find_stock(engine, "sku-2")
     assert total == len(rows) and pieces == sum(row.quantity for row in rows)

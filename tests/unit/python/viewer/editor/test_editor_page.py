@@ -33,6 +33,18 @@ from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generator
 from warehouse_layout.place import file_check
 
+# The links that a running warehouse has, with a count of alarms.
+ALL_LINKS = """document.querySelector('.site').innerHTML =
+  ['Floor', 'Operations<span class="badge needs-help count">12</span>', 'Layout', 'What-if', 'API',
+    'Docs'].map((title) => `<a href="/">${title}</a>`).join('')"""
+# Buttons and links that lie beside the window, or beneath something else.
+OUT_OF_SIGHT = """[...document.querySelectorAll('.top :is(button, a, input), .acts button')]
+  .filter((element) => element.checkVisibility()).filter((element) => {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    const hit = document.elementFromPoint(left + width / 2, top + height / 2);
+    return left < 0 || left + width > innerWidth || !element.contains(hit);
+  }).map((element) => element.id || element.textContent)"""
+
 
 @pytest.fixture(scope="module")
 def address():
@@ -85,6 +97,8 @@ def test_a_first_layout_is_drawn_tried_and_saved(chromium, tmp_path):
         chromium.click_on("save")
         chromium.until("document.getElementById('said').textContent.startsWith('saved')")
         assert chromium.complaints() == []
+        # The trial's process may be about to end: the page, not the server, leaves its answer.
+        chromium.open("about:blank")
     drawn = layout_file.read(file)
     assert file_check.faults(drawn) == []
     assert (drawn.robots, len(drawn.stations), np.sum(drawn.floor == "s")) == (6, 2, 36)
@@ -100,6 +114,16 @@ def test_the_page_is_for_all_and_looks_as_it_did(page):
         assert axe.findings(page, "dialog[open]") == []
         page.read("document.querySelector('dialog[open]').close()")
     pictures.compare(page, "layout")
+
+
+@pytest.mark.parametrize("width", [1600, 1440, 1024, 820])
+def test_every_button_is_in_sight_whatever_the_width(page, width):
+    """Beside all links of a running warehouse, one of them with alarms."""
+    page.be_screen(width, 900)
+    page.read(ALL_LINKS)
+    page.until(f"innerWidth === {width}")
+    assert page.read(OUT_OF_SIGHT) == []
+    page.be_desktop()
 
 
 def test_a_closed_tab_loses_nothing(page, address):

@@ -3,12 +3,14 @@
 
 import base64
 import hashlib
+import json
 
 import pytest
 from asgi import request
 from starlette.applications import Starlette
 
 from warehouse_viewer.server import documentation
+from warehouse_viewer.server.site import DOCS, FLOOR, Site
 
 SCRIPT = "document.body.dataset.theme = 'auto';"
 
@@ -41,6 +43,13 @@ def test_leads_to_the_folder(built):
 def test_tells_how_to_build_what_is_missing(tmp_path):
     answer = request(site(tmp_path / "none"), "/docs/")
     assert answer.status == 404 and b"make docs" in answer.body
+
+
+def test_pages_lead_to_it_only_where_it_is_built(tmp_path, built, monkeypatch):
+    app = Starlette(routes=Site(FLOOR, DOCS).routes())
+    for folder, titles in ((tmp_path / "none", ["Floor"]), (built, ["Floor", "Docs"])):
+        monkeypatch.setattr(documentation, "FOLDERS", (folder,))
+        assert [page["title"] for page in json.loads(request(app, "/pages").body)] == titles
 
 
 def test_only_its_own_scripts_run(built):

@@ -9,9 +9,9 @@ from sample_messages import fleet
 
 from warehouse_msgs.msg import Kpis, StationState, Throughput
 from warehouse_viewer.api import order_sheet
-from warehouse_viewer.page.activities import Activity
+from warehouse_viewer.page.activities import QUEUED_TOO_LONG, Activity
 from warehouse_viewer.watch.figures import Figures
-from warehouse_viewer.watch.station_watch import QUEUED_TOO_LONG, StationWatch, state_of
+from warehouse_viewer.watch.station_watch import StationWatch, state_of
 
 ORDER = {
     "order_id": 7,

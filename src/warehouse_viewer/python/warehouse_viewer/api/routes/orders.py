@@ -30,7 +30,10 @@ from warehouse_viewer.ros.operations_client import ANY
 router = APIRouter()
 ORDER = Path(ge=1, le=2**53)
 SEARCH = Query(
-    "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
+    "",
+    max_length=200,
+    regex=r"^[ -~]*$",
+    description="a part of the reference, a SKU, or the number of an order",
 )
 LATE = Query(False, description="those past their due time alone")
 AT_ONCE, MOST_EXPORTED = 5_000, 100_000  # orders
