@@ -7,6 +7,7 @@ import os
 import secrets
 import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +18,7 @@ MISSING = (
 )
 
 
+STARTUP = 20.0  # [s, wall]
 KEY, ALLOW, CLIENT = b"x-warehouse-key", b"x-warehouse-allow", b"x-warehouse-client"
 
 Headers = list[tuple[bytes, bytes]]
@@ -52,19 +54,20 @@ class Assistant:
         self.address, self.reason = "", MISSING
         self._permission = permission
         self._popen: subprocess.Popen | None = None
+        self._port, self._answers = 0, False
         # The port is any program's of this machine; only the hub knows the key.
         self._key = secrets.token_hex(16)
         if python and python.exists():
-            port = free_port()
-            module = [str(python), "-m", "warehouse_assistant", "--port", str(port), "--hub", hub]
+            self._port = free_port()
+            module = [str(python), "-m", "warehouse_assistant", "--port", str(self._port)]
             self._popen = subprocess.Popen(
-                ["setpriv", "--pdeathsig", "TERM", *module],
+                ["setpriv", "--pdeathsig", "TERM", *module, "--hub", hub],
                 stdin=subprocess.DEVNULL,
                 stdout=sys.stderr,
                 env={**os.environ, "WAREHOUSE_TOKEN": token, "WAREHOUSE_ASSISTANT_KEY": self._key},
                 start_new_session=True,
             )
-            self.address = f"http://127.0.0.1:{port}"
+            self.address = f"http://127.0.0.1:{self._port}"
         elif python:
             self.reason = f"the assistant's environment has no {python}: `make serve` makes it"
 
@@ -74,6 +77,17 @@ class Assistant:
         if self._permission.holds(headers):
             own.append((ALLOW, b"commands"))
         return [pair for pair in headers if pair[0] not in (KEY, ALLOW, CLIENT)] + own
+
+    async def wait(self) -> None:
+        """Waits until its server answers for the first time, STARTUP at most."""
+        end = time.monotonic() + STARTUP
+        while not (self._answers or self.fault()) and time.monotonic() < end:
+            try:
+                _, writer = await asyncio.open_connection("127.0.0.1", self._port)
+                writer.close()
+                self._answers = True
+            except OSError:
+                await asyncio.sleep(0.1)
 
     def fault(self) -> str:
         """Returns why it can't answer; "" if it can."""

@@ -184,6 +184,7 @@ class _Assistant:
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         assistant = self._assistant()
+        await assistant.wait()
         if fault := assistant.fault():
             await _refused(503, fault, scope, receive, send)
         else:

@@ -6,7 +6,6 @@ import { $, enable, make, on, press, tell } from '../base/dom.js';
 import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
 import { vda5050Of } from './vda5050.js';
 import { ROOT } from '../base/root.js';
-import { waitsOf } from '../base/station_waits.js';
 import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, STATE, STATION_STATES } from '../base/words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
@@ -133,7 +132,8 @@ export class Details {
     const station = this.stationOf(this.name);
     if (!station) return [['state', 'no shift is running']];
     const { open, activity, mode, queue } = station;
-    const [waits] = waitsOf(station, this.world.stamp);
+    this.words ??= import('../base/station_waits.js').then((words) => Object.assign(this, words)); // the first view is short of room
+    const [waits] = this.waitsOf?.(station, this.world.stamp) ?? [''];
     const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
     return [['state', !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity]],
       ['works', mode === StationMode.MANUAL ? 'manually' : 'automatically'], ...waits ? [['unit', waits]] : [],
