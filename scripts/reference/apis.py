@@ -15,6 +15,9 @@ ABOUT = {
     "warehouse_sim": "What the nodes of a launch share.",
 }
 
+# It has an environment of its own, and is called by the Model Context Protocol, not from Python.
+WITHOUT_API = {"warehouse_assistant"}
+
 OPTIONS = {
     "kiva_plugin_cpp": [":imported-members:"],
     "warehouse_fleet": [":exclude-members: Floor, FloorError"],  # of warehouse_layout

@@ -10,10 +10,6 @@ import argparse
 import os
 from urllib.parse import urlsplit
 
-from warehouse_assistant.hub_client import HubClient
-from warehouse_assistant.library import Library
-from warehouse_assistant.server import AssistantServer, serve_http
-
 
 def _settings() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
@@ -36,6 +32,11 @@ def _settings() -> argparse.Namespace:
 def main() -> None:
     """Serves until its client or the hub goes."""
     settings = _settings()
+    # Imported here, so that --help answers where the packages of PyPI are not installed.
+    from warehouse_assistant.hub_client import HubClient
+    from warehouse_assistant.library import Library
+    from warehouse_assistant.server import AssistantServer, serve_http
+
     hub = HubClient(settings.hub, os.environ.get("WAREHOUSE_TOKEN", ""))
     server = AssistantServer(hub, settings.allow == "commands", Library(hub))
     if settings.port is None:
