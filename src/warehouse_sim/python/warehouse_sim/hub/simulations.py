@@ -81,7 +81,6 @@ class Simulations:
         Raises WishError where the body is wrong, Conflict where the name is taken or the limit of
         simulations is reached, OSError.
         """
-        folder = self._folder / str(body.get("name", ""))
         asked = await self._in_thread(wish.read, body, self._folder)
         async with self._lock(asked.name):
             if asked.name in self._all:

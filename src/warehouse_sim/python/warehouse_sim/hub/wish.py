@@ -12,7 +12,7 @@ from typing import Any
 from warehouse_layout.file import files
 from warehouse_layout.file.layout_file import SUFFIX
 from warehouse_sim import launch_arguments, launching
-from warehouse_sim.launch_arguments import ARGUMENTS, Place
+from warehouse_sim.launch_arguments import ARGUMENTS, OF_THE_SHIFT, Place
 
 NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
 FILES = {"shift": "operations.launch", "empty": "empty_world.launch"}
@@ -89,7 +89,10 @@ def _file(body: Mapping[str, Any]) -> str:
             raise WishError(key, "true or false was expected")
     if len(chosen) > 1:
         raise WishError("empty", "a shift needs a warehouse; leave one of both out")
-    return FILES[chosen[0]] if chosen else DEFAULT_FILE
+    if chosen:
+        return FILES[chosen[0]]
+    asks_for_shift = "shift" not in body and not body.keys().isdisjoint(OF_THE_SHIFT)
+    return FILES["shift"] if asks_for_shift else DEFAULT_FILE
 
 
 def _check_known(values: Mapping[str, Any], file: str) -> None:

@@ -25,6 +25,10 @@ def test_a_shift_and_an_empty_world_have_launch_files_of_their_own(tmp_path, kin
     assert wish.read({"name": "a", kind: True}, tmp_path).file == file
 
 
+def test_orders_ask_for_a_shift(tmp_path):
+    assert wish.read({"name": "a", "orders": "poisson:100"}, tmp_path).file == "operations.launch"
+
+
 @pytest.mark.parametrize(
     "body, field, reason, nearest",
     [
@@ -39,7 +43,7 @@ def test_a_shift_and_an_empty_world_have_launch_files_of_their_own(tmp_path, kin
         ({"name": "a", "viewer_port": 80}, "viewer_port", "the hub sets it", ""),
         ({"name": "a", "shift": "yes"}, "shift", "true or false", ""),
         ({"name": "a", "shift": True, "empty": True}, "empty", "a shift needs a warehouse", ""),
-        ({"name": "a", "orders": "poisson:100"}, "orders", "no such argument", ""),
+        ({"name": "a", "orders": "fill", "shift": False}, "orders", "no such argument", ""),
         ({"name": "a", "world": "mars"}, "world", "there is no world 'mars'", ""),
         ({"name": "a", "realism": "a\nb"}, "realism", "one line", ""),
         ({"name": "a", "size": "x" * 5000}, "size", "5000 characters", ""),
