@@ -35,7 +35,7 @@ def drawn(agents, steps, seed=1):
 
 
 def seed_that_delivers(actions):
-    """Of a robot alone on the grid."""
+    """Returns a seed with which a robot alone on the grid delivers."""
     env = make("grid", 1)
     for seed in range(1000):
         env.reset(seed=seed)
@@ -101,7 +101,7 @@ def test_bodies_are_where_the_task_has_them(decision):
 
 
 def test_robots_wait_for_a_cell_until_it_is_empty():
-    """On the grid a robot follows at once."""
+    """A robot on the grid follows at once."""
     options = {"layout": ". . . . .\ng . . . x", "request_queue_size": 1}
     seed = seed_of_a_column(options)
     steps = {}

@@ -19,10 +19,10 @@ axe.run(only || document).then(({ violations }) => done(violations.flatMap((rule
 @cache
 def library() -> str:
     """Returns the JavaScript of axe; skips the test where it is not installed."""
-    found = sorted(ROOT.glob(LIBRARY))
-    if not found:
+    libraries = sorted(ROOT.glob(LIBRARY))
+    if not libraries:
         raise unittest.SkipTest("axe is not installed: scripts/axe does it")
-    return found[-1].read_text(encoding="utf-8")
+    return libraries[-1].read_text(encoding="utf-8")
 
 
 def is_there() -> bool:

@@ -74,8 +74,8 @@ class Browser:
 
     def wear(self, theme):
         """Dresses the page in "dark" or "light", as the system or a person would, at once."""
-        wanted = {"prefers-color-scheme": theme, "prefers-reduced-motion": "reduce"}
-        features = [{"name": name, "value": value} for name, value in wanted.items()]
+        settings = {"prefers-color-scheme": theme, "prefers-reduced-motion": "reduce"}
+        features = [{"name": name, "value": value} for name, value in settings.items()]
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
         self.driver.execute_script(THEME, theme)
 

@@ -128,6 +128,6 @@ class Robot:
         script = self._script(command(topic, self.number, **fields))
         self._executor.play({self.number: script})
 
-    def _script(self, wanted):
-        event = yield wanted
-        assert event.kind == Event.DONE, f"{wanted}: {event.text}"
+    def _script(self, commands):
+        event = yield commands
+        assert event.kind == Event.DONE, f"{commands}: {event.text}"

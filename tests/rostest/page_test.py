@@ -31,8 +31,8 @@ def fetch(path, data=None, method=None, **headers):
 def ask(path, body=None, method=None, **headers):
     """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
     data = None if body is None else json.dumps(body).encode()
-    status, told = fetch("api/v1" + path, data, method, **headers)
-    return status, json.loads(told)
+    status, answer = fetch("api/v1" + path, data, method, **headers)
+    return status, json.loads(answer)
 
 
 class PageTest(unittest.TestCase):

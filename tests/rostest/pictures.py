@@ -25,11 +25,11 @@ def compare(page, name, theme="light"):
     """Holds a Browser's page to the picture of that name; skips the test where fonts differ."""
     if not FONT.exists():
         raise unittest.SkipTest(f"pictures were made with {FONT}, which is not installed")
-    seen, path = picture(page, theme), FOLDER / f"{name}.png"
+    screenshot, path = picture(page, theme), FOLDER / f"{name}.png"
     if os.environ.get(WRITE):
         FOLDER.mkdir(exist_ok=True)
-        seen.quantize(64).save(path, optimize=True)
-    part = difference(seen, Image.open(path).convert("RGB"))
+        screenshot.quantize(64).save(path, optimize=True)
+    part = difference(screenshot, Image.open(path).convert("RGB"))
     assert part <= MAY_DIFFER, (
         f"{part:.1%} of {name} looks otherwise than {path.name}; if it should: scripts/pictures"
     )
@@ -45,14 +45,14 @@ def picture(page, theme):
         "const [done] = arguments; document.fonts.ready.then(() =>"
         " requestAnimationFrame(() => requestAnimationFrame(done)))"
     )
-    seen = Image.open(io.BytesIO(page.driver.get_screenshot_as_png())).convert("RGB")
+    screenshot = Image.open(io.BytesIO(page.driver.get_screenshot_as_png())).convert("RGB")
     page.be_desktop()
-    return seen.resize((width // SMALLER, height // SMALLER), Image.Resampling.BOX)
+    return screenshot.resize((width // SMALLER, height // SMALLER), Image.Resampling.BOX)
 
 
-def difference(one, other):
+def difference(first, other):
     """Returns the part of the pixels of two pictures that differ."""
-    if one.size != other.size:
+    if first.size != other.size:
         return 1.0
-    apart = np.abs(np.asarray(one, int) - np.asarray(other, int)).max(axis=2)
+    apart = np.abs(np.asarray(first, int) - np.asarray(other, int)).max(axis=2)
     return float((apart > NEAR).mean())

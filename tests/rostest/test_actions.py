@@ -31,7 +31,7 @@ class Client:
         wait_until(lambda: self._client.wait_for_server(soon), "the action server")
 
     def send(self, goal, heard):
-        self._goal = self._client.send_goal(goal, feedback_cb=lambda _, told: heard(told))
+        self._goal = self._client.send_goal(goal, feedback_cb=lambda _, feedback: heard(feedback))
 
     def cancel(self):
         self._goal.cancel()
@@ -68,8 +68,8 @@ class Actions(unittest.TestCase):
         return place(name)[:2]
 
     def assert_near(self, name, point):
-        for is_at, wanted in zip(self.at(name), point):
-            self.assertAlmostEqual(is_at, wanted, delta=NEAR)
+        for is_at, expected in zip(self.at(name), point):
+            self.assertAlmostEqual(is_at, expected, delta=NEAR)
 
     def test_move(self):
         self.send(self.move, MoveGoal(1, *self.street))

@@ -99,10 +99,10 @@ class Sensors:
         self.publish(self.drifting, true, inner, "bot_odom")
 
     def publish(self, topic, true, place, frame):
-        told = Odometry(header=true.header, child_frame_id="bot_base", twist=true.twist)
-        told.header.frame_id = frame
-        told.pose.pose = pose(*place[:2], yaw=place[2])
-        topic.publish(told)
+        drifted = Odometry(header=true.header, child_frame_id="bot_base", twist=true.twist)
+        drifted.header.frame_id = frame
+        drifted.pose.pose = pose(*place[:2], yaw=place[2])
+        topic.publish(drifted)
 
 
 def transform(stamp, parent, child, place):

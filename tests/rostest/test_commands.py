@@ -127,17 +127,17 @@ class Commands(unittest.TestCase):
         self.assertEqual((refused.success, refused.message), (False, "there is no robot kiva99"))
 
     def test_people_come_and_walk_and_stop_robots(self):
-        told = Collector("/warehouse/people", People)
-        self.addCleanup(told.close)
+        people = Collector("/warehouse/people", People)
+        self.addCleanup(people.close)
         self.walk("person1", [5, 5], [8, 4])
         self.addCleanup(delete, "person1")
-        self.assertEqual(told.first(lambda m: m.name == ["person1"] and m.vy[0] < 0).stopped, ())
-        told.first(lambda m: m.name == ["person1"] and m.y[0] == 4)
+        self.assertEqual(people.first(lambda m: m.name == ["person1"] and m.vy[0] < 0).stopped, ())
+        people.first(lambda m: m.name == ["person1"] and m.y[0] == 4)
         self.assertAlmostEqual(place("person1")[1], 4)
         self.assertTrue(call("/warehouse/light_curtain", LightCurtain, "c", -9, -9, 9, 9).success)
-        told.first(lambda m: 1 in m.stopped)
+        people.first(lambda m: 1 in m.stopped)
         self.assertTrue(call("/warehouse/light_curtain", LightCurtain, "c", 0, 0, 0, 0).success)
-        told.first(lambda m: m.name and not m.stopped)
+        people.first(lambda m: m.name and not m.stopped)
         for name, x, y, why in (
             ("person1", [400], [0], "waypoint 0 at (400, 0) is not on the floor"),
             ("person1", [1, 2], [0], "2 x and 1 y"),

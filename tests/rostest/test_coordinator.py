@@ -80,10 +80,10 @@ class Fleet(unittest.TestCase):
 
     def wait_for(self, number, *kinds):
         """Until all that happened to a transport is that, in this order."""
-        wanted = [getattr(TransportEvent, kind) for kind in kinds]
+        expected_kinds = [getattr(TransportEvent, kind) for kind in kinds]
         mine = lambda messages: [e.kind for e in messages if e.transport_id == number]  # noqa: E731
-        seen = self.transports.wait_for(lambda m: len(mine(m)) >= len(wanted), PATIENCE)
-        self.assertEqual(mine(seen), wanted)
+        events = self.transports.wait_for(lambda m: len(mine(m)) >= len(expected_kinds), PATIENCE)
+        self.assertEqual(mine(events), expected_kinds)
 
     def refused(self, *args):
         answer = call("/warehouse/transport", Transport, *args)
@@ -239,8 +239,8 @@ class Fleet(unittest.TestCase):
         lost = lambda messages: {  # noqa: E731
             e.transport_id for e in messages if e.text == "the coordinator was restarted"
         }
-        seen = self.transports.wait_for(lambda messages: lost(messages) >= set(asked), PATIENCE)
-        numbers = [e.transport_id for e in seen if e.kind == TransportEvent.RECEIVED]
+        events = self.transports.wait_for(lambda messages: lost(messages) >= set(asked), PATIENCE)
+        numbers = [e.transport_id for e in events if e.kind == TransportEvent.RECEIVED]
         self.assertEqual(len(numbers), len(set(numbers)))
         # What they carry is put down, all of it.
         self.fleet.clear()

@@ -69,9 +69,9 @@ class FleetPage(PageTest):
 
     def wait_for(self, transport, state):
         """The transport, once it is so far."""
-        found = lambda: ask(f"/transports/{transport}")[1]  # noqa: E731
-        wait_until(lambda: found()["state"] == state, f"transport {transport} {state}")
-        return found()
+        asked = lambda: ask(f"/transports/{transport}")[1]  # noqa: E731
+        wait_until(lambda: asked()["state"] == state, f"transport {transport} {state}")
+        return asked()
 
     def test_a_transport_is_seen_on_its_way_and_is_let_go(self):
         self.page.click_on("ways")
@@ -131,7 +131,7 @@ class FleetPage(PageTest):
         unit = "storage_unit7"
         home = call("/gazebo/get_model_state", GetModelState, unit, "world").pose.position
         put(unit, *open_place(), tilt=0.7)
-        fell = latched("/warehouse/objects", WarehouseObjects, lambda told: told.fallen_item)
+        fell = latched("/warehouse/objects", WarehouseObjects, lambda objects: objects.fallen_item)
         item = fell.items[fell.fallen_item[0]]
         self.assertEqual(fell.storage_units[fell.fallen_from[0]], unit)
         self.state.until(lambda s: f"{item} lies on the floor, off {unit}" in s.alarms)
@@ -151,7 +151,7 @@ class FleetPage(PageTest):
         self.page.until(f"!page.world.scene.fallen_item.some((i) => {name_of('i')} === '{item}')")
         self.page.until("document.getElementById('facts').textContent.includes('lies on')")
         self.assertEqual(call("/warehouse/pick_up", PickUp, "").message, "")
-        latched("/warehouse/objects", WarehouseObjects, lambda told: not told.fallen_item)
+        latched("/warehouse/objects", WarehouseObjects, lambda objects: not objects.fallen_item)
         self.state.until(lambda s: not s.alarms)
         refused = ask("/items/1/pick_up", {})
         self.assertEqual((refused[0], "no 'item1' has fallen" in refused[1]["detail"]), (409, True))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""As fast as it goes, services and commands are still served."""
+"""A world as fast as it goes still serves services and commands."""
 
 import time
 import unittest

@@ -91,8 +91,8 @@ class World(unittest.TestCase):
             if name not in ("ground_plane",):
                 delete(name)
 
-    def assert_close(self, one, other, delta=1e-6):
-        for a, b in zip(one, other):
+    def assert_close(self, first, other, delta=1e-6):
+        for a, b in zip(first, other):
             self.assertAlmostEqual(a, b, delta=delta)
 
 
@@ -115,9 +115,9 @@ class Links(World):
             twist = Twist(Vector3(0.1, 0, 0), Vector3(0, 0, 0.2))
             answer = self.put("cube::body", pose(1, 0, 1), "mark::link", twist)
             self.assertEqual(answer.status_message, "SetLinkState: success")
-            seen = self.link()
-            self.assertEqual(seen.status_message, "GetLinkState: got state")
-            p, v = seen.link_state.pose.position, seen.link_state.twist
+            moved = self.link()
+            self.assertEqual(moved.status_message, "GetLinkState: got state")
+            p, v = moved.link_state.pose.position, moved.link_state.twist
             self.assert_close((p.x, p.y, p.z), (5, 1, 1))
             self.assert_close((v.linear.x, v.linear.y, v.angular.z), (0, 0.1, 0.2))
             back = self.link(frame="mark::link").link_state
@@ -427,12 +427,12 @@ class Physics(World):
         self.assertAlmostEqual(self.get().gravity.z, -1.5)
         self.assertEqual(self.get().ode_config.sor_pgs_iters, 12)
         self.set(gravity=(0, 0, -3.0))  # and the other way round
-        told = latched(
+        parameters = latched(
             "/gazebo/parameter_updates",
             Config,
             lambda m: any(d.name == "gravity_z" and d.value == -3.0 for d in m.doubles),
         )
-        self.assertTrue(told)
+        self.assertTrue(parameters)
         client.update_configuration({"time_step": 0.0})  # in its range, and yet impossible
         self.assertEqual(self.get().time_step, 0.001)
         client.close()

@@ -95,9 +95,11 @@ class SpawnModelScript(unittest.TestCase):
         self.assertEqual(spawn_model(BOX, "my_box", xyz=xyz, rpy=rpy), 0)
         pose = self.state("my_box").pose
         self.assertEqual((pose.position.x, pose.position.y, pose.position.z), xyz)
-        wanted = quaternion(*rpy)
+        orientation = quaternion(*rpy)
         for axis in "xyzw":
-            self.assertAlmostEqual(getattr(pose.orientation, axis), getattr(wanted, axis), places=6)
+            self.assertAlmostEqual(
+                getattr(pose.orientation, axis), getattr(orientation, axis), places=6
+            )
 
     def test_database(self):
         xml = """<sdf version="1.4">

@@ -70,9 +70,9 @@ class Plugins(unittest.TestCase):
 
     def told(self, log, name, text):
         """The warning about the plugin of that name that has that text."""
-        found = log.first(lambda m: f"'{name}'" in m.msg and text in m.msg)
-        self.assertEqual(found.level, Log.WARN)
-        return found.msg
+        record = log.first(lambda m: f"'{name}'" in m.msg and text in m.msg)
+        self.assertEqual(record.level, Log.WARN)
+        return record.msg
 
     def test_what_is_lacking_is_told_with_what_to_do(self):
         xml = (ROBOTS / "controllers.urdf").read_text()

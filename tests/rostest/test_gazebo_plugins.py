@@ -155,8 +155,8 @@ class Spawning(unittest.TestCase):
         with rosout() as log:
             # A name of its own: it is told once.
             spawn_rover(URDF.replace("teapot", "kettle"))
-            told = log.first(lambda m: "libgazebo_ros_kettle.so" in m.msg)
-            self.assertEqual(told.level, Log.WARN)
+            warning = log.first(lambda m: "libgazebo_ros_kettle.so" in m.msg)
+            self.assertEqual(warning.level, Log.WARN)
         self.assertTrue(state("rover").success)
 
     def test_a_namespace_holds_for_every_plugin_without_one(self):

@@ -71,28 +71,28 @@ class Robot(unittest.TestCase):
     def check_odometry(self, tolerance):
         """Odometry and truth of the same moment agree."""
         with self.truth() as truth, Collector("/bot/odom", Odometry) as odom:
-            seen = {}
+            odometry = {}
 
             def is_paired(message):
-                seen[message.header.stamp] = message
-                return any(m.header.stamp in seen for m in truth.messages)
+                odometry[message.header.stamp] = message
+                return any(m.header.stamp in odometry for m in truth.messages)
 
-            told = odom.first(is_paired)
-            true = truth.first(lambda m: m.header.stamp in seen)
-            told = seen[true.header.stamp]
-        self.assertEqual((told.header.frame_id, told.child_frame_id), ("odom", "base_footprint"))
+            pose = odom.first(is_paired)
+            true = truth.first(lambda m: m.header.stamp in odometry)
+            pose = odometry[true.header.stamp]
+        self.assertEqual((pose.header.frame_id, pose.child_frame_id), ("odom", "base_footprint"))
         for axis in "xy":
-            at, is_at = (getattr(m.pose.pose.position, axis) for m in (told, true))
+            at, is_at = (getattr(m.pose.pose.position, axis) for m in (pose, true))
             self.assertAlmostEqual(at, is_at, delta=tolerance)
-        self.assertAlmostEqual(math.remainder(yaw_of(told) - yaw_of(true), math.tau), 0, delta=0.1)
+        self.assertAlmostEqual(math.remainder(yaw_of(pose) - yaw_of(true), math.tau), 0, delta=0.1)
 
     def check_transform(self):
         with Collector("/tf", TFMessage) as tf:
-            found = tf.first(lambda m: m.transforms[0].child_frame_id == "base_footprint")
-        self.assertEqual(found.transforms[0].header.frame_id, "odom")
+            transform = tf.first(lambda m: m.transforms[0].child_frame_id == "base_footprint")
+        self.assertEqual(transform.transforms[0].header.frame_id, "odom")
 
     def check_checkpoint(self, *command):
-        """From a checkpoint on the way it drives on as it did, bit by bit."""
+        """A robot restored to a checkpoint on its way drives on as it did, bit by bit."""
         self.drive(*command)
         wait_until(lambda: state("bot").pose.position.x > 0.2, "the robot on its way")
         with Paused():

@@ -58,8 +58,8 @@ def topics():
 
 
 def put(name, where, frame="", twist=None):
-    wanted = ModelState(name, where, twist or Twist(), frame)
-    return call("/gazebo/set_model_state", SetModelState, wanted)
+    request = ModelState(name, where, twist or Twist(), frame)
+    return call("/gazebo/set_model_state", SetModelState, request)
 
 
 class Spawning(unittest.TestCase):
@@ -162,10 +162,10 @@ class Asking(unittest.TestCase):
         commander.ask("/movx", kiva_id=2, distance=3.0)
         wait_until(lambda: state("kiva2").twist.linear.x > 0.5, "kiva2 driving")
         with Paused():
-            plain, seen = state("kiva2"), state("kiva2", "box1")
-        self.assertAlmostEqual(seen.twist.linear.y, -plain.twist.linear.x)
-        self.assertAlmostEqual(seen.pose.position.x, plain.pose.position.y - HERE[1])
-        self.assertAlmostEqual(seen.pose.position.y, HERE[0] - plain.pose.position.x)
+            plain, relative = state("kiva2"), state("kiva2", "box1")
+        self.assertAlmostEqual(relative.twist.linear.y, -plain.twist.linear.x)
+        self.assertAlmostEqual(relative.pose.position.x, plain.pose.position.y - HERE[1])
+        self.assertAlmostEqual(relative.pose.position.y, HERE[0] - plain.pose.position.x)
         commander.events.first(lambda e: e.kind == Event.DONE)
         commander.ask("/movx", kiva_id=2, distance=-3.0)
         commander.events.first(lambda e: e.kind == Event.DONE)

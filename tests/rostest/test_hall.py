@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""In a small room of a world of others a shift works, and what stands there is told."""
+"""A shift works in a small room of somebody's world, and says what stands there."""
 
 import unittest
 
@@ -27,7 +27,7 @@ class Hall(unittest.TestCase):
     def test_2_orders_are_picked_without_contact(self):
         events = Listener("/warehouse/events", Event)
         self.addCleanup(events.close)
-        latched("/warehouse/coordinator", CoordinatorState, lambda told: told.automatic == 3)
+        latched("/warehouse/coordinator", CoordinatorState, lambda state: state.automatic == 3)
         latched("/warehouse/kpis", Kpis, lambda kpis: kpis.simulated_s >= 180)
         figures = latched("/warehouse/kpis", Kpis)
         self.assertGreater(figures.items_picked, 10)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""At a terminal: launching refuses what is wrong, and events tell what happens."""
+"""A terminal: launching refuses what is wrong, and events tell what happens."""
 
 import os
 import shutil

@@ -13,7 +13,7 @@ from selenium.webdriver.support.ui import Select
 
 
 class LayoutPage(PageTest):
-    """From a generated drawing to the warehouse that stands."""
+    """A generated drawing becomes the warehouse that stands."""
 
     path, ready = "layout", "Boolean(page.store)"
 

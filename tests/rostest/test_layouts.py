@@ -35,7 +35,7 @@ class Layouts(unittest.TestCase):
     def test_2_robots_work_on_it_with_its_stations_and_stock(self):
         events = Listener("/warehouse/events", Event)
         self.addCleanup(events.close)
-        latched("/warehouse/coordinator", CoordinatorState, lambda told: told.automatic == 4)
+        latched("/warehouse/coordinator", CoordinatorState, lambda state: state.automatic == 4)
         latched("/warehouse/kpis", Kpis, lambda kpis: kpis.items_picked >= 10)
         self.assertNotIn(Event.COLLISION, [event.kind for event in events.messages])
         stations = {s.name: s for s in latched("/warehouse/stations", StationStates).stations}
@@ -69,8 +69,10 @@ class Layouts(unittest.TestCase):
         status, answer = ask("/warehouse", {"layout": text, "id": 7})
         self.assertEqual(status, 200, answer)
         self.assertIn("3 robots, 20 storage units, 12 items, 1 conveyor belt", answer["message"])
-        told = ask("/warehouse")[1]
-        self.assertEqual((told["name"], told["id"], told["items"]), ("north hall", 7, 12))
+        warehouse = ask("/warehouse")[1]
+        self.assertEqual(
+            (warehouse["name"], warehouse["id"], warehouse["items"]), ("north hall", 7, 12)
+        )
 
     def test_5_a_wrong_one_ends_roslaunch(self):
         for args, reason in (

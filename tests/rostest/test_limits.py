@@ -146,7 +146,7 @@ class Documents(unittest.TestCase):
 
 
 class Checkpoints(unittest.TestCase):
-    """In a folder of their own, and with little room."""
+    """Files in a folder of their own, with little room."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

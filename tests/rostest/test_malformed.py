@@ -88,9 +88,9 @@ def malformed(kind):
 
 def system_state():
     """{topic: nodes that publish}, {topic: nodes that subscribe}, {service: nodes}, but this."""
-    told = rosgraph.Master("/test").getSystemState()
+    services = rosgraph.Master("/test").getSystemState()
     mine = {rospy.get_name(), "/rosout"}
-    return [{name: {*nodes} - mine for name, nodes in part if {*nodes} - mine} for part in told]
+    return [{name: {*nodes} - mine for name, nodes in part if {*nodes} - mine} for part in services]
 
 
 def pids():
@@ -101,11 +101,11 @@ def pids():
 
 
 def paths():
-    """Of all that can be read over HTTP, of the first robot, unit, item and order."""
+    """Returns the paths that can be read over HTTP, of the first robot, unit, item and order."""
     about = json.loads(fetch("openapi.json")[1])["paths"]
-    found = [path for path, does in about.items() if "get" in does]
+    readable = [path for path, does in about.items() if "get" in does]
     pages = [page["path"].strip("/") for page in json.loads(fetch("pages")[1])]
-    return [*pages, *(path[1:].replace("{number}", "1") for path in found)]
+    return [*pages, *(path[1:].replace("{number}", "1") for path in readable)]
 
 
 class Malformed(unittest.TestCase):

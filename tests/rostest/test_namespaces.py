@@ -70,30 +70,32 @@ class Namespaces(unittest.TestCase):
 
     def test_a_robot_that_is_driven_in_one_stays_in_the_other(self):
         here, there = (Listener(f"{n}/kiva1/status", KivaStatus) for n in BOTH)
-        before = [one.until().pose.theta for one in (here, there)]
-        told = [Listener(f"{namespace}/warehouse/events", Event) for namespace in BOTH]
+        before = [listener.until().pose.theta for listener in (here, there)]
+        listeners = [Listener(f"{namespace}/warehouse/events", Event) for namespace in BOTH]
         topic = rospy.Publisher("/sim1/rot", Rotate, queue_size=1)
         wait_until(lambda: topic.get_num_connections() == 1, "the world of /sim1 listens alone")
-        wait_until(lambda: all(one.connections() for one in told), "both worlds tell events")
+        wait_until(
+            lambda: all(listener.connections() for listener in listeners), "both worlds tell events"
+        )
         topic.publish(Rotate.COUNTERCLOCKWISE, 1)
-        told[0].until(lambda event: (event.kind, event.model) == (Event.DONE, "kiva1"))
+        listeners[0].until(lambda event: (event.kind, event.model) == (Event.DONE, "kiva1"))
         turned = here.until(lambda m: m.state == KivaStatus.IDLE and m.pose.theta != before[0])
         self.assertNotAlmostEqual(turned.pose.theta, before[0], 1)
         later = turned.header.stamp
         still = there.until(lambda m: m.header.stamp > later)
         self.assertEqual(still.pose.theta, before[1])
-        self.assertNotIn("kiva1", {event.model for event in told[1].messages})
+        self.assertNotIn("kiva1", {event.model for event in listeners[1].messages})
 
     def test_each_is_tracked_and_at_work_while_the_other_stands_still(self):
         for here, there in (BOTH, reversed(BOTH)):
             call(f"{there}/gazebo/pause_physics", Empty)
             at = call(f"{there}/gazebo/get_world_properties", GetWorldProperties).sim_time
-            told = Listener(f"{here}/warehouse/transports", TransportEvent)
+            transports = Listener(f"{here}/warehouse/transports", TransportEvent)
             units = Listener(f"{here}/storage_units", TrackedObjects)
-            wait_until(told.connections, "the coordinator tells of transports")
+            wait_until(transports.connections, "the coordinator tells of transports")
             answer = call(f"{here}/warehouse/transport", Transport, shelf_id=1, station="pick1")
             self.assertTrue(answer.accepted, answer.message)
-            told.until(lambda event: event.kind == TransportEvent.LIFTED)
+            transports.until(lambda event: event.kind == TransportEvent.LIFTED)
             units.until(lambda m: any(unit.carrier for unit in m.objects))
             self.assertEqual(len(latched(f"{here}/items", TrackedObjects).objects), 96)
             clock = latched(f"{here}/clock", Clock)
@@ -111,7 +113,7 @@ class Namespaces(unittest.TestCase):
 
         def hears():
             state = dict(rosgraph.Master("/test").getSystemState()[1])
-            return any("/sim2/events" in one for one in state.get("/sim2/warehouse/events", []))
+            return any("/sim2/events" in topic for topic in state.get("/sim2/warehouse/events", []))
 
         wait_until(hears, "the program hears the events of /sim2")
         wait_until(lambda: all(t.get_num_connections() for t in topics), "both worlds listen")

@@ -66,14 +66,14 @@ BESIDE = """(() => {
 
 
 class OperationsPage(WorkPageTest):
-    """In this order: what one test leaves the next one finds."""
+    """Tests that run in this order: each finds what the last one left."""
 
     def test_1_an_order_is_followed_to_its_end(self):
-        seen = asyncio.run(self.follow("page-1"))
-        self.assertEqual(seen["orders"][-1]["lines"][0]["picked"], 2)
-        self.assertTrue(any(place["sku"] == "sku-3" for place in seen["stock"]))
-        self.assertIn("ARRIVED", {transport["state"] for transport in seen["transports"]})
-        self.assertTrue(seen["stations"])
+        changes = asyncio.run(self.follow("page-1"))
+        self.assertEqual(changes["orders"][-1]["lines"][0]["picked"], 2)
+        self.assertTrue(any(place["sku"] == "sku-3" for place in changes["stock"]))
+        self.assertIn("ARRIVED", {transport["state"] for transport in changes["transports"]})
+        self.assertTrue(changes["stations"])
         self.page.until(f"({ROW.format('page-1')})?.includes('done')")
         self.page.until("page.chart.plot.chart?.data.datasets[0].data.length > 0")
         self.page.until("document.querySelectorAll('.figure .value').length === 4")
@@ -82,18 +82,18 @@ class OperationsPage(WorkPageTest):
 
     async def follow(self, reference):
         """{kind: rows} of what changes until a new order is complete."""
-        seen = {"orders": [], "stock": [], "transports": [], "stations": []}
-        socket_address = address().replace("http", "ws") + f"api/v1/changes?of={','.join(seen)}"
+        changes = {"orders": [], "stock": [], "transports": [], "stations": []}
+        socket_address = address().replace("http", "ws") + f"api/v1/changes?of={','.join(changes)}"
         async with websockets.connect(socket_address) as socket:
             self.assertEqual(json.loads(await socket.recv()), {"type": "shift", "runs": True})
             number = await asyncio.to_thread(submit, reference, "sku-3", 2)
             while not any(
-                (o["order_id"], o["state"]) == (number, "COMPLETED") for o in seen["orders"]
+                (o["order_id"], o["state"]) == (number, "COMPLETED") for o in changes["orders"]
             ):
                 message = json.loads(await asyncio.wait_for(socket.recv(), LONG))
                 self.assertFalse(message.get("missed"), message)
-                seen[message["type"]] += message[message["type"]]
-        return seen
+                changes[message["type"]] += message[message["type"]]
+        return changes
 
     def test_2_a_person_picks_and_finds_too_few(self):
         self.press("pick2", 1)
@@ -144,8 +144,8 @@ class OperationsPage(WorkPageTest):
 
     def replenishing(self):
         """The unit that is there, and what is to be put into it."""
-        told = station("replenish1")
-        return told["shelf_id"], told["picks"]
+        station_row = station("replenish1")
+        return station_row["shelf_id"], station_row["picks"]
 
     def test_4_ten_thousand_orders_are_no_burden(self):
         engine = open_engine(rospy.get_param("~database"))
@@ -289,10 +289,10 @@ class OperationsPage(WorkPageTest):
     def test_7_the_last_hour_is_read_by_keys_and_alarms_are_told(self):
         self.page.until("page.gantt.rows.length === 7")
         self.page.read("page.gantt.box.focus()")
-        told = "document.getElementById('gantt-told').textContent"
-        self.page.until(f"{told}.startsWith('pick1: ')")
+        text = "document.getElementById('gantt-told').textContent"
+        self.page.until(f"{text}.startsWith('pick1: ')")
         self.page.type("\ue015")  # arrow down
-        self.page.until(f"{told}.startsWith('pick2: ')")
+        self.page.until(f"{text}.startsWith('pick2: ')")
         self.page.type("+")
         self.page.until("!page.gantt.view.isWhole")
         self.page.type("0")
@@ -304,14 +304,14 @@ class OperationsPage(WorkPageTest):
     def test_8_prometheus_gets_the_same_figures(self):
         status, text = fetch("metrics")
         families = text_string_to_metric_families(text.decode())
-        told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
-        self.assertEqual((status, told["warehouse_shift_up",]), (200, 1))
+        samples = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
+        self.assertEqual((status, samples["warehouse_shift_up",]), (200, 1))
         kpis = ask("/kpis")[1]
-        self.assertGreater(told["warehouse_items_picked_total",], 0)
-        self.assertLessEqual(told["warehouse_items_picked_total",], kpis["items_picked"])
-        self.assertGreaterEqual(told["warehouse_orders", "completed"], MANY)
-        self.assertEqual(told["warehouse_station_open", "PICK", "pick2"], 1)
-        robots = [value for (name, *_), value in told.items() if name == "warehouse_robots"]
+        self.assertGreater(samples["warehouse_items_picked_total",], 0)
+        self.assertLessEqual(samples["warehouse_items_picked_total",], kpis["items_picked"])
+        self.assertGreaterEqual(samples["warehouse_orders", "completed"], MANY)
+        self.assertEqual(samples["warehouse_station_open", "PICK", "pick2"], 1)
+        robots = [value for (name, *_), value in samples.items() if name == "warehouse_robots"]
         self.assertEqual(sum(robots), 4)
 
     def test_9_over_a_flaky_network_each_pick_is_confirmed_once(self):
@@ -330,9 +330,9 @@ class OperationsPage(WorkPageTest):
         wall = time.monotonic() - began
         states = lambda: {ask(f"/orders/{n}")[1]["state"] for n in numbers}  # noqa: E731
         wait_until(lambda: states() == {"COMPLETED"}, "all orders are complete")
-        told = self.page.read("picker")
-        self.assertEqual((done + told["done"], told["refused"]), (picks, []))
-        self.assertGreater(min(told["lostRequests"], told["lostAnswers"]), 0)
+        reading = self.page.read("picker")
+        self.assertEqual((done + reading["done"], reading["refused"]), (picks, []))
+        self.assertGreater(min(reading["lostRequests"], reading["lostAnswers"]), 0)
         engine = open_engine(rospy.get_param("~database"))
         made_up = f"order_id >= {FIRST}"  # those of test 4, which were never picked
         with engine.begin() as connection:
@@ -341,7 +341,7 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(check.faults(engine), [])
         engine.dispose()
         self.assertEqual(picked(rospy.get_param("~database")) - before, picks)
-        print(f"{picks} picks in {wall:.1f} s, {told}")
+        print(f"{picks} picks in {wall:.1f} s, {reading}")
 
     def let_finish(self, *references):
         """Has the stations complete the orders of earlier tests by themselves."""
@@ -349,8 +349,8 @@ class OperationsPage(WorkPageTest):
             ask(f"/stations/{name}", {"open": True, "mode": "AUTOMATIC"}, method="PUT")
 
         def states():
-            found = [ask(f"/orders?search={one}")[1]["orders"] for one in references]
-            return {order["state"] for orders in found for order in orders}
+            answers = [ask(f"/orders?search={reference}")[1]["orders"] for reference in references]
+            return {order["state"] for orders in answers for order in orders}
 
         wait_until(lambda: states() == {"COMPLETED"}, "the orders of earlier tests are complete")
 
@@ -375,9 +375,9 @@ def picked(database):
     engine = open_engine(database)
     with engine.connect() as connection:
         sums = "SELECT COALESCE(-SUM(quantity), 0) FROM move WHERE reason = 'pick'"
-        found = connection.exec_driver_sql(sums).scalar()
+        total = connection.exec_driver_sql(sums).scalar()
     engine.dispose()
-    return found
+    return total
 
 
 if __name__ == "__main__":

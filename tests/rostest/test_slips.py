@@ -36,7 +36,7 @@ COVERED = """(() => {
 
 
 class SlipsTest(WorkPageTest):
-    """In this order: what one test leaves the next one finds."""
+    """Tests that run in this order: each finds what the last one left."""
 
     def row(self, reference):
         return (

@@ -79,7 +79,7 @@ class Shift(unittest.TestCase):
         self.changed = self.now()
 
     def undo(self):
-        """As far back as no robot has changed its mode."""
+        """Goes back as far as no robot has changed its mode."""
         most = min(20.0, self.now() - self.changed - 2 * AUTOSAVE)
         if most > 0:
             self.ask("undo", Undo, self.random.uniform(0, most))
@@ -168,10 +168,10 @@ class Shift(unittest.TestCase):
         self.assertEqual(set(state.manual_kiva), self.manual, self.done)
         self.assertEqual(set(state.out_of_service_kiva), set(), self.done)
         self.assertEqual(state.automatic, 20 - len(self.manual) - len(self.gone), self.done)
-        seen = list(self.events.messages)
-        contacts = [f"{e.model} {e.text}" for e in seen if e.kind == Event.COLLISION]
+        messages = list(self.events.messages)
+        contacts = [f"{e.model} {e.text}" for e in messages if e.kind == Event.COLLISION]
         self.assertEqual(contacts, [], self.done)
-        refused = [f"{e.model}: {e.text}" for e in seen if e.kind == Event.REFUSED]
+        refused = [f"{e.model}: {e.text}" for e in messages if e.kind == Event.REFUSED]
         self.assertLess(len(refused), MOST_REFUSED, [*self.done, *refused[-3:]])
 
 

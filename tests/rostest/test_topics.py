@@ -67,7 +67,7 @@ class Rates(unittest.TestCase):
         self.assertEqual(gap, 0.01)
 
     def test_the_pace_is_told(self):
-        """As the world measured it: on a busy machine time is late, but never early for long."""
+        """Checks the rate that the world measured: a busy machine is late, never early for long."""
         with Collector("/gazebo/performance_metrics", PerformanceMetrics) as metrics:
             pace = metrics.first(lambda m: m.real_time_factor > 0).real_time_factor
         self.assertLess(pace, 1.15)
@@ -146,12 +146,12 @@ class OneRobot(unittest.TestCase):
                 rospy.Time()
             )  # and no timeout of lookup_transform's: the reset makes it stumble
             wait_until(lambda: buffer.can_transform("world", child, newest), child)
-            found = buffer.lookup_transform("world", child, newest).transform.translation
-            return found.x, found.y, found.z
+            position = buffer.lookup_transform("world", child, newest).transform.translation
+            return position.x, position.y, position.z
 
         def assert_at(child, x, y, z):
-            for number, wanted in zip(frame(child), (x, y, z)):
-                self.assertAlmostEqual(number, wanted, places=3, msg=child)
+            for number, expected in zip(frame(child), (x, y, z)):
+                self.assertAlmostEqual(number, expected, places=3, msg=child)
 
         assert_at("kiva1/base_link", -6, -2, 0)
         assert_at("kiva1/left_wheel", -6, -1.74, 0.1)

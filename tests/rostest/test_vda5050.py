@@ -23,9 +23,9 @@ ROBOT = Identity("kiva", "1")
 class Vehicles(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        told = latched("/warehouse/vda5050", Vda5050, lambda message: 1 in message.kiva_id)
+        driven_by = latched("/warehouse/vda5050", Vda5050, lambda message: 1 in message.kiva_id)
         cls.lines = []
-        broker = read_settings(told.broker)
+        broker = read_settings(driven_by.broker)
         cls.master = DemoMaster(broker, codec_for(), Topics(), cls.lines.append)
 
     @classmethod
@@ -41,8 +41,8 @@ class Vehicles(unittest.TestCase):
         self.assertIn("1: pick is FINISHED", self.lines)
         self.assertIn("1: drop is FINISHED", self.lines)
         wait_until(lambda: 1 in modes and modes[-1] == 0, "the robot to be given back")
-        told = latched("/warehouse/vda5050", Vda5050, lambda message: not message.driven[0])
-        self.assertEqual((told.order[0], told.errors[0]), ("", ""))
+        driven_by = latched("/warehouse/vda5050", Vda5050, lambda message: not message.driven[0])
+        self.assertEqual((driven_by.order[0], driven_by.errors[0]), ("", ""))
 
     def test_2_lost_radio_is_a_broken_connection(self):
         call("/warehouse/fail", Fail, 1, 4, 0.0)

@@ -140,9 +140,9 @@ class Master(unittest.TestCase):
         wait_until(self.row, "the vehicle's shadow", PATIENCE)
         x, y = self.behind.robot.grid.position(self.behind.robot.cell)
         wait_until(lambda: (self.row()["x"], self.row()["y"]) == (x, y), "its place")
-        told = latched("/warehouse/vda5050", Vda5050, lambda m: bytes(m.connection) == b"\0")
-        self.assertEqual((told.direction, told.kiva_id), (Vda5050.MASTER, (NUMBER,)))
-        self.assertEqual((told.manufacturer, told.serial), (["acme"], ["7"]))
+        driven_by = latched("/warehouse/vda5050", Vda5050, lambda m: bytes(m.connection) == b"\0")
+        self.assertEqual((driven_by.direction, driven_by.kiva_id), (Vda5050.MASTER, (NUMBER,)))
+        self.assertEqual((driven_by.manufacturer, driven_by.serial), (["acme"], ["7"]))
 
     def test_2_the_coordinator_has_it_carry_a_unit(self):
         self.state.first(lambda state: state.automatic == 5, PATIENCE)

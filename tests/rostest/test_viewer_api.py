@@ -56,15 +56,15 @@ class ChangingWhatStands(ViewerTest):
             self.shows({"name": "small"}, 4, 24, 96)
         self.shows({"name": "empty"}, 0, 0, 0)
 
-    def shows(self, wanted, robots, units, items):
-        self.assertEqual(ask("/warehouse", wanted)[0], 200)
-        told = ask("/robots")[1]["robots"]
-        lists = (len(told), ask("/storage_units")[1]["total"], ask("/items")[1]["total"])
+    def shows(self, expected, robots, units, items):
+        self.assertEqual(ask("/warehouse", expected)[0], 200)
+        listed = ask("/robots")[1]["robots"]
+        lists = (len(listed), ask("/storage_units")[1]["total"], ask("/items")[1]["total"])
         self.assertEqual(lists, (robots, units, items))
         warehouse = ask("/warehouse")[1]
         counts = [warehouse[kind] for kind in ("robots", "storage_units", "items")]
-        self.assertEqual((warehouse["name"], *counts), (wanted["name"], robots, units, items))
-        for robot in told:
+        self.assertEqual((warehouse["name"], *counts), (expected["name"], robots, units, items))
+        for robot in listed:
             at = place(robot["name"])
             self.assertEqual((robot["x"], robot["y"]), at[:2])
 
@@ -124,8 +124,8 @@ class ViewerApi(ViewerTest):
             self.assertEqual(thing["name"], name)
             for axis, real in zip("xyz", place(name)):
                 self.assertAlmostEqual(thing["pose"][axis], real, delta=POSES)
-        _, found = ask("/items?storage_unit=storage_unit3")
-        self.assertEqual(found["total"], 4)
+        _, answer = ask("/items?storage_unit=storage_unit3")
+        self.assertEqual(answer["total"], 4)
 
     def test_what_is_not_there_is_not_found(self):
         for path in ("/robots/99", "/storage_units/99", "/items/9999"):
@@ -138,8 +138,8 @@ class ViewerApi(ViewerTest):
         self.assertEqual([e["kind"] for e in answer["events"]], ["ACCEPTED", "DONE"])
         self.assertEqual(len({e["command"] for e in answer["events"]} - {0}), 1)
         wait_until(lambda: ask("/robots/1")[1]["last_end"] == "DONE", "how it ended")
-        _, told = ask(f"/events?model=kiva1&since={answer['events'][0]['id'] - 1}")
-        self.assertEqual(told["events"][: len(answer["events"])], answer["events"])
+        _, page_of_events = ask(f"/events?model=kiva1&since={answer['events'][0]['id'] - 1}")
+        self.assertEqual(page_of_events["events"][: len(answer["events"])], answer["events"])
 
     def test_a_refusal_says_why(self):
         self.refused(409, "outside the floor", command(1, "mov", x=1000, y=0))
@@ -220,8 +220,8 @@ class ViewerApi(ViewerTest):
         rows = list(csv.DictReader(io.StringIO(text.decode())))
         last = [row for row in rows if row["model"] == "kiva2"][-1]
         self.assertEqual(last["kind"], "DONE")
-        told = ask("/events?model=kiva2&limit=1")[1]["events"][-1]
-        self.assertEqual({name: str(value) for name, value in told.items()}, last)
+        newest = ask("/events?model=kiva2&limit=1")[1]["events"][-1]
+        self.assertEqual({name: str(value) for name, value in newest.items()}, last)
 
     def test_streams_states_and_events_as_json(self):
         asyncio.run(self.stream())

@@ -39,7 +39,7 @@ class ViewerMany(unittest.TestCase):
             self.assertEqual(page.complaints(), [])
 
     def bytes_each(self, page):
-        """Of the updates that come to the page."""
+        """Returns figures of the updates that come to the page."""
         bytes_before, before = page.read("[page.connection.bytes, page.connection.updates]")
         page.until(f"page.connection.updates >= {before + UPDATES}")
         bytes_after, after = page.read("[page.connection.bytes, page.connection.updates]")

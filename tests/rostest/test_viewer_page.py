@@ -117,8 +117,8 @@ class ViewerPage(PageTest):
         scene = self.page.read("page.world.scene")
         self.assertEqual((len(scene["units"]), len(scene["items"])), (UNITS, ITEMS))
         for robot in range(1, ROBOTS + 1):
-            for seen, real in zip(self.drawn(robot), place(f"kiva{robot}")):
-                self.assertAlmostEqual(seen, real, places=3)
+            for drawn, real in zip(self.drawn(robot), place(f"kiva{robot}")):
+                self.assertAlmostEqual(drawn, real, places=3)
         self.assertEqual(self.page.read("page.list.rows.length"), ROBOTS)
 
     def test_a_processor_that_draws_gets_time_for_other_things(self):
@@ -295,14 +295,14 @@ class ViewerPage(PageTest):
         command = "Emulation.setEmulatedMedia"
         self.addCleanup(self.page.driver.execute_cdp_cmd, command, {"features": []})
         background = "page.stage.scene.background.getHex()"
-        seen = []
+        themes = []
         for theme in ("dark", "light", "dark"):
             feature = {"name": "prefers-color-scheme", "value": theme}
             self.page.driver.execute_cdp_cmd(command, {"features": [feature]})
             self.page.until(f"document.documentElement.dataset.theme === '{theme}'")
-            self.page.until(f"{background} !== {seen[-1] if seen else -1}")
-            seen.append(self.page.read(background))
-        self.assertEqual(seen[0], seen[2])
+            self.page.until(f"{background} !== {themes[-1] if themes else -1}")
+            themes.append(self.page.read(background))
+        self.assertEqual(themes[0], themes[2])
 
     def test_axe_finds_nothing(self):
         self.page.read("[page.select('kiva1'), page.drawers.open('log-panel')]")
@@ -368,7 +368,7 @@ class ViewerPage(PageTest):
         self.page.read("page.find('kiva2')")
         self.page.until("!page.navigator.flight")
         target = "page.stage.controls.target.toArray()"
-        seen, then = self.page.read(target), self.page.read("page.world.stamp - 1")
+        camera, then = self.page.read(target), self.page.read("page.world.stamp - 1")
         self.page.read("(page.tip.say = () => {}, navigator.clipboard.writeText = undefined, 0)")
         self.page.click_on("replay-copy")
         self.page.until("location.hash.includes('&see=kiva2&from=')")
@@ -378,7 +378,7 @@ class ViewerPage(PageTest):
         self.page.until(
             "page.selected === 'kiva2' && document.body.classList.contains('replaying')"
         )
-        self.page.until(f"{target}.every((n, i) => Math.abs(n - {seen}[i]) < 0.02)")
+        self.page.until(f"{target}.every((n, i) => Math.abs(n - {camera}[i]) < 0.02)")
         self.assertGreaterEqual(self.page.read("page.timeline.player.time"), then)
         self.page.click_on("replay-live")
         self.until_link("live")
@@ -471,8 +471,8 @@ class ViewerPage(PageTest):
         self.page.until("page.overlays.fan.visible")
         # From where the laser is mounted.
         mount = self.page.read("page.scans.get(2).mount")
-        for told, real in zip(mount, (0.38, 0.0, 0.2, 0.0)):
-            self.assertAlmostEqual(told, real, places=5)
+        for reported, real in zip(mount, (0.38, 0.0, 0.2, 0.0)):
+            self.assertAlmostEqual(reported, real, places=5)
         self.page.click_on("scan")
         self.assertFalse(self.page.read("page.overlays.fan.visible"))
 
@@ -526,8 +526,8 @@ class ViewerPage(PageTest):
 
     def test_the_dialog_says_why_a_warehouse_can_not_be_built(self):
         self.build("custom", robots=3, shelves=0, items=20)
-        told = "document.getElementById('plan-answer').textContent"
-        self.page.until(f"{told} === '20 items, but no shelves to lay them on'")
+        answer_text = "document.getElementById('plan-answer').textContent"
+        self.page.until(f"{answer_text} === '20 items, but no shelves to lay them on'")
         self.assertTrue(self.page.read("document.getElementById('builder').open"))
         self.assertIn("at most 20,000", self.page.text("counts"))
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text("medium")

@@ -69,8 +69,8 @@ class Collector:
 
     def first(self, condition=lambda message: True, patience=PATIENCE):
         """The first message, of those that came or will come, that meets the condition."""
-        found = self.wait_for(lambda messages: any(map(condition, messages)), patience)
-        return next(filter(condition, found))
+        record = self.wait_for(lambda messages: any(map(condition, messages)), patience)
+        return next(filter(condition, record))
 
     def next(self, number, patience=PATIENCE):
         """That many messages from now on."""

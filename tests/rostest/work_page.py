@@ -14,14 +14,14 @@ CARD = "[data-station={}] {}"
 
 
 def submit(reference, sku, quantity):
-    wanted = {"reference": reference, "lines": [{"sku": sku, "quantity": quantity}]}
-    status, answer = ask("/orders", wanted)
+    order = {"reference": reference, "lines": [{"sku": sku, "quantity": quantity}]}
+    status, answer = ask("/orders", order)
     assert status == 201, answer
     return answer["order_id"]
 
 
 def pieces(sku):
-    """On each storage unit that holds some, by its number."""
+    """Returns the pieces on each storage unit that holds some, by its number."""
     out = {}
     for place in ask(f"/stock?sku={sku}")[1]["places"]:
         out[place["shelf_id"]] = out.get(place["shelf_id"], 0) + place["quantity"]
@@ -29,7 +29,9 @@ def pieces(sku):
 
 
 def station(name):
-    return {one["name"]: one for one in ask("/stations")[1]["stations"]}[name]
+    return {station_row["name"]: station_row for station_row in ask("/stations")[1]["stations"]}[
+        name
+    ]
 
 
 class WorkPageTest(PageTest):
@@ -64,7 +66,7 @@ class WorkPageTest(PageTest):
         self.page.tap_on(button)
 
     def click(self, selector):
-        """In one go: an element may have been drawn again between search and click."""
+        """Searches and clicks in one call: an element may be drawn again in between."""
         element = f"document.querySelector({json.dumps(selector)})"
         self.page.until(f"{element}?.checkVisibility() && !{element}.disabled")
         self.page.read(f"{element}.click()")

@@ -59,7 +59,7 @@ HALL, BUFFER, CROSSING = 2, 4, 4  # streets before the stations; cells before th
 
 
 def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
-    """As those of MaTi kind: so many picking and replenishing stations.
+    """Returns an instance of the MaTi kind with these counts of picking and replenishing stations.
 
     Their queues wind over three rows, with a way to cut them short; before them are a hall of two
     streets, one up and one down, and a buffer of one-way rows. Robots stand in the streets at

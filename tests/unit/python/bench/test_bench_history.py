@@ -19,7 +19,7 @@ import table  # noqa: E402
 
 
 def fleet(robot, arrays):
-    """As fleet_bench and array_bench print it, by CPU."""
+    """Returns a figure as fleet_bench and array_bench print it, by CPU."""
     rows = (("default", robot), ("arrays, 121 rays", arrays))
     return [
         {"engine": e, "robots": 1000, "lasers": True, "rtf": r / 2, "rtf_cpu": r, "read": True}

@@ -25,7 +25,7 @@ class Site:
         self.run(WARM_UP)
 
     def begin(self, world):
-        """With a driver that knows nothing yet."""
+        """Begins with a driver that knows nothing yet."""
         self.driver = FleetDriver(world, seed=self.seed)
         self.traffic, self.transports = self.driver.traffic, self.driver.transports
         self.plan = self.driver.plan

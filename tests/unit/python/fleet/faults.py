@@ -28,7 +28,7 @@ class Line:
         self._under_way.append((arrival, self._sent, message))
 
     def arrived(self, time):
-        """In the order of arrival."""
+        """Carries the messages out in the order of arrival."""
         come = sorted(m[:2] + (m,) for m in self._under_way if m[0] <= time + 1e-9)
         self._under_way = [m for m in self._under_way if m[0] > time + 1e-9]
         return [m[2] for _, _, m in come]

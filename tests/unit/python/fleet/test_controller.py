@@ -42,10 +42,10 @@ class Fleet:
         ids = np.array(list(cells))
         return UnitPoses(ids, x, y, still, np.zeros(len(cells), bool), self.time)
 
-    def tick(self, **seen):
+    def tick(self, **observed):
         self.time += 0.1
         return self.controller.tick(
-            Observation(self.time, self.reports[seen.pop("robots", slice(None))], **seen)
+            Observation(self.time, self.reports[observed.pop("robots", slice(None))], **observed)
         )
 
     def kinds(self):

@@ -286,7 +286,7 @@ def ahead_of(site):
 
 
 def test_another_driver_takes_over_what_is_under_way(calm):
-    """As a coordinator does that was killed: all it knows is what robots report."""
+    """Takes the fleet over as a killed coordinator does, which knows robots' reports alone."""
     after = []
     for seed in SEEDS:
         with Site(seed) as site:

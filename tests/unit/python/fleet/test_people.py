@@ -50,7 +50,7 @@ class Crowd:
         self._goal[name], self._since[name] = to, self._world.time
 
     def _gap(self, x, y):
-        """To the chassis of the nearest robot, or to its load [m]."""
+        """Returns the distance to the chassis of the nearest robot, or to its load [m]."""
         fleet = self._world.fleet
         c, s = np.cos(fleet.yaw), np.sin(fleet.yaw)
         dx, dy = x - fleet.x, y - fleet.y

@@ -37,7 +37,7 @@ def commands(random):
 
 
 def hashes():
-    """Of every second, and how many events of each kind there were."""
+    """Returns the hash of every second, and the count of events of each kind."""
     world, random = hall(), np.random.default_rng(7)
     out, counts = [], np.zeros(len(EventKind), int)
     for second in range(MINUTES * 60):

@@ -122,7 +122,7 @@ def test_markings_turn_with_what_they_mark():
 
 
 def test_a_warehouse_that_is_added_to_another_brings_its_floor_plan(tmp_path):
-    """As by insert_world: under free numbers, its stations too."""
+    """Adds a warehouse as insert_world does: under free numbers, its stations too."""
     marks = models.document([models.of_layout(plan(resolve("small")))[1]])
     world, file = World(), tmp_path / "more.sdf"
     world.spawn(marks)

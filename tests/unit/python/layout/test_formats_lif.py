@@ -140,7 +140,7 @@ def test_an_integrators_file(write):
 
 
 def test_version_2(write):
-    """In its drafts layouts lie in origins, and robots and actions have other names."""
+    """Drafts of version 2 have layouts in origins, and other names of robots and actions."""
     old = lif()
     for node in old["layouts"][0]["nodes"]:
         types = node.pop("vehicleTypeNodeProperties")[0]

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Of a floor whose aisles are not all reachable a fleet serves the largest part, and tells the
-rest."""
+"""A fleet serves the largest reachable part of a floor, and names the rest."""
 
 import numpy as np
 import pytest

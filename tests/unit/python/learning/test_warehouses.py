@@ -31,7 +31,7 @@ def act(warehouses, action):
 
 
 def drive_to_goal(warehouses):
-    """By the shortest way; returns the rewards earned."""
+    """Drives by the shortest way; returns the rewards earned."""
     earned = 0.0
     grid, goal = warehouses.grid, int(warehouses.goal[0, 0])
     for _ in range(200):

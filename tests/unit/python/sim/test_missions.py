@@ -17,7 +17,7 @@ from warehouse_sim.missions import CORRIDOR, Map, meeting, two_missions
 
 
 def paper_world():
-    """As in worlds/paper.sdf."""
+    """The world of worlds/paper.sdf."""
     return Survey(
         kiva={1: (-6, -2, 0), 2: (-6, 2, 0)},
         storage_unit={1: (0, -4, 0), 2: (0, 0, 0), 3: (0, 4, 0)},

@@ -46,9 +46,9 @@ class Histories(RuleBasedStateMachine):
         for line in (self.sides.down, self.sides.up):
             line.fates = []
 
-    @rule(told=st.booleans(), seconds=st.integers(1, 30))
-    def the_broker_ends_and_begins(self, told, seconds):
-        self.sides.disconnect(told)
+    @rule(is_announced=st.booleans(), seconds=st.integers(1, 30))
+    def the_broker_ends_and_begins(self, is_announced, seconds):
+        self.sides.disconnect(is_announced)
         self.go_on(seconds)
         self.sides.connect()
 
@@ -56,9 +56,9 @@ class Histories(RuleBasedStateMachine):
     def the_master_ends_and_begins(self):
         self.sides.start_master()
 
-    @rule(clock_back=st.sampled_from([0.0, 0.5, 500.0]), told=st.booleans())
-    def the_vehicles_program_ends_and_begins(self, clock_back, told):
-        self.sides.disconnect(told)
+    @rule(clock_back=st.sampled_from([0.0, 0.5, 500.0]), is_announced=st.booleans())
+    def the_vehicles_program_ends_and_begins(self, clock_back, is_announced):
+        self.sides.disconnect(is_announced)
         self.sides.restart_vehicle(clock_back)
 
     @rule(seconds=st.integers(1, 5))

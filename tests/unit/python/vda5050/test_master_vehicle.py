@@ -255,7 +255,7 @@ def test_an_idle_vehicle_that_jumps_is_told_of(bench):
 
 
 def test_a_path_of_one_point_puts_the_vehicle_straight():
-    """Without a heading and deviations a vehicle takes the node as reached, and does not move."""
+    """A vehicle that gets neither heading nor deviations takes the node as reached, and stands."""
     bench = Bench(replace(ROBOT, frame=Frame(0.0, 0.0, math.pi / 2)))
     bench.tell(position=AgvPosition(0.0, 0.2, 0.3))
     bench.events()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Without a coordinator none is called: rospy would log each call as an error."""
+"""No coordinator is called where none runs: rospy would log each call as an error."""
 
 from types import SimpleNamespace
 

@@ -69,7 +69,7 @@ class Witness:
 
     def __init__(self):
         self.trips = {}
-        self.seen = 0  # events of the robot
+        self.event_count = 0  # events of the robot
 
     def note(self, order):
         trip = self.trips.setdefault(order.id, Trip())
@@ -84,7 +84,7 @@ class Witness:
         trip.base = released
 
     def check(self, order_id, events):
-        for what, _, cell in events[self.seen :]:
+        for what, _, cell in events[self.event_count :]:
             trip = self.trips[order_id]
             if what == "at":
                 assert trip.reached < trip.base, f"{cell} is beyond the base of {order_id}"
@@ -93,7 +93,7 @@ class Witness:
             else:
                 trip.lifted += 1
                 assert (trip.lifts, trip.lifted) == ([what], 1), f"{what} by {order_id}"
-        self.seen = len(events)
+        self.event_count = len(events)
 
 
 class BothSides:
@@ -104,7 +104,7 @@ class BothSides:
         self.down, self.up = Line(), Line()
         self.witness, self.clock, self.runs = Witness(), 1000.0, 0
         self.order_id = ""  # of the vehicle's last order
-        self.told = {}  # by run and order, how far the vehicle told to be
+        self.progress = {}  # by run and order, how far the vehicle told to be
         self.start_master()
         self.restart_vehicle(0.0)
 
@@ -143,11 +143,11 @@ class BothSides:
         self.master.take_connection(ConnectionState.ONLINE, self.clock)
         self.vehicle.request_state()
 
-    def disconnect(self, told):
-        """The broker is gone; `told`: it said before that the vehicle is."""
+    def disconnect(self, is_announced):
+        """The broker is gone; `is_announced`: it said before that the vehicle is."""
         self.down.cut(True)
         self.up.cut(True)
-        if told:
+        if is_announced:
             self.master.take_connection(ConnectionState.CONNECTIONBROKEN, self.clock)
 
     def cancel_from_elsewhere(self):
@@ -195,9 +195,9 @@ class BothSides:
     def check_state(self, state):
         run = self.vehicle.settings.first_path, state.order_id
         far = state.order_update, state.last_node_sequence
-        before = self.told.setdefault(run, far)
+        before = self.progress.setdefault(run, far)
         assert not state.order_id or (far[0] >= before[0] and far[1] >= before[1]), "goes back"
-        self.told[run] = far
+        self.progress[run] = far
 
     def take_events(self):
         events, self.events = self.events, []

@@ -18,7 +18,7 @@ class Rollout:
     environments), after which steps another episode began. cut: (step, environments, what was seen
     last), of those ends. finished: returns of the whole episodes among them."""
 
-    seen: np.ndarray  # one step more than the others
+    observations: np.ndarray  # one step more than the others
     action: np.ndarray
     log: np.ndarray
     reward: np.ndarray
@@ -49,21 +49,21 @@ class Rollouts:
         lead = steps, self._envs.num_envs, self._envs.task.n_agents
         size = self._encoder.size
         out = Rollout(
-            seen=np.empty((steps + 1, *lead[1:], size), np.float32),
+            observations=np.empty((steps + 1, *lead[1:], size), np.float32),
             action=np.empty(lead, np.int8),
             log=np.empty(lead, np.float32),
             reward=np.empty(lead, np.float32),
             end=np.empty(lead[:2], bool),
         )
         for t in range(steps):
-            out.seen[t] = self._observations
+            out.observations[t] = self._observations
             logits, _ = actor.forward(self._observations.reshape(-1, size))
             action = drawn(logits, self._random)
             out.action[t] = action.reshape(lead[1:])
             logs = log_softmax(logits)
             out.log[t] = logs[np.arange(len(action)), action].reshape(lead[1:])
             self._step(out, t)
-        out.seen[steps] = self._observations
+        out.observations[steps] = self._observations
         return out
 
     def _step(self, out, t):

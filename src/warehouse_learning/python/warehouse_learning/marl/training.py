@@ -142,7 +142,7 @@ class Training:
     def _advantages(self, rollout):
         """Generalised advantage estimation (Schulman et al., 2016), and the values that it begins
         from: (rollout, n, agents) each."""
-        settings, value = self.settings, self._values(rollout.seen)
+        settings, value = self.settings, self._values(rollout.observations)
         reward = rollout.reward
         # Time cuts episodes off: what would have come after counts.
         for t, which, observations in rollout.cut:
@@ -165,7 +165,7 @@ class Training:
         flat = {
             name: array.reshape(size, *array.shape[2:])
             for name, array in (
-                ("seen", rollout.seen[:-1]),
+                ("observations", rollout.observations[:-1]),
                 ("action", rollout.action),
                 ("log", rollout.log),
                 ("advantage", (advantage - advantage.mean()) / spread),
@@ -183,7 +183,7 @@ class Training:
 
     def _actor_slopes(self, part):
         settings = self.settings
-        logits, kept = self.actor.forward(part["seen"].reshape(-1, self.encoder.size))
+        logits, kept = self.actor.forward(part["observations"].reshape(-1, self.encoder.size))
         action, advantage = part["action"].ravel(), part["advantage"].ravel()
         logs = log_softmax(logits)
         chances = np.exp(logs)
@@ -201,7 +201,7 @@ class Training:
         return self.actor.backward(kept, slopes)
 
     def _critic_slopes(self, part):
-        values, kept = self.critic.forward(self._critic_rows(part["seen"]))
+        values, kept = self.critic.forward(self._critic_rows(part["observations"]))
         error = values - part["target"].reshape(values.shape)
         error /= error.size
         return self.critic.backward(kept, error)

@@ -41,11 +41,11 @@ export class Card {
   }
 
   showFacts(row) {
-    const given = Object.entries(row.arguments).map(([name, value]) => `${name}:=${value}`).join(' ');
+    const texts = Object.entries(row.arguments).map(([name, value]) => `${name}:=${value}`).join(' ');
     const lives = row.uptime_s > 0;
     const facts = {
       Robots: lives && row.robots, Speed: lives && row.rtf ? `${row.rtf.toFixed(2)} ×` : '',
-      Runs: lives && durationOf(row.uptime_s), Arguments: given,
+      Runs: lives && durationOf(row.uptime_s), Arguments: texts,
     };
     const pairs = Object.entries(facts).filter(([, value]) => value);
     const text = JSON.stringify(pairs);

@@ -51,7 +51,7 @@ def test_who_reads_too_late_is_told_so():
 
 
 class Ros(FakeRos):
-    """As long as a shift is connected."""
+    """Lasts as long as a shift is connected."""
 
     shifts = 1
 

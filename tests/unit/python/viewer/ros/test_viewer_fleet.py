@@ -91,7 +91,7 @@ class Subscriber(SimpleNamespace):
 
 
 class Ros(FakeRos):
-    """As long as a coordinator is connected."""
+    """Lasts as long as a coordinator is connected."""
 
     coordinators = 1
 

@@ -34,7 +34,7 @@ def test_what_is_no_file_is_not_found(tmp_path, path):
 
 
 def status_of(app, path):
-    """As FastAPI answers."""
+    """The answers of FastAPI."""
     outer = FastAPI()
     outer.mount("/web", app)
     return request(outer, f"/web{path}").status
