@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A shift works in a small room of somebody's world, and says what stands there."""
+"""A shift works in a small room of another's world, and says what stands there."""
 
 import unittest
 
