@@ -7,6 +7,7 @@ executes has ended: no further one is sent.
 
 import queue
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -91,7 +92,7 @@ class Work:
         return event.command == self.command and event.kind in (Event.DONE, Event.BLOCKED)
 
 
-def _is_cancelled(handle):
+def _is_cancelled(handle: Any) -> bool:
     return handle.get_goal_status().status == GoalStatus.PREEMPTING
 
 
@@ -122,14 +123,14 @@ class RobotActions:
             server.start()
 
     # --- ROS's threads only put down what came; one worker does it
-    def _on_goal(self, begin):
+    def _on_goal(self, begin: Callable[[Any], None]) -> Callable[[Any], None]:
         return lambda handle: self._inbox.put((begin, handle))
 
-    def _on_event(self, event):
+    def _on_event(self, event: Event) -> None:
         if event.model in self._works:
             self._inbox.put((self._take, event))
 
-    def _on_fleet(self, fleet):
+    def _on_fleet(self, fleet: FleetState) -> None:
         self._fleet = fleet
 
     def run(self) -> None:
@@ -144,10 +145,10 @@ class RobotActions:
                     server.publish_status()
 
     # --- goals
-    def _begin_move(self, handle):
+    def _begin_move(self, handle: Any) -> None:
         self._begin(handle, move(handle.get_goal()), MoveFeedback(), MoveResult())
 
-    def _begin_carry(self, handle):
+    def _begin_carry(self, handle: Any) -> None:
         goal = handle.get_goal()
         unit = self._place(f"storage_unit{goal.shelf_id}")
         if unit is None:
@@ -155,19 +156,19 @@ class RobotActions:
         else:
             self._begin(handle, carry(goal, unit), CarryFeedback(), CarryResult())
 
-    def _place(self, name):
+    def _place(self, name: str) -> Any:
         """The grid point of a storage unit, or None."""
         end = time.monotonic() + PATIENCE
         while (place := self._tracked_place(name)) is None and time.monotonic() < end:
             self._places.wait(end - time.monotonic())
         return place
 
-    def _tracked_place(self, name):
+    def _tracked_place(self, name: str) -> Any:
         known = self._places.units_and_objects
         units = tracking.storage_units(*known) if known else tracking.Tracked()
         return point(units.pose[units.names.index(name)]) if name in units.names else None
 
-    def _begin(self, handle, steps, feedback, result):
+    def _begin(self, handle: Any, steps: list[Step], feedback: Any, result: Any) -> None:
         work = Work(handle, steps, feedback, result)
         if work.robot in self._works:
             self._reject(handle, result, f"{work.robot} works on another goal")
@@ -178,16 +179,16 @@ class RobotActions:
         self._send(work)
 
     @staticmethod
-    def _reject(handle, result, text):
+    def _reject(handle: Any, result: Any, text: str) -> None:
         result.text, result.kind = text, Event.REFUSED
         handle.set_rejected(result, text)
 
-    def _send(self, work):
+    def _send(self, work: Work) -> None:
         work.command = None
         request = work.steps[0].command
         self._publishers[request.topic].publish(request.message)
 
-    def _take(self, event):
+    def _take(self, event: Event) -> None:
         work = self._works.get(event.model)
         if not work or not work.hears(event):
             return
@@ -198,7 +199,7 @@ class RobotActions:
         else:
             self._end(work, event, is_cancelled)
 
-    def _end(self, work, event, is_cancelled):
+    def _end(self, work: Work, event: Event, is_cancelled: bool) -> None:
         del self._works[work.robot]
         work.result.kind, work.result.text = event.kind, event.text
         work.result.pose = self._pose(work) or Pose2D()
@@ -211,7 +212,7 @@ class RobotActions:
             work.handle.set_aborted(work.result, event.text)
 
     # --- feedback, and what goes on between two events
-    def _hear_fleet(self):
+    def _hear_fleet(self) -> None:
         """The fleet is heard while anybody works."""
         if self._works and not self._hearing:
             self._hearing = subscribe(
@@ -221,14 +222,14 @@ class RobotActions:
             self._hearing.unregister()
             self._hearing = self._fleet = None
 
-    def _pose(self, work):
+    def _pose(self, work: Work) -> Pose2D | None:
         fleet, kiva = self._fleet, work.handle.get_goal().kiva_id
         if fleet is None or kiva not in fleet.kiva_id:
             return None
         i = fleet.kiva_id.index(kiva)
         return Pose2D(fleet.x[i], fleet.y[i], fleet.yaw[i])
 
-    def _tell(self):
+    def _tell(self) -> None:
         for work in self._works.values():
             pose = self._pose(work)
             if pose is None:

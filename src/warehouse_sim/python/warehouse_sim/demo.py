@@ -7,7 +7,7 @@ Played over topics alone. What shall come true is checked against the events and
 
 import math
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -22,8 +22,8 @@ from warehouse_layout.floor import poses
 from warehouse_layout.place.layout import Floor
 from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
 from warehouse_msgs.srv import CreateWarehouse
-from warehouse_sim.missions import Map, meeting, two_missions
-from warehouse_sim.script_executor import command
+from warehouse_sim.missions import Map, Mission, Point, meeting, two_missions
+from warehouse_sim.script_executor import Command, command
 
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
@@ -31,6 +31,8 @@ ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
 FLEET = "medium"  # the warehouse that a coordinator drives
 EXCHANGE = 20  # from one unit to the next at a station [s]
 DEADLINE = 10.0  # wall seconds that a simulated one may take
+
+Script = Generator[Command, Event, None]  # yields commands; each is answered by its last event
 
 
 class DemoError(RuntimeError):
@@ -82,7 +84,7 @@ class Demo:
         self._expect("there was no collision", not any(e.kind == Event.COLLISION for e in after))
         self._expect("every robot moved on", not fleet.watchdog)
 
-    def _build(self, size):
+    def _build(self, size: str) -> None:
         create = self._ros.ServiceProxy("warehouse/create_warehouse_models", CreateWarehouse)
         try:
             answer = create(warehouse_name=size)
@@ -93,13 +95,13 @@ class Demo:
 
     # --- the acts
 
-    def _fetch(self, missions):
+    def _fetch(self, missions: list[Mission]) -> None:
         self._tell("\nEach robot brings a storage unit to a conveyor belt, both at once.\n")
         self._executor.play({m.kiva: self._fetching(m) for m in missions})
         for mission in missions:
             self._check_delivered(mission)
 
-    def _fetching(self, mission):
+    def _fetching(self, mission: Mission) -> Script:
         kiva, unit = mission.kiva, mission.unit
         yield from _drive(kiva, mission.to_unit)
         yield from _do(command("lift", kiva, status=Lift.CARRY, shelf_id=unit))
@@ -108,7 +110,7 @@ class Demo:
         # Out beneath the unit, by the way it came in.
         yield from _drive(kiva, [mission.to_drop[-1], mission.out])
 
-    def _line_up(self):
+    def _line_up(self) -> dict[int, Point]:
         """Brings both to the ends of an aisle; returns where each wants to go then."""
         self._tell("\nThey line up at the two ends of an aisle.\n")
         chart, (a, b) = self._map(), self.cast
@@ -119,7 +121,7 @@ class Demo:
         self._executor.play({b: _drive(b, route(after, chart.robots[b], end_b))})
         return {a: end_b, b: end_a}
 
-    def _meet(self, goals):
+    def _meet(self, goals: dict[int, Point]) -> None:
         self._tell("\nEach sets off for the other's place. A blocked robot finds another way.\n")
         self._executor.play({kiva: _try(kiva, goal) for kiva, goal in goals.items()})
         blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
@@ -133,7 +135,7 @@ class Demo:
 
     # --- what is there
 
-    def _look(self):
+    def _look(self) -> None:
         """Where everything stands, once it does: the service comes when its warehouse is built."""
         try:
             self._ros.wait_for_service("warehouse/create_warehouse_models", PATIENCE)
@@ -144,7 +146,7 @@ class Demo:
         if not self._executor.until(self._is_tracked, PATIENCE):
             raise DemoError("the tracking nodes do not publish where storage units and items are")
 
-    def _is_tracked(self):
+    def _is_tracked(self) -> bool:
         """Whether the tracking nodes know of all that stands."""
         units, items = self._newest["units"], self._newest["items"]
         if not (units and items):
@@ -152,7 +154,7 @@ class Demo:
         known = (len(units.objects), len(items.objects))
         return known == (len(self._standing.storage_unit), len(self._standing.item))
 
-    def _map(self):
+    def _map(self) -> Map:
         """Returns the map as it is now: the cast by status, the units by tracked poses."""
         self._standing.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
         tracked = of_tracked(self._newest["units"])
@@ -160,17 +162,17 @@ class Demo:
         bounds = self._ros.get_param("warehouse/floor", None)
         return Map(self._standing, Floor(*bounds) if bounds else None)
 
-    def _robot(self, kiva):
+    def _robot(self, kiva: int) -> tuple[float, float, float]:
         pose = self._executor.status(kiva).pose
         return pose.x, pose.y, pose.theta
 
-    def _models(self, kind):
+    def _models(self, kind: int) -> set[str]:
         """Who had such an event."""
         return {event.model for event in self._executor.events if event.kind == kind}
 
     # --- what shall have come true
 
-    def _check_delivered(self, mission):
+    def _check_delivered(self, mission: Mission) -> None:
         name, belt = f"storage_unit{mission.unit}", f"conveyor_belt{mission.belt}"
         for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
             self._expect(f"kiva{mission.kiva} {word} {name}", self._happened(kind, mission, name))
@@ -179,11 +181,11 @@ class Demo:
         left = math.dist(self._robot(mission.kiva)[:2], mission.out) < TOLERANCE
         self._expect(f"kiva{mission.kiva} left it there", left)
 
-    def _happened(self, kind, mission, name):
+    def _happened(self, kind: int, mission: Mission, name: str) -> bool:
         fact = (kind, f"kiva{mission.kiva}", name)
         return any((e.kind, e.model, e.other) == fact for e in self._executor.events)
 
-    def _stands(self, name, at):
+    def _stands(self, name: str, at: Point) -> bool:
         unit = next((o for o in self._newest["units"].objects if o.name == name), None)
         items = [o for o in self._newest["items"].objects if o.storage_unit == name]
         if unit is None or unit.carrier or abs(unit.pose.position.z) > TOLERANCE:
@@ -191,7 +193,7 @@ class Demo:
         with_it = all(_away(item, at) < ON_UNIT for item in items)
         return _away(unit, at) < TOLERANCE and with_it
 
-    def _expect(self, text, true):
+    def _expect(self, text: str, true: Any) -> None:
         self._tell(f"  {'ok    ' if true else 'FAILED'}  {text}")
         if not true:
             self.failed.append(text)
@@ -205,10 +207,10 @@ class FleetWatch:
         subscribe(ros, "warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
         subscribe(ros, "warehouse/transports", TransportEvent, self._count, queue_size=1000)
 
-    def _take(self, state):
+    def _take(self, state: CoordinatorState) -> None:
         self._state = state
 
-    def _count(self, event):
+    def _count(self, event: TransportEvent) -> None:
         self.delivered += event.kind == TransportEvent.ARRIVED
 
     @property
@@ -259,22 +261,22 @@ def of_tracked(message: TrackedObjects) -> Survey:
     return survey.of_models({o.name: tuple(at) for o, at in zip(message.objects, planar)})
 
 
-def _away(tracked, at):
+def _away(tracked: Any, at: Point) -> float:
     return math.dist((tracked.pose.position.x, tracked.pose.position.y), at)
 
 
-def _drive(kiva, points):
+def _drive(kiva: int, points: list[Point]) -> Script:
     """A script: along a route, point by point. Raises DemoError if anything stops the robot."""
     for x, y in goals(points):
         yield from _do(command("mov", kiva, x=x, y=y))
 
 
-def _do(wish):
+def _do(wish: Command) -> Script:
     event = yield wish
     if event.kind != Event.DONE:
         raise DemoError(f"{event.model}: {wish} was not done: {event.text}")
 
 
-def _try(kiva, goal):
+def _try(kiva: int, goal: Point) -> Script:
     """A script: straight to the goal, as far as it goes."""
     yield command("mov", kiva, x=goal[0], y=goal[1])

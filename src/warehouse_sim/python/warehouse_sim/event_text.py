@@ -45,7 +45,7 @@ def line(event: Event, coloured: bool = False) -> str:
     return f"{event.header.stamp.to_sec():10.3f} s  {model:<14} {kind} {number:<6} {why}".rstrip()
 
 
-def _kind(event, coloured):
+def _kind(event: Event, coloured: bool) -> str:
     kind = f"{word(event):<9}"
     return f"\033[{COLOURS.get(event.kind, _DIM)}m{kind}\033[0m" if coloured else kind
 
@@ -89,7 +89,7 @@ class Teller:
         return [f"{time:10.3f} s  {models:<14} {kind} {'':<6} {_counted(row)}"]
 
 
-def _counted(row):
+def _counted(row: list[Event]) -> str:
     """How many of each kind, as "4 robots, 24 storage units"."""
     nouns = (_NOUNS.get(kind_and_number(event.model)[0] or "", "other model") for event in row)
     counts = Counter(nouns)
@@ -98,7 +98,7 @@ def _counted(row):
     return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in counted)
 
 
-def _plain(text):
+def _plain(text: str) -> str:
     return _CONTROL.sub("?", text)
 
 

@@ -3,6 +3,7 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,7 +42,7 @@ class FleetStatistics:
         self._odometers: dict[Any, Odometer] = defaultdict(Odometer)
         subscribe(ros, "warehouse/fleet", FleetState, self._measure, queue_size=100)
 
-    def _measure(self, fleet):
+    def _measure(self, fleet: FleetState) -> None:
         for kiva, x, y, yaw in zip(fleet.kiva_id, fleet.x, fleet.y, fleet.yaw):
             self._odometers[kiva].add(x, y, yaw)
 
@@ -53,12 +54,12 @@ class FleetStatistics:
         rows = [titles, ["-" * w for w in wide], *lines]
         return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row, wide)) for row in rows)
 
-    def _way(self, kiva):
+    def _way(self, kiva: int) -> tuple[str, str]:
         way = self._odometers[kiva]
         return f"{way.metres:.1f}", f"{way.radians / (math.pi / 2):.0f}"
 
 
-def _counts(model, events):
+def _counts(model: str, events: Iterable[Event]) -> list[str]:
     # The other body of a collision took part in it as well.
     kinds = [e.kind for e in events if model in (e.model, e.kind == Event.COLLISION and e.other)]
     return [str(sum(kind in column for kind in kinds)) for column in COLUMNS.values()]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Commands to try first: such as work in the very warehouse that stands."""
+"""Commands to try first, which work in the warehouse that stands."""
 
 import math
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ from warehouse_client.survey import Survey
 
 SYSTEM = Path("/usr/lib")  # Python and ROS find what is in it by themselves
 NEAREST = 20  # units tried for each robot
+
+Pairs = list[tuple[str, str]]  # shell command, what it does
 
 _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
 _WITHOUT_ROBOTS = [
@@ -35,7 +38,7 @@ def commands(survey: Survey, has_coordinator: bool = False) -> list[tuple[str, s
     return _fetch(survey) or _stroll(survey)
 
 
-def _fetch(survey):
+def _fetch(survey: Survey) -> Pairs | None:
     """Take up a unit that some robot reaches with one command; None if there is no such pair."""
     units = {number: point(pose) for number, pose in survey.storage_unit.items()}
     fixed = survey.obstacles() | {point(pose) for pose in survey.kiva.values()}
@@ -47,7 +50,7 @@ def _fetch(survey):
     return None
 
 
-def _nearest(robots, units):
+def _nearest(robots: Mapping[int, Any], units: Mapping[int, Any]) -> Iterator[tuple[int, int]]:
     """Pairs of a robot's and a unit's number, the nearest units of each robot."""
     for kiva in sorted(robots):
         x, y = point(robots[kiva])
@@ -55,7 +58,7 @@ def _nearest(robots, units):
         yield from ((kiva, unit) for unit in sorted(far, key=far.__getitem__)[:NEAREST])
 
 
-def _carry(kiva, unit, at, back):
+def _carry(kiva: int, unit: int, at: Any, back: Any) -> Pairs:
     axis, distance = ("x", back[0] - at[0]) if back[0] != at[0] else ("y", back[1] - at[1])
     return [
         (_pub("mov", "MoveTo", x=at[0], y=at[1], kiva_id=kiva), f"beneath storage_unit{unit}"),
@@ -64,7 +67,7 @@ def _carry(kiva, unit, at, back):
     ]
 
 
-def _stroll(survey):
+def _stroll(survey: Survey) -> Pairs:
     """A step ahead, where a parked robot has a street; a turn; and back."""
     kiva, (x, y, yaw) = min(survey.kiva.items())
     dx, dy = round(math.cos(yaw)), round(math.sin(yaw))
@@ -77,7 +80,7 @@ def _stroll(survey):
     ]
 
 
-def _pub(topic, kind, **fields):
+def _pub(topic: str, kind: str, **fields: float) -> str:
     text = ", ".join(f"{name}: {value}" for name, value in fields.items())
     return f"rostopic pub -1 /{topic} warehouse_msgs/{kind} '{{{text}}}'"
 
@@ -88,7 +91,7 @@ def within(namespace: str, pairs: list[tuple[str, str]]) -> list[tuple[str, str]
     return [(_within(namespace, command), meaning) for command, meaning in pairs]
 
 
-def _within(namespace, command):
+def _within(namespace: str, command: str) -> str:
     if namespace == "/":
         return command
     if " /" in command:

@@ -5,6 +5,7 @@ Grid points are (x, y) in whole metres; a route is a list of them, both ends inc
 """
 
 import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -17,6 +18,8 @@ from warehouse_layout.place.layout import Floor
 TRIES = 6
 CORRIDOR = 5  # cells two robots need to meet head on and see each other in time
 
+Point = tuple[int, int]  # on the grid [m]
+
 
 @dataclass(frozen=True)
 class Mission:
@@ -25,16 +28,16 @@ class Mission:
     kiva: int
     unit: int
     belt: int
-    to_unit: list
-    to_drop: list
+    to_unit: list[Point]
+    to_drop: list[Point]
 
     @property
-    def out(self) -> tuple[float, float]:
+    def out(self) -> Point:
         """The point before the drop point, to which the robot leaves."""
         return self.to_drop[-2]
 
     @property
-    def cells(self) -> set[tuple[float, float]]:
+    def cells(self) -> set[Point]:
         """The points of both its ways [m]."""
         return {*self.to_unit, *self.to_drop}
 
@@ -68,16 +71,16 @@ class Map:
         return Grid(self.floor, {*self.fixed, *others, *units, *also})
 
 
-def _step(yaw):
+def _step(yaw: float) -> tuple[int, int]:
     return round(math.cos(yaw)), round(math.sin(yaw))
 
 
-def _bounds(points):
+def _bounds(points: Iterable[Point]) -> Floor:
     xs, ys = zip(*points)
     return Floor(min(xs) - 1.5, max(xs) + 1.5, min(ys) - 1.5, max(ys) + 1.5)
 
 
-def _drop(belt, grid):
+def _drop(belt: tuple[float, float, float], grid: Grid) -> Point | None:
     """The free point before one end of a belt (x, y, yaw), or None."""
     x, y, yaw = belt
     cells = set(covered(x, y, yaw, *BELT))
@@ -102,18 +105,18 @@ def two_missions(chart: Map) -> list[Mission]:
     return sorted(best, key=lambda m: m.kiva)
 
 
-def _apart(a, b):
+def _apart(a: Mission, b: Mission) -> bool:
     """Whether two missions have nothing in common."""
     differ = a.kiva != b.kiva and a.unit != b.unit and a.belt != b.belt
     # Two units that turn side by side touch: half their diagonals make 1.13 m.
     return differ and a.cells.isdisjoint(b.cells) and _beside(a.to_drop).isdisjoint(b.to_drop)
 
 
-def _beside(points):
+def _beside(points: Iterable[Point]) -> set[Point]:
     return {(x + dx, y + dy) for x, y in points for dx, dy in STEPS}
 
 
-def _all_missions(chart):
+def _all_missions(chart: Map) -> Iterator[Mission]:
     drops = {belt: drop for belt, drop in chart.drops.items() if drop}
     for kiva, start in sorted(chart.robots.items())[:TRIES]:
         for unit in _nearest(chart.units, start):
@@ -123,14 +126,16 @@ def _all_missions(chart):
                     yield mission
 
 
-def _nearest(points, start):
+def _nearest(points: Mapping[int, Point], start: Point) -> list[int]:
     """Numbers of the points nearest to the start."""
     return sorted(points, key=lambda number: math.dist(start, points[number]))[:TRIES]
 
 
-def _mission(chart, kiva, unit, belt):
+def _mission(chart: Map, kiva: int, unit: int, belt: int) -> Mission | None:
     """None where there is no way."""
     at, drop = chart.units[unit], chart.drops[belt]
+    if drop is None:
+        return None
     try:
         to_unit = _leave(chart.grid([kiva]), chart.robots[kiva], chart.headings[kiva], at)
         to_drop = route(chart.grid([kiva], loaded_from=at), at, drop)
@@ -139,7 +144,7 @@ def _mission(chart, kiva, unit, belt):
     return Mission(kiva, unit, belt, to_unit, to_drop)
 
 
-def _leave(grid, start, heading, goal):
+def _leave(grid: Grid, start: Point, heading: tuple[int, int], goal: Point) -> list[Point]:
     """A route that begins with a step ahead, if it can.
 
     Two robots parked back to back clear each other by 6 mm where both turn at once.
@@ -162,11 +167,11 @@ def meeting(grid: Any, a: Any, b: Any) -> Any:
     return min(ends, key=lambda e: math.dist(a, e[0]) + math.dist(b, e[1]))
 
 
-def _free_points(grid):
+def _free_points(grid: Grid) -> list[Point]:
     return [(x, y) for x in grid.x for y in grid.y if grid.free((x, y))]
 
 
-def _corridors(grid, start):
+def _corridors(grid: Grid, start: Point) -> Iterator[list[Point]]:
     """Free points in a row from `start`, along x and along y, as far as they go."""
     for dx, dy in STEPS[:2]:
         run = [start]

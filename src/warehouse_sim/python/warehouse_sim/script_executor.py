@@ -35,7 +35,7 @@ class Command:
     topic: str
     message: Any
 
-    def __str__(self):
+    def __str__(self) -> str:
         fields = (f"{n} {getattr(self.message, n):g}" for n in self.message.__slots__)
         return f"{self.topic} {', '.join(f for f in fields if not f.startswith('kiva_id'))}"
 
@@ -80,7 +80,7 @@ class ScriptExecutor:
             self._advance(kiva, None)
         self._pump(end, lambda: not self._scripts)
 
-    def _heard(self):
+    def _heard(self) -> bool:
         """Returns whether the commands have a subscriber, and what becomes of them a publisher."""
         return all(p.get_num_connections() for p in (self._answers, *self._publishers.values()))
 
@@ -92,7 +92,7 @@ class ScriptExecutor:
             return condition()
         return True
 
-    def _pump(self, end, done):
+    def _pump(self, end: float, done: Callable[[], Any]) -> None:
         while not done():
             if self._ros.is_shutdown():
                 raise Interrupted
@@ -104,7 +104,7 @@ class ScriptExecutor:
             except queue.Empty:
                 continue
 
-    def _take(self, message):
+    def _take(self, message: Any) -> None:
         self._now = max(self._now, message.header.stamp.to_sec())
         if isinstance(message, KivaStatus):
             self._status[message.kiva_id] = message
@@ -119,22 +119,23 @@ class ScriptExecutor:
             self._ended[kiva] = message
             self._go_on(kiva)
 
-    def _go_on(self, kiva):
+    def _go_on(self, kiva: int) -> None:
         """A command has ended once its event came and the robot may take the next."""
         event = self._ended.get(kiva)
         if event and self._idle(kiva, since=event):
             del self._ended[kiva], self._pending[kiva]
             self._advance(kiva, event)
 
-    def _idle(self, kiva, since=None):
+    def _idle(self, kiva: int, since: Event | None = None) -> bool:
         status = self._status.get(kiva)
         if not status or status.status != KivaStatus.STATUS_IDLE:
             return False
         # A refusal does not change the status.
-        known = not since or since.kind == Event.REFUSED
-        return known or status.header.stamp >= since.header.stamp
+        if since is None or since.kind == Event.REFUSED:
+            return True
+        return status.header.stamp >= since.header.stamp
 
-    def _advance(self, kiva, event):
+    def _advance(self, kiva: int, event: Event | None) -> None:
         try:
             wish = self._scripts[kiva].send(event)
         except StopIteration:

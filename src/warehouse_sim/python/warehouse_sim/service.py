@@ -87,7 +87,7 @@ class WarehouseService:
         title = f"{name}: " if name else ""
         return f"{title}{request} {_where(layout)}"
 
-    def _layout(self, request, engine):
+    def _layout(self, request: Request | None, engine: Engine) -> tuple[Request, Layout]:
         """(Request, Layout); `wanted` is None where as much is wanted as fits."""
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
         if cells is None or not cells.taken.size:
@@ -99,7 +99,9 @@ class WarehouseService:
             return fit_largest(cells, self._seed, self._at)
         return request, fit(request, cells, self._seed, self._at)
 
-    def _finish(self, transaction, name, number, floor, path=""):
+    def _finish(
+        self, transaction: BuildTransaction, name: str, number: int, floor: Any, path: str = ""
+    ) -> None:
         identity.write(self._ros, name, number)
         self._ros.set_param(identity.LAYOUT, path)
         self._ros.set_param("warehouse/floor", [float(edge) for edge in astuple(floor)])
@@ -116,7 +118,7 @@ class WarehouseService:
         except (RequestError, LayoutFileError) as error:
             self._tell(f"nothing was built: {error}")
 
-    def _find_or_build(self, size):
+    def _find_or_build(self, size: str) -> None:
         with Engine(self._ros) as engine:
             undone = self._undo(engine)
             standing = {models.kind_and_number(name)[0] for name in engine.names()} - {None}
@@ -125,7 +127,7 @@ class WarehouseService:
         elif not self._ros.has_param(GREETED):
             self._greet()
 
-    def _undo(self, engine):
+    def _undo(self, engine: Engine) -> bool:
         """Takes away what a builder left half-built. True if one did."""
         transaction = BuildTransaction(self._ros, engine)
         if not transaction.is_unfinished:
@@ -136,7 +138,7 @@ class WarehouseService:
         transaction.commit()
         return True
 
-    def _greet(self, title=""):
+    def _greet(self, title: str = "") -> None:
         """Tells what stands there and what to try."""
         with Engine(self._ros) as engine:
             standing = survey.of_engine(engine)
@@ -153,7 +155,7 @@ def _counted(layout: Layout) -> Request:
     return Request(*map(len, rows))
 
 
-def _where(layout):
+def _where(layout: Layout) -> str:
     """Returns on which floor a layout stands, and how its stations are served if not as usual."""
     if layout.has_own_floor:
         width, length = layout.floor.size

@@ -89,7 +89,7 @@ class StatePublisher:
             self._topic.publish()
             self._shown, self._next = (shown[0], identity.read(self._ros)), now + PERIOD
 
-    def _differs(self, shown):
+    def _differs(self, shown: tuple[Any, Any]) -> bool:
         revision, name = shown
         return revision != self._shown[0] or name not in (None, self._shown[1])
 

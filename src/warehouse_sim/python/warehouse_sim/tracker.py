@@ -4,7 +4,7 @@
 import resource
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -65,7 +65,7 @@ class PoseTopics:
             self._topics[name].publish(PoseStamped(Header(0, stamp, "world"), pose))
         return bool(self._new or (are_gone and self._gone))
 
-    def _plan(self, names):
+    def _plan(self, names: Sequence[str]) -> None:
         """Other objects are there: whose topics are to go, and whose to come?"""
         self._names = names
         self._rows = {name: i for i, name in enumerate(names[: self._limit])}
@@ -167,7 +167,7 @@ def topics_allowed(count: int) -> int:
 def follow(ros: Any, kind: Any, prefix: str) -> None:
     """Publishes until shutdown: the body of a tracking node. `ros` is rospy."""
 
-    def advertise(topic):
+    def advertise(topic: str) -> PoseTopic:
         return PoseTopic(ros, topic)
 
     limit = topics_allowed(ros.get_param("~max_topics", 30000))

@@ -38,10 +38,10 @@ class Traffic:
         for kiva in self._way:
             self._send(kiva)
 
-    def _send(self, kiva):
+    def _send(self, kiva: int) -> None:
         self._topic.publish(distance=self._way[kiva], kiva_id=kiva)
         self._way[kiva] = -self._way[kiva]
 
-    def _go_on(self, event):
+    def _go_on(self, event: Event) -> None:
         if event.kind == Event.DONE:
             self._send(models.kind_and_number(event.model)[1])
