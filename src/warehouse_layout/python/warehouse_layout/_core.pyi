@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Written by scripts/stubs from the built module; shapes, units and errors are told by docstrings.
+# Written by scripts/stubs from the built module; docstrings give shapes, units and errors.
 from numpy.typing import ArrayLike
 from numpy.typing import NDArray
 from typing import Any

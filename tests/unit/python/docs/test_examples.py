@@ -15,7 +15,7 @@ from examples.shells import Session
 
 from examples import links
 
-KNOWN = {*SHOWN, "python", "yaml", "xml", "cpp", "console", "bash"}
+KNOWN = {*SHOWN, "python", "yaml", "xml", "cpp", "json", "console", "bash"}
 
 
 def run(*arguments):

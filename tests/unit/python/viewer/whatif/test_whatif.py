@@ -256,7 +256,7 @@ def test_the_queue_is_bounded(tmp_path):
         ({"policies": {"orders": "os:system"}}, "policies is {'orders': 'os:system'}; a known"),
         ({"realism": "typical"}, "realism: ideal robots have none"),
         ({"physics": True, "realism": "/etc/x"}, "realism is '/etc/x'; one of ideal, typical"),
-        ({"out": "/tmp"}, "a scenario with layout, minutes,"),
+        ({"out": "/tmp"}, "a scenario with events, layout, minutes,"),
         ([], "a scenario with"),
     ],
 )
