@@ -4,6 +4,7 @@
 import json
 import os
 import signal
+import subprocess
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -11,7 +12,7 @@ from pathlib import Path
 import pytest
 from hub_process import Hub, until
 
-from warehouse_sim.hub.process import descendants
+from warehouse_sim.hub.process import descendants, free_port
 
 
 @pytest.fixture
@@ -114,3 +115,38 @@ def test_large_layouts_may_be_sent(hub):
     assert (status, answer.get("field")) == (422, "layout"), answer
     status, answer = hub.ask("POST", "/mcp", {"text": 100_000 * "x"})
     assert status == 413
+
+
+@pytest.mark.parametrize(
+    "limit, state, reason",
+    [
+        (("--memory", "100"), "FAILED", "100 MB at most were expected"),
+        (("--idle", "0.0005"), "STOPPED", "its pages were not asked for in 0.0005 hours"),
+    ],
+)
+def test_a_simulation_that_takes_too_much_is_ended(tmp_path, limit, state, reason):
+    hub = Hub(tmp_path, *limit)
+    hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
+    row = hub.wait_for("one", state)
+    assert row["state"] == state and reason in row["reason"]
+    assert not living(hub.end())
+
+
+def test_a_warehouse_that_is_launched_beside_the_hub_shows_itself_there(hub, tmp_path):
+    port = hub.url.rpartition(":")[2]
+    command = ["roslaunch", "-p", str(free_port()), "warehouse_sim", "warehouse.launch"]
+    environment = os.environ | {"ROS_HOME": str(tmp_path), "ROS_HOSTNAME": "localhost"}
+    environment["ROS_MASTER_URI"] = f"http://localhost:{command[2]}"
+    with subprocess.Popen(
+        [*command, "size:=empty", f"viewer_port:={port}"], env=environment
+    ) as run:
+        try:
+            rows = until(lambda: hub.ask("GET", "/api/v1/simulations")[1]["simulations"], "no row")
+            name = rows[0]["name"]
+            assert hub.wait_for(name, "RUNNING")["arguments"] == {"started": "elsewhere"}
+            assert hub.ask("GET", f"/s/{name}/api/v1/robots")[1]["robots"] == []
+            status, answer = hub.ask("DELETE", f"/api/v1/simulations/{name}")
+            assert status == 409 and "end it there" in answer["detail"]
+        finally:
+            run.send_signal(signal.SIGINT)
+    until(lambda: not hub.ask("GET", "/api/v1/simulations")[1]["simulations"], "it is still there")
