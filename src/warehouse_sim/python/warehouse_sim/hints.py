@@ -18,6 +18,9 @@ _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: 
 _WITHOUT_ROBOTS = [
     (_CREATE, "build a warehouse here"),
     ("rostopic echo -n 1 /warehouse/state", "what stands in it"),
+    ("rosrun warehouse_sim insert_world paper", "or add the models of a world file"),
+]
+_OF_THE_ENGINE = [
     ("rosservice call /gazebo/get_world_properties", "the same as the engine sees it"),
 ]
 _WITH_A_FLEET = [  # a coordinator has the robots busy, and they would refuse commands
@@ -34,7 +37,7 @@ def commands(survey: Survey, has_coordinator: bool = False) -> list[tuple[str, s
     if has_coordinator:
         return _WITH_A_FLEET
     if abs(survey.spacing - 1) > 1e-6:
-        return _WITHOUT_ROBOTS[1:]  # ways are looked for on whole metres
+        return [*_WITHOUT_ROBOTS[1:2], *_OF_THE_ENGINE]  # ways are looked for on whole metres
     return _fetch(survey) or _stroll(survey)
 
 
