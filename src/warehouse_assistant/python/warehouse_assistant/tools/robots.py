@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tools: commands to robots, their mode, transports of storage units."""
 
+import asyncio
+import time
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from warehouse_assistant import hub_client
 from warehouse_assistant.hub_client import Trouble
 from warehouse_assistant.toolbox import Priority, Robot, Simulation, Toolbox, Unit
 from warehouse_assistant.words import listed, plain, quoted, sentence
 
 WAIT = 15.0  # for the end of a command [s, wall]
+EVENT_PATIENCE = 3.0  # for the event of a new transport [s, wall]
 X = Annotated[float, Field(ge=-1e5, le=1e5, description="x of a grid point [m]")]
 Y = Annotated[float, Field(ge=-1e5, le=1e5, description="y of a grid point [m]")]
 
@@ -85,6 +89,7 @@ def add(box: Toolbox) -> None:
         goal: dict[str, Any] = {"station": station} if station else {"x": x, "y": y}
         body = {"storage_unit": unit, "then": then, "priority": priority} | goal
         number = (await warehouse.send("POST", "transports", body))["transport_id"]
+        await _heard_of(warehouse, number)
         return (
             f"Transport {number} brings unit {unit}. It waits there until release_unit"
             f" {number}; transport_state tells how far it is."
@@ -108,6 +113,15 @@ def add(box: Toolbox) -> None:
         warehouse = await box.hub.simulation(simulation)
         answer = await warehouse.send("POST", f"transports/{transport}/release")
         return f"Transport {transport} is released. {plain(answer['message'], 300)}"
+
+
+async def _heard_of(warehouse: hub_client.Simulation, transport: int) -> None:
+    """Waits until the warehouse's API knows a transport: its event may come after the answer."""
+    end = time.monotonic() + EVENT_PATIENCE
+    while await warehouse.get_or_none(f"transports/{transport}") is None:
+        if time.monotonic() > end:
+            return
+        await asyncio.sleep(0.05)
 
 
 def _transport(row: dict[str, Any]) -> str:
