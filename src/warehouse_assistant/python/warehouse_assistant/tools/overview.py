@@ -86,7 +86,7 @@ def add(box: Toolbox) -> None:
     @box.reads("List recent events")
     async def recent_events(
         model: Annotated[str, Field(max_length=100, description="of it alone, as kiva3")] = "",
-        limit: Annotated[int, Field(ge=1, le=200, description="at most so many")] = 30,
+        limit: Annotated[int, Field(ge=1, le=200, description="largest count of events")] = 30,
         simulation: Simulation = "",
     ) -> str:
         """Lists the newest events of the warehouse's journal, the newest first."""

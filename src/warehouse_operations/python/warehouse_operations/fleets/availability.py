@@ -48,7 +48,7 @@ class Energy:
         return seconds * (self.electronics + UNDER_WAY * is_under_way) / self.joules
 
     def charged(self, charge: float, seconds: float) -> float:
-        """Returns the state of charge after so long at a charger, from one before."""
+        """Returns the state of charge after a duration at a charger."""
         rate = (self.charge_power - self.electronics) / self.joules
         constant = max(self.charge_taper - charge, 0.0) / rate
         if seconds <= constant:

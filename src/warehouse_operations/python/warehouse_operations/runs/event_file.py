@@ -3,7 +3,7 @@
 
 - {at: 600, close: pick3}          # [s] of the shift; or 2:30:00
 - {at: 1:00:00, open: pick3}
-- {at: 600, robots: +4}            # so many more, or -2 fewer
+- {at: 600, robots: +4}            # 4 more; -2: 2 fewer
 - {at: 600, fail: robot 7}         # or a share, 10%; `for: 900` until it is repaired [s] (600)
 - {at: 600, speed: 50%}            # of the robots' top speed; ideal robots only
 - {at: 600, sku_out: red}          # its pieces are gone, and no more come

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A day for which a warehouse is sized: with its peak, instead of so many orders an hour."""
+"""A day for which a warehouse is sized: with its peak, instead of a constant rate of orders."""
 
 import math
 from collections import Counter

@@ -54,7 +54,7 @@ class Wish:
     hours: float = 8.0
     seeds: int = 5
     most_robots: int = 0  # 0: what the demand can use and the floor has room for
-    day: Day | None = None  # comes instead of so many orders an hour
+    day: Day | None = None  # in place of a constant rate of orders
     realism: str = ""  # what keeps robots from work: a preset or a file
 
     def __post_init__(self) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A day of orders as it was, or drawn; with so many times the orders."""
+"""A day of orders as it was, or drawn; its orders multiplied by a factor."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -37,7 +37,7 @@ def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> No
 
 
 def scaled(orders: Sequence[Wanted], factor: float, rng: np.random.Generator) -> list[Wanted]:
-    """Returns so many times the orders: whole copies, and a part of them by chance.
+    """Returns the orders times a factor: whole copies, and a part of them by chance.
 
     A copy comes within NEAR of the order, has as long until it is due, and a reference of its own.
     """

@@ -5,8 +5,8 @@
     of: orders.csv               # what it was made of
     interval_s: 3600
     orders: [120.0, 180.0]       # that come in each interval of a day, on the average
-    lines: {1: 0.6, 2: 0.4}      # share of the orders that have so many
-    pieces: {1: 0.9, 2: 0.1}     # share of the lines that ask for so many
+    lines: {1: 0.6, 2: 0.4}      # share of the orders by their count of lines
+    pieces: {1: 0.9, 2: 0.1}     # share of the lines by their count of pieces
     due: {none: 0.2, seconds: [600, 7200]}  # orders without, and quantiles of the others' time
     skus: {red: 420, blue: 13}   # lines that ask for each
 

@@ -2,10 +2,10 @@
 """The text that says which orders come, where it names a file.
 
     FILE.csv                      the orders of a file
-    mix:PER_HOUR:FILE.csv         by chance, so many an hour, like those of a file
+    mix:PER_HOUR:FILE.csv         by chance at that rate, like those of a file
     day:FILE.csv                  the day as it was: each order at its time
     demand:FILE.demand.yaml       days drawn from a description (demand_file)
-    day:FILE.csv*1.3              either, with so many times the orders
+    day:FILE.csv*1.3              either, with 1.3 times the orders
 
 `run-in:MINUTES:` before a day has the orders of its first hour come before it, so that the
 warehouse is at work when the day begins.
