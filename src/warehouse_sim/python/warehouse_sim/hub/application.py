@@ -19,6 +19,10 @@ from warehouse_viewer.server.site import DOCS, HUB, LAYOUT, WHATIF, Site
 from warehouse_viewer.whatif.routes import routes as whatif_routes
 from warehouse_viewer.whatif.workshop import Workshop
 
+# Requests a second of each address: the pages of several simulations and the assistant's own
+# requests come from one.
+RATE = 400.0
+
 
 class Hub:
     """Simulations, what-if, editor and documentation; run() serves until it is stopped.
@@ -46,7 +50,7 @@ class Hub:
             ]
         )
         token, other = tokens
-        access = AccessControl(application, token, other_token=other)
+        access = AccessControl(application, token, RATE, other_token=other)
         self.server = _HubServer(config_of(access), self._begin, self._end)
 
     def _begin(self) -> None:
