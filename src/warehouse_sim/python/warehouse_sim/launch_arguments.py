@@ -214,18 +214,24 @@ def _without_password(text: str) -> str:
     return re.sub(r"(://[^:/@]*:)[^@]*@", r"\1***@", text)
 
 
+# What an argument with few values may be; the hub's form offers the same.
+CHOICES = {
+    "size": ("none", *PRESETS, FIT),
+    "drive": ("", "traction", "jointed"),
+    "transports": ("none", "random"),
+}
 OF_THE_SHIFT = ("orders", "policies", "database")
 ARGUMENTS: dict[str, Check] = {
     "world": _world,
     "replay": _file("a recording"),
-    "size": _one_of("none", *PRESETS, FIT),
+    "size": _one_of(*CHOICES["size"]),
     "at": _point,
     "layout": _layout,
     "robots": _count,
     "rviz": _flag,
     "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as possible)"),
     "seed": _whole(MOST_WHOLE),
-    "drive": _one_of("", "traction", "jointed"),
+    "drive": _one_of(*CHOICES["drive"]),
     "realism": _realism,
     "threads": _whole(MOST_THREADS),
     "lockstep": _flag,
@@ -237,7 +243,7 @@ ARGUMENTS: dict[str, Check] = {
     "viewer_token_file": _token_file,
     "actions": _flag,
     "coordinator": _flag,
-    "transports": _one_of("none", "random"),
+    "transports": _one_of(*CHOICES["transports"]),
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,

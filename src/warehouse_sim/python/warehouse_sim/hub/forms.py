@@ -6,16 +6,9 @@ import xml.etree.ElementTree as ElementTree
 from typing import Any
 
 from warehouse_layout.file import files
-from warehouse_layout.file.request import FIT, PRESETS
 from warehouse_sim import launching
 from warehouse_sim.hub.wish import DEFAULT_FILE, FILES, known_arguments
-
-# Choices that the check of an argument knows; a form offers them.
-CHOICES = {
-    "size": ["none", *PRESETS, FIT],
-    "drive": ["", "traction", "jointed"],
-    "transports": ["none", "random"],
-}
+from warehouse_sim.launch_arguments import CHOICES
 
 
 @functools.cache
@@ -50,6 +43,6 @@ def _row(name: str, element: ElementTree.Element) -> dict[str, Any]:
         "name": name,
         "documentation": element.get("doc", ""),
         "default": "" if default.startswith("$(") else default,
-        "choices": CHOICES.get(name, []),
+        "choices": [*CHOICES.get(name, ())],
         "files": [],
     }

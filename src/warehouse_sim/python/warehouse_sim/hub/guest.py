@@ -6,8 +6,9 @@ from contextlib import suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from warehouse_sim.hub.simulation import Simulation, State, fetch
+from warehouse_sim.hub.simulation import TIMEOUT, Simulation, State
 from warehouse_sim.hub.wish import Wish, WishError
+from warehouse_viewer.server.hub_link import ask
 
 PATIENCE = 10.0  # with pages that do not answer, before it is taken off the list [s, wall]
 
@@ -34,6 +35,6 @@ class Guest(Simulation):
     def look(self, most_memory: int) -> None:
         """Takes in how it is (`most_memory` is not the hub's to bound)."""
         with suppress(OSError, ValueError, KeyError):
-            self._warehouse = fetch(f"{self.viewer}/api/v1/warehouse")
+            self._warehouse = ask("GET", f"{self.viewer}/api/v1/warehouse", timeout=TIMEOUT)
             self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
             self._heard = time.monotonic()

@@ -4,13 +4,13 @@
 import enum
 import json
 import time
-import urllib.request
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from warehouse_sim.hub.process import Process
 from warehouse_sim.hub.wish import Wish
+from warehouse_viewer.server.hub_link import ask
 
 TIMEOUT = 3.0  # for the pages of a simulation to answer [s, wall]
 
@@ -103,12 +103,5 @@ class Simulation:
         if not self.viewer:
             return
         with suppress(OSError, ValueError):
-            self._warehouse = fetch(f"{self.viewer}/api/v1/warehouse")
+            self._warehouse = ask("GET", f"{self.viewer}/api/v1/warehouse", timeout=TIMEOUT)
             self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
-
-
-def fetch(url: str) -> dict[str, Any]:
-    """Returns the JSON that a server of this machine answers. Raises OSError, ValueError."""
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    with opener.open(url, timeout=TIMEOUT) as answer:
-        return json.loads(answer.read())

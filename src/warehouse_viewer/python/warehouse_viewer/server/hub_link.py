@@ -13,7 +13,7 @@ API = "/api/v1/simulations"
 def is_hub(port: int) -> bool:
     """Tells whether a hub serves at a port of this machine."""
     with suppress(OSError, ValueError, KeyError):
-        return isinstance(_ask("GET", port, API)["simulations"], list)
+        return isinstance(ask("GET", f"http://localhost:{port}{API}")["simulations"], list)
     return False
 
 
@@ -23,13 +23,15 @@ def join(port: int, name: str, address: str) -> str:
     Raises OSError where the hub refuses or does not answer.
     """
     wished = re.sub(r"[^a-z0-9-]+", "-", name.lower()).strip("-")[:40] or "warehouse"
-    row = _ask("PUT", port, f"{API}/{wished}", {"address": address.rstrip("/")})
-    return f"http://localhost:{port}{row['url']}"
+    hub = f"http://localhost:{port}"
+    row = ask("PUT", f"{hub}{API}/{wished}", {"address": address.rstrip("/")})
+    return hub + row["url"]
 
 
-def _ask(method: str, port: int, path: str, body: dict | None = None) -> dict:
+def ask(method: str, url: str, body: dict | None = None, timeout: float = TIMEOUT) -> dict:
+    """Returns the JSON that a server of this machine answers. Raises OSError, ValueError."""
     data = None if body is None else json.dumps(body).encode()
-    request = urllib.request.Request(f"http://localhost:{port}{path}", data, method=method)
+    request = urllib.request.Request(url, data, method=method)
     opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    with opener.open(request, timeout=TIMEOUT) as answer:
+    with opener.open(request, timeout=timeout) as answer:
         return json.loads(answer.read())
