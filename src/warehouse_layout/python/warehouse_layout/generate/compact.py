@@ -74,7 +74,7 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
 def fitting(
     request: Request, replenish: int, style: Style, width: int, height: int, most: int = 3
 ) -> Iterator[LayoutFile]:
-    """Yields the files of compact warehouses that fit into so many cells, the smallest first, up to
+    """Yields the files of compact warehouses that fit into a count of cells, the smallest first, up to
     `most` of them. Raises RequestError as of_request() does."""
     style.check()
     check_stations(request.belts, replenish)
@@ -188,7 +188,7 @@ class _Plan:
         return (self.queue if kinds else 0) + (BELT_CELLS if "pick" in kinds else 0)
 
     def fits(self, width: int, height: int) -> bool:
-        """Returns whether it has room in so many cells."""
+        """Returns whether a count of cells has room for it."""
         rows, columns = self.shape
         return rows <= height and columns <= width
 

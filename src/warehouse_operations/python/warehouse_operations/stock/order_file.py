@@ -252,7 +252,7 @@ def _field(
         value = None
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
-        # A limit that no order comes near says nothing to a person who has mistyped.
+        # Names no limit that is far above any order: it does not help after a slip of the key.
         is_near = most < LARGE or (value is not None and value > most)
         limit = f"to {most:,.0f}" if is_near else "on"
         raise _FieldError(

@@ -39,7 +39,7 @@ class Permission:
 
 
 class Assistant:
-    """A process that ends with this program. Without `python` there is none.
+    """The assistant's process, which ends with this program; none runs without `python`.
 
     hub: the address that it asks, with `token` where that needs one.
     """
