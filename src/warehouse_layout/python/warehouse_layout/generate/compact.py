@@ -74,7 +74,7 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
 def fitting(
     request: Request, replenish: int, style: Style, width: int, height: int, most: int = 3
 ) -> Iterator[LayoutFile]:
-    """Yields the files of compact warehouses that fit into a count of cells, the smallest first, up to
+    """Yields the files of compact warehouses that fit a count of cells, the smallest first, up to
     `most` of them. Raises RequestError as of_request() does."""
     style.check()
     check_stations(request.belts, replenish)
