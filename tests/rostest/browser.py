@@ -132,6 +132,15 @@ class Browser:
         """Touches the middle of an element, by its id."""
         self.tap(*self.read(CENTRE.format(element)))
 
+    def tap_until(self, element, expression):
+        """Touches the middle of an element, by its id, until an expression holds: a page that is
+        alive may move the element away from under a finger, and a person then taps again."""
+        end = time.monotonic() + self._patience
+        while not self.read(f"page && ({expression})"):
+            assert time.monotonic() < end, f"tapped in vain: {expression}; {self._told()}"
+            self.tap(*self.bring(element))
+            time.sleep(SETTLES)
+
     def bring(self, element):
         """Brings an element, by its id, into view; returns its middle [px]. A window that has just
         changed its size moves what it shows for a while."""
