@@ -35,7 +35,7 @@ void command(kiva::World& world, kiva::test::CheckpointDamager& random) {
   world.post(command);
 }
 
-/// Of every world that stands under that folder, at a few moments of its life.
+/// Adds checkpoints of every world in a folder, at a few moments of its run.
 void addSeeds(const char* folder, std::vector<std::string>* seeds) {
   kiva::test::CheckpointDamager random(1);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -16,7 +16,7 @@ namespace kiva::test {
 
 constexpr std::size_t kVersionAt = 8, kSizeAt = 12, kHashAt = 20, kContentAt = 28;
 
-/// With the size and the hash of what is in it.
+/// Returns a checkpoint with the size and the hash of its present content.
 inline std::string resealed(std::string bytes) {
   std::uint32_t version = 0;
   std::memcpy(&version, &bytes[kVersionAt], sizeof version);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// After M. J. Kronenburg, "A method for fast diagonalization of a 2x2 or 3x3 real symmetric
-// matrix", arXiv:1306.6291v4. Its angles phi1, phi2 and phi3, its vectors f and g and its equations
-// are meant below.
+// Method of M. J. Kronenburg, "A method for fast diagonalization of a 2x2 or 3x3 real symmetric
+// matrix", arXiv:1306.6291v4. Equations and the names phi1, phi2, phi3, f and g are those of the
+// paper.
 #include "kiva_plugin_cpp/principal_inertia.h"
 
 #include <array>
@@ -29,12 +29,12 @@ double angleOf(const Vector2& v, double tolerance) {
   return isSmall(v, tolerance) ? 0 : std::atan2(v.y, v.x);
 }
 
-/// How far two directions are apart: squared chord.
+/// Returns the squared chord between two directions.
 double chord(double a, double b) {
   return square(std::sin(a) - std::sin(b)) + square(std::cos(a) - std::cos(b));
 }
 
-/// What rounding may make of the moments of a body that is possible.
+/// Returns the largest error by which rounding may change the moments of a possible body.
 double roundingOf(const Vector3& moments) {
   constexpr double kUlps = 10;
   return kUlps * std::numeric_limits<double>::epsilon() * (0.5 * std::abs(moments.Sum()));
@@ -104,7 +104,8 @@ class AxisSearch {
     return withBestSigns(g1, g2, phi2, phi3);
   }
 
-  /// phi2 and phi3 are known but for their signs: those hold for which both ways to phi1 agree.
+  /// phi2 and phi3 are known up to their signs. The right signs are those with which both formulas
+  /// for phi1 agree.
   Quaternion withBestSigns(const Vector2& g1, const Vector2& g2, double phi2, double phi3) const {
     struct Signs {
       double of_phi2, of_phi3;
@@ -235,8 +236,8 @@ Vector3 InertiaTensor::principalMoments(double tolerance) const {
 
 Quaternion InertiaTensor::principalAxes() const {
   const double tolerance = kNegligible * moments.Max();
-  // Where a relative tolerance is asked for, this is an absolute one, as in ignition-math and so in
-  // Gazebo: models keep the axes that they have there.
+  // ignition-math, and so Gazebo, treats this relative tolerance as an absolute one. Doing the same
+  // keeps the axes that models have there.
   const Vector3 principal = principalMoments(tolerance);
   const double spare = std::abs(tolerance);
   const bool are_equal = std::abs(principal.X() - principal.Y()) <= spare &&

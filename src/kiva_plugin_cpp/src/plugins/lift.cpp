@@ -17,11 +17,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kStalled = 0.5;      // [s] at its largest force, then the lift gives up
-constexpr double kSpareForce = 1.25;  // times the weight of the largest load, unless it is told
-constexpr double kBeside = 0.001;     // [m] by which outlines may overlap of what is beside
+constexpr double kStalled = 0.5;  // [s] at the largest force before the lift gives up
+constexpr double kSpareForce =
+    1.25;  // force as a multiple of the largest load's weight, unless the robot's file has one
+constexpr double kBeside = 0.001;  // [m] of overlap up to which outlines count as side by side
 
-/// What a load that rises will meet next.
+/// The next obstacle above a load that rises.
 struct Above {
   double clearance = 1e9;  // [m]
   int model = -1;
@@ -51,8 +52,8 @@ Above findAbove(const Scene& world, int i) {
   return above;
 }
 
-/// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
-/// wheels stay on the floor.
+/// Returns the force with which a model resists being lifted [N]: its weight, unless it is fixed or
+/// a robot, whose wheels stay on the floor.
 double resistance(const Scene& world, const Model& model) {
   if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
   double mass = 0;
@@ -66,7 +67,7 @@ void setTower(MotionView& world, int i, double height) {
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
-/// lift.time: half of it at 4·height/time², half at minus that.
+/// lift.time: 4·height/time² in its first half, minus that in its second.
 void moveTower(MotionView& world, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
@@ -87,7 +88,7 @@ void giveUp(TaskView& world, int i, const std::string& by, const std::string& re
   stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
-/// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
+/// Gives the lift up if the unit is not, or no longer, at the place of the lift.
 void checkUnit(TaskView& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
@@ -112,16 +113,16 @@ void putDownOnFloor(ContactView& world, int i, int unit) {
                 "dropped " + world.storage.units[unit].name);
 }
 
-/// The tower comes down, a unit that it has stands on the floor again, then the command ends in
-/// BLOCKED.
+/// Lowers the tower, puts a carried unit on the floor, then ends the command in BLOCKED.
 void abandon(ContactView& world, int i, int unit) {
   moveTower(world, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
 }
 
-/// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
-/// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
+/// Holds the tower where its force does not suffice: beneath an obstacle that it can't lift, or
+/// under a load that is too heavy. Gives up after kStalled. `above` is the obstacle as seen from
+/// the height `before` [m].
 void stall(MotionView& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
@@ -156,8 +157,8 @@ void raiseSegment(ContactView& world, int i, int unit) {
     takeUp(world, i, unit);
   }
   if (world.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(world, world.models.of(
-                         world.fleet.robots[i]));  // its load is higher than when it was taken up
+  rebuildBody(world,
+              world.models.of(world.fleet.robots[i]));  // its load is higher than at its taking up
   reportCommand(world, world.log, Event::Kind::kLifted, i, world.storage.units[unit].name,
                 "lifted " + world.storage.units[unit].name);
   finishSegment(world, i);
@@ -169,7 +170,7 @@ void lowerSegment(ContactView& world, int i, int unit) {
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
-/// Stops the tower, and keeps it there.
+/// Stops the tower and holds it.
 void holdTower(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
@@ -191,17 +192,17 @@ void liftSegment(ContactView& world, int i) {
   if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
 
-/// A tower whose unit was deleted comes down by itself.
+/// Lowers a tower whose unit was deleted.
 void lowerEmptyTower(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(world, i, 0);
 }
 
-/// Has the tasks of robots that follow at place `k` of a list brought into the cache: those of a
-/// large fleet lie apart, and waiting for them took most of this loop's time.
+/// Prefetches the tasks of the robots that follow at place `k` of a list. Tasks of a large fleet
+/// lie apart, and cache misses took most of this loop's time.
 void fetchAhead(const FleetState& f, const std::vector<int>& robots, std::size_t k) {
-  constexpr std::size_t kTask = 12, kSegment = 6;  // as many robots ahead
+  constexpr std::size_t kTask = 12, kSegment = 6;  // distance in robots
   if (k + kTask < robots.size()) __builtin_prefetch(&f.tasks[robots[k + kTask]].segments);
   if (k + kSegment >= robots.size()) return;
   const Task& soon = f.tasks[robots[k + kSegment]];

@@ -21,7 +21,7 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// Steps made at a time; between them Python is asked whether Ctrl-C was pressed.
+/// Number of steps between checks for Ctrl-C.
 constexpr std::int64_t kStepsBetweenSignals = 256;
 
 /// A row of World.storage_units.

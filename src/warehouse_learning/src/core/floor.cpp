@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kQuarterTurn = 1.5707963267948966;  // [rad]
 
-/// Which cell of a row or column is nearest to `way` [cells] from the first.
+/// Returns the cell of a row or column nearest to `way` [cells] from the first.
 int nearest(double way, int cells) {
   const double rounded = std::nearbyint(way);
   return rounded > 0 ? static_cast<int>(std::min(rounded, cells - 1.0)) : 0;

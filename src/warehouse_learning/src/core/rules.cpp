@@ -8,7 +8,7 @@ namespace learning {
 namespace {
 
 constexpr std::int32_t kNobody = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kTurnsAlready = -1;  // before everybody who is about to
+constexpr std::int32_t kTurnsAlready = -1;  // rank before all robots that are about to turn
 
 bool isTurn(std::int8_t action) { return action == kLeft || action == kRight; }
 
@@ -94,7 +94,7 @@ void Rules::markHeld(int w, bool mark) {
   }
 }
 
-/// Of several that want into one cell the first goes.
+/// Gives a cell that several robots go to to the first of them.
 void Rules::takeCells(int w, const std::int8_t* actions, bool* done) {
   const auto wants = [&](int robot) { return done[robot] && actions[robot] == kForward; };
   std::vector<int> taken;
@@ -108,7 +108,8 @@ void Rules::takeCells(int w, const std::int8_t* actions, bool* done) {
   for (const int cell : taken) held_[cell] = false;
 }
 
-/// One that turns sweeps beyond its cell, and two side by side would touch: the first of them may.
+/// Decides turns. A turning robot sweeps beyond its cell, and two side by side would touch: only
+/// the first may turn.
 void Rules::takeTurns(int w, const std::int8_t* actions, bool* done) {
   const int robots = state_.robots();
   for (int robot = 0; robot < robots; ++robot) {
@@ -126,7 +127,7 @@ void Rules::takeTurns(int w, const std::int8_t* actions, bool* done) {
   for (int robot = 0; robot < robots; ++robot) rank_[state_.cell[w][robot]] = kNobody;
 }
 
-/// Whether there is something to begin.
+/// Begins an action. Returns whether there is an order to post.
 bool Rules::begin(int w, int robot, Action action) {
   const bool busy = state_.busy[w][robot];
   load_before_[w][robot] = state_.load[w][robot];

@@ -19,7 +19,7 @@ const Way& Ways::to(int goal, Deck deck) {
   return *way;
 }
 
-/// Wave by wave from the goal. One may begin in any passable cell.
+/// Searches breadth first from the goal. A way may begin in any passable cell.
 Way Ways::measure(int goal, Deck deck) const {
   Way way(floor_.size(), kFar);
   way[goal] = 0;

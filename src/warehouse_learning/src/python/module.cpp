@@ -27,7 +27,7 @@ namespace py = pybind11;
 namespace learning::python {
 namespace {
 
-/// IndexError unless low <= value < high.
+/// Returns `value`; throws IndexError unless low <= value < high.
 int within(const char* name, py::ssize_t value, py::ssize_t low, py::ssize_t high) {
   if (value >= low && value < high) return static_cast<int>(value);
   throw py::index_error(std::string(name) + " has " + std::to_string(value) + "; " +
@@ -55,7 +55,7 @@ std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<doub
 
 using Places = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// (cell, heading), each like x.
+/// Returns (cell, heading), each of the shape of x.
 py::tuple locate(const Floor& floor, const Places& x, const Places& y, const Places& yaw) {
   if (y.size() != x.size() || yaw.size() != x.size()) {
     throw py::value_error("x, y and yaw: expected arrays of one shape");
@@ -70,7 +70,7 @@ py::tuple locate(const Floor& floor, const Places& x, const Places& y, const Pla
   return py::make_tuple(cell, heading);
 }
 
-/// Rows of the task as an array that can be read and lives as long as the task.
+/// Returns rows of the task as a read-only array that lives as long as the task.
 template <typename T>
 py::array view(const Table<T>& table, const py::object& owner) {
   py::array_t<T> array({table.rows(), table.columns()}, table[0], owner);
@@ -154,7 +154,7 @@ class Task {
     return py::array_t<bool>({state_.warehouses(), state_.robots(), kActions}, knowPossible()[0]);
   }
 
-  /// (done, world, commands)
+  /// Returns (done, world, commands).
   py::tuple begin(const py::object& actions) {
     const auto chosen = byRobot<std::int8_t>("actions", actions);
     for (py::ssize_t i = 0; i < chosen.size(); ++i) {
@@ -174,9 +174,9 @@ class Task {
     return py::make_tuple(done, worlds, rows);
   }
 
-  /// (refused, collided, [warehouse with collisions])
+  /// Returns (refused, collided, [warehouse with collisions]).
   py::tuple takeEvents(const py::object& done, const py::object& counts) const {
-    const auto told = byRobot<bool>("done", done);
+    const auto obeyed = byRobot<bool>("done", done);
     const auto events = checked<std::uint32_t>(
         "counts", counts, {state_.warehouses(), state_.robots(), kiva::Event::kKinds});
     Table<bool> refused(state_.warehouses(), state_.robots());
@@ -184,7 +184,7 @@ class Task {
     py::list hit;
     for (int w = 0; w < state_.warehouses(); ++w) {
       for (int robot = 0; robot < state_.robots(); ++robot) {
-        const bool idles = !told.at(w, robot) && !state_.busy[w][robot];
+        const bool idles = !obeyed.at(w, robot) && !state_.busy[w][robot];
         refused[w][robot] = idles || events.at(w, robot, int(kiva::Event::Kind::kRefused)) > 0;
         collided[w][robot] = events.at(w, robot, int(kiva::Event::Kind::kCollision)) > 0;
       }
@@ -194,7 +194,7 @@ class Task {
     return py::make_tuple(copy(refused), copy(collided), hit);
   }
 
-  /// (lifted, dropped, stored, [(warehouse, robot)])
+  /// Returns (lifted, dropped, stored, [(warehouse, robot)]).
   py::tuple settle() {
     const Outcome outcome = rules_.settle();
     is_possible_known_ = false;
@@ -236,8 +236,8 @@ class Task {
   }
 
   void observe(const py::object& out) {
-    const auto given = py::array::ensure(out);
-    const py::ssize_t size = given && given.ndim() == 3 ? given.shape(2) : 0;
+    const auto buffer = py::array::ensure(out);
+    const py::ssize_t size = buffer && buffer.ndim() == 3 ? buffer.shape(2) : 0;
     if (size < observer_.size()) {
       throw py::value_error("out: expected at least " + std::to_string(observer_.size()) +
                             " numbers a robot");
@@ -251,8 +251,8 @@ class Task {
 
  private:
   template <typename T>
-  Array<T> byRobot(const char* name, const py::object& given) const {
-    return checked<T>(name, given, {state_.warehouses(), state_.robots()});
+  Array<T> byRobot(const char* name, const py::object& argument) const {
+    return checked<T>(name, argument, {state_.warehouses(), state_.robots()});
   }
 
   const Table<bool>& knowPossible() {
@@ -286,7 +286,7 @@ class Task {
   Goals goals_;
   Rules rules_;
   Observer observer_;
-  Table<bool> possible_;  // as of Rules
+  Table<bool> possible_;  // as Rules has it
   bool is_possible_known_ = false;
   std::vector<std::int32_t> kiva_id_, shelf_id_;
   std::vector<int> unit_of_;  // by shelf_id
@@ -308,10 +308,11 @@ stations: cells. ValueError, IndexError for what is none of that.)")
 }
 
 void defineTask(py::module_& m) {
-  py::class_<Task> task(m, "Task",
-                        "The task in many warehouses at once. Arrays are (warehouses, robots), "
-                        "unless told; another type or shape is a ValueError, a number out of range "
-                        "an IndexError.");
+  py::class_<Task> task(
+      m, "Task",
+      "The task in many warehouses at once. Arrays are (warehouses, robots), "
+      "unless stated otherwise; another type or shape is a ValueError, a number out of range "
+      "an IndexError.");
   task.def(py::init<std::shared_ptr<Floor>, int, std::vector<std::int32_t>,
                     std::vector<std::int32_t>, int, bool>(),
            py::arg("floor"), py::arg("warehouses"), py::arg("kiva_id"), py::arg("shelf_id"),
@@ -328,8 +329,8 @@ void defineTask(py::module_& m) {
            "Units stand in those cells, (units,) int32; -1 = carried.");
   task.def("possible", &Task::possible, "(warehouses, robots, 5) bool: what each may choose now.");
   task.def("begin", &Task::begin, py::arg("actions"),
-           "Robots begin what they may of actions, int8. (done, world, commands): who does as "
-           "told, bool, and what is to be posted, (k,) int32 and COMMAND.");
+           "Robots begin what they may of actions, int8. Returns (done, world, commands): "
+           "who does its action, bool, and what is to be posted, (k,) int32 and COMMAND.");
   task.def("take_events", &Task::takeEvents, py::arg("done"), py::arg("counts"),
            "After update(): who was refused, and who has collided, by begin()'s `done` and by "
            "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");

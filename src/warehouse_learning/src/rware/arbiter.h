@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which robots move when several want into one cell, or each into another's.
+// Arbitration between robots that want to enter the same cell, or each other's.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace rware {
 
-/// What each robot wants: cells, `to` equal to `from` if it stays.
+/// The wish of a robot: cells, `to` equal to `from` if it stays.
 struct Wish {
   int from, to;
 };
@@ -21,8 +21,7 @@ struct Wish {
 class Arbiter {
  public:
   explicit Arbiter(const Layout& layout) : layout_(layout) {}
-  /// robot_at: by cell, the robot that stands there, or -1. Returns, by robot, whether its wish
-  /// comes true.
+  /// `robot_at`: by cell, the robot there, or -1. Returns, by robot, whether its wish is granted.
   const std::vector<char>& settle(const std::vector<Wish>& wishes,
                                   const std::vector<int>& robot_at);
 
@@ -37,11 +36,11 @@ class Arbiter {
 
   const Layout& layout_;
   const std::vector<Wish>* wishes_ = nullptr;
-  // By robot: the robot in the cell that it wants, itself if it stays, -1 if that is empty; those
-  // that want its cell; how many robots the longest chain has that ends with it.
+  // By robot: the robot in the cell that it wants (itself if it stays, -1 if the cell is empty);
+  // the length of the longest chain that ends with it; the robots that want its cell.
   std::vector<int> ahead_, length_;
   std::vector<std::vector<int>> behind_;
-  std::vector<char> committed_, seen_;
+  std::vector<char> committed_, visited_;
 };
 
 }  // namespace rware

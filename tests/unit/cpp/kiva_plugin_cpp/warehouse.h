@@ -76,7 +76,7 @@ inline std::string without(std::string text, const std::string& first, const std
   return text.erase(begin, text.find(last, begin) + last.size() - begin);
 }
 
-/// For EXPECT_PRED2, which prints both.
+/// Predicate for EXPECT_PRED2, which prints both arguments.
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A fan of rays at once: not what each ray meets on its way, cell by cell, but which rays each
-// obstacle is met by, which are few and lie side by side. Everything is seen from the laser: rays
-// begin at (0, 0), and x is the robot's heading.
+// Casts all rays of a fan at once. Instead of tracing each ray cell by cell, it determines for each
+// obstacle the rays that may meet it, which are few and adjacent. Coordinates are relative to the
+// laser: rays begin at (0, 0), and x is the robot's heading.
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
@@ -14,18 +14,18 @@
 namespace kiva {
 namespace {
 
-constexpr double kAngleError = 1e-3;  // [rad] that angleOf() may be off, with much to spare
-constexpr double kTouching = 1e-6;    // [m]: a laser as near to a surface may be in it
+constexpr double kAngleError = 1e-3;  // [rad] error of angleOf(), with a large margin
+constexpr double kTouching = 1e-6;    // [m]; a laser that close to a surface may be inside it
 
-/// Rays of a fan that lie side by side.
+/// Adjacent rays of a fan.
 struct Interval {
   int first = 0, last = -1;
 };
 
-/// A footprint as the laser sees it, and the rays that may meet it.
+/// A footprint relative to the laser, and the rays that may meet it.
 struct Target : FlatPose {
   const Footprint* shape = nullptr;
-  Interval rays[3];  // of a whole circle, one end of the fan and the other
+  Interval rays[3];  // the whole circle, and both ends of the fan
   int parts = 0;
 };
 
@@ -39,8 +39,8 @@ double angleOf(double x, double y) {
   return y < 0 ? -angle : angle;
 }
 
-/// Returns the directions from the laser in which a target lies, counterclockwise; they may go on
-/// beyond ±π. Returns false if it is all around.
+/// Returns the directions from the laser in which a target lies, counterclockwise; they may exceed
+/// ±π. Returns false if the target surrounds the laser.
 bool anglesTo(const Target& t, double* from, double* to) {
   const Footprint& f = *t.shape;
   if (f.kind != Footprint::Kind::kBox) {
@@ -51,7 +51,7 @@ bool anglesTo(const Target& t, double* from, double* to) {
     *to = middle + half;
     return true;
   }
-  // Between two of its corners: which, depends on from where it is seen.
+  // The target lies between two of its corners, which depend on the direction of view.
   const double px = -(t.x * t.c + t.y * t.s), py = t.x * t.s - t.y * t.c;
   const bool beside_x = std::abs(px) > f.hx + kTouching, beside_y = std::abs(py) > f.hy + kTouching;
   if (!beside_x && !beside_y) return false;
@@ -66,7 +66,7 @@ bool anglesTo(const Target& t, double* from, double* to) {
   return true;
 }
 
-/// The rays between two angles [rad], which may go on beyond ±π.
+/// Determines the rays between two angles [rad], which may exceed ±π.
 void findRays(const RayFan& fan, double from, double to, Target* target) {
   const double span = fan.max_angle - fan.min_angle;
   const double per = span > 0 ? (fan.rays - 1) / span : 0;
@@ -85,7 +85,7 @@ void findRays(const RayFan& fan, Target* target) {
   target->rays[target->parts++] = {0, fan.rays - 1};
 }
 
-/// The slab test (Kay and Kajiya 1986) in the box's own axes, for several rays at a time.
+/// Casts rays by the slab test (Kay and Kajiya 1986) in the box's own axes, several at a time.
 __attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, const double* c,
                                                                const double* s, int rays,
                                                                double* range, std::int64_t* model) {
@@ -110,7 +110,7 @@ __attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, 
   }
 }
 
-/// The same of any other footprint.
+/// Does the same for any other footprint.
 void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Interval& rays,
                FanHits* hits) {
   const Footprint& f = *t.shape;
@@ -139,7 +139,7 @@ void meet(const Target& target, const Sensor& from, const RayFan& fan, const Int
   meetBox(target, &fan.c[k], &fan.s[k], rays.last - k + 1, &hits->range[k], &hits->model[k]);
 }
 
-/// The floor that a fan's rays cover, as a box along the heading [m].
+/// The area of a fan's rays, as a box along the heading [m].
 struct Sector {
   double back, ahead, aside;
 
@@ -149,20 +149,20 @@ struct Sector {
     ahead = reach.range;
     aside = std::min(reach.range, reach.aside);
   }
-  /// Returns whether a circle around (x, y) may be met.
+  /// Returns whether rays may meet a circle around (x, y).
   bool mayHold(double x, double y, double radius) const {
     return x + radius >= -back && x - radius <= ahead && std::abs(y) - radius <= aside;
   }
 };
 
-/// Seen from the laser.
+/// Returns a pose relative to the laser.
 FlatPose seenFrom(const Sensor& from, double x, double y, double c, double s) {
   const double dx = x - from.x, dy = y - from.y;
   return {from.c * dx + from.s * dy, from.c * dy - from.s * dx, from.c * c + from.s * s,
           from.c * s - from.s * c};
 }
 
-/// Rays that may meet anything go as far as they are of interest, so far.
+/// Casts the rays that may meet targets up to their reach, or up to the nearest hit so far.
 template <typename Targets>
 void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, FanHits* hits) {
   hits->first = fan.rays;
@@ -209,7 +209,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
                       s * f.c + c * f.s));
     }
   };
-  // Along the world's axes, of that floor.
+  // The area along the world's axes.
   const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
   const double x = from.x + from.c * middle, y = from.y + from.s * middle;
   const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;

@@ -12,12 +12,12 @@ namespace kiva {
 namespace {
 
 constexpr double kPace = 0.25;                 // [m] between two neighbouring places
-constexpr int kMostPlaces = 20000;             // that a search visits
-constexpr int kDiagonal = 99, kStraight = 70;  // costs as whole numbers, so that none is rounded
+constexpr int kMostPlaces = 20000;             // limit of places that a search visits
+constexpr int kDiagonal = 99, kStraight = 70;  // integer costs, without rounding errors
 constexpr int kFarthest = 1000;                // paces from the person
 
 struct Place {
-  int i = 0, j = 0;  // [paces] from the person
+  int i = 0, j = 0;  // position relative to the person [paces]
   bool operator==(const Place& o) const { return i == o.i && j == o.j; }
 };
 
@@ -38,8 +38,8 @@ class Search {
              static_cast<int>(std::lround((y - from_.Y()) / kPace))};
   }
 
-  /// Returns the places from the goal back to the person, the last one left out; empty: there is no
-  /// way.
+  /// Returns the places from the goal back to the person, without the last one; empty if there is
+  /// no way.
   std::vector<Place> run() {
     if (std::max(std::abs(goal_.i), std::abs(goal_.j)) >= kFarthest) return {};
     reach({0, 0}, {0, 0}, 0);
@@ -69,7 +69,7 @@ class Search {
   struct Open {
     int estimate;
     Place place;
-    bool operator<(const Open& o) const {  // the cheapest is the greatest, of several one for sure
+    bool operator<(const Open& o) const {  // the cheapest is the greatest; ties have a fixed order
       return estimate != o.estimate ? estimate > o.estimate : keyOf(place) > keyOf(o.place);
     }
   };
@@ -111,7 +111,7 @@ class Search {
   const Walker& walker_;
   const Pose from_;
   Place goal_;
-  // For lookups only: their order is undefined.
+  // Used for look-ups only, since the order is undefined.
   std::unordered_map<int, Known> known_;
   std::unordered_map<int, bool> has_room_;
   std::priority_queue<Open> open_;

@@ -14,9 +14,9 @@
 
 namespace kiva_ros {
 
-/// Records everything needed to run the world again; see recording_format.h. Of a node that
-/// crashes, all but the last second can be read after `rosbag reindex`. If the bag can't be written
-/// any more, the recording alone ends.
+/// Records everything needed to run the world again; see recording_format.h. After a crash of the
+/// node, all but the last second can be read after `rosbag reindex`. A failed write ends the
+/// recording alone.
 class Recorder : public StepHook {
  public:
   /// Opens the bag. Throws std::runtime_error if it can't be created.

@@ -116,7 +116,7 @@ const ElementFormat::Child* ElementFormat::child(const std::string& of_name) con
 }
 
 const ElementFormat& sdfFormat() {
-  // The line of <sdf> comes last in a table where each line names those before it alone.
+  // The line of <sdf> is the last of the table: each line refers only to those before it.
   static Table table(kFormatText);
   return table.root();
 }

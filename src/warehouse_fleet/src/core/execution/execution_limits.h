@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers and distances that the parts of Execution share.
+// Constants that the parts of Execution share.
 #pragma once
 
 namespace fleet {

@@ -10,7 +10,7 @@ namespace {
 using Kind = Violation::Kind;
 using Standing = std::unordered_map<Cell, int>;
 
-/// Drives the plan tick by tick and notes what can't be.
+/// Drives the plan tick by tick and notes violations.
 class Drive {
  public:
   Drive(const Floor& floor, const Fleet& fleet, const Plan& plan, const Rules& rules)

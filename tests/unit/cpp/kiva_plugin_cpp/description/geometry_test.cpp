@@ -160,7 +160,7 @@ TEST(APose, TimesItsInverseIsNone) {
 
 // --- inertia
 
-/// Of a body with those principal moments, turned.
+/// Returns the tensor of a rotated body with those principal moments.
 InertiaTensor turned(const Vector3& m, const Quaternion& by) {
   const Matrix3 turn(by);
   const Matrix3 t = turn * Matrix3(m.X(), 0, 0, 0, m.Y(), 0, 0, 0, m.Z()) * turn.Transposed();

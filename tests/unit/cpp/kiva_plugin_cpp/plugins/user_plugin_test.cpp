@@ -189,17 +189,17 @@ TEST_F(UserPlugin, AWorldWithoutItsPluginIsAWarning) {
 /// Notes what it was given; refuses what it is told to.
 struct Noting : Plugin {
   Noting(bool is_strict, std::map<std::string, std::string>* notes)
-      : is_strict_(is_strict), seen_(notes) {}
+      : is_strict_(is_strict), notes_(notes) {}
   void load(World&, const std::string& model, const Parameters& parameters) override {
-    (*seen_)[model] = parameters.text("robotNamespace", "none");
+    (*notes_)[model] = parameters.text("robotNamespace", "none");
     parameters.number("size", 1, 0, 9);
   }
   bool isStrict() const override { return is_strict_; }
-  void reset(World&) override { (*seen_)["reset"] = "yes"; }
+  void reset(World&) override { (*notes_)["reset"] = "yes"; }
 
  private:
   bool is_strict_;
-  std::map<std::string, std::string>* seen_;
+  std::map<std::string, std::string>* notes_;
 };
 
 class PluginTable : public UserPlugin {

@@ -113,7 +113,7 @@ class ExecutionTest : public testing::Test {
     return messages;
   }
 
-  /// As the engine does; what it would refuse is told.
+  /// Delivers a message as the engine does; reports what the engine would refuse.
   void deliver(const Message& message) {
     Robot& robot = robots_[message.robot];
     const bool is_change = robot.is_active && robot.id == message.id;
@@ -524,7 +524,7 @@ TEST_F(ExecutionTest, OneThatJumpsOffItsPathHoldsWhereItIs) {
   EXPECT_EQ(execution_.holder(cell(4, 3)), robot);
 }
 
-/// As a vehicle does that tells a place a second, and no speed.
+/// A vehicle may report a place a second, and no speed.
 TEST_F(ExecutionTest, OneThatIsSeenElsewhereAgainAndAgainMoves) {
   const int robot = add(1, 1);
   observe();

@@ -15,15 +15,15 @@
 namespace kiva {
 namespace {
 
-// GJK works on a core shape and rounds its edges by this margin; contacts stay exact to less than
-// half of it.
+// Margin by which GJK shrinks a shape and rounds its edges; the error of contacts is less than half
+// of it.
 constexpr double kMargin = 0.0002;  // [m]
 
-// Bullet's own distance at which contacts are foreseen.
+// Distance at which Bullet itself foresees contacts.
 constexpr double kForesight = 0.02;  // [m]
 
-/// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
-/// boxes, and a fast body would sink in before its parts are looked at.
+/// A shape whose bounding box is padded by that distance. Bullet compares bare boxes within
+/// compounds, and a fast body would sink in before its parts are tested.
 template <typename Base>
 class Foreseeing : public Base {
  public:
@@ -35,8 +35,8 @@ class Foreseeing : public Base {
   }
 };
 
-/// A box whose faces are worked out once for all of its size: a body is built again whenever
-/// it comes near another, and has them as soon as they may touch.
+/// A box that computes its faces once for all boxes of that size. A body is rebuilt whenever it
+/// comes near another, and needs its faces as soon as they may touch.
 class Box : public Foreseeing<btBoxShape> {
  public:
   using Foreseeing<btBoxShape>::Foreseeing;
@@ -82,7 +82,7 @@ std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
   return ellipsoid;
 }
 
-/// The convex hull of a mesh that moves.
+/// Returns the convex hull of a movable mesh.
 std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
   std::vector<btVector3> points;
   for (const Vector3& vertex : mesh.vertices) points.push_back(toBullet(vertex));
@@ -95,7 +95,7 @@ std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
   return hull;
 }
 
-/// The triangles of a mesh that stands still, as they are.
+/// Sets the triangles of a static mesh.
 void setTriangles(const std::shared_ptr<const Mesh>& mesh, BodyPart* part) {
   part->triangles = treeOf(mesh);
   part->shape = part->triangles->makeShape();

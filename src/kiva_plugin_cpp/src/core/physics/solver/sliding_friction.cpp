@@ -7,7 +7,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kStands = 1e-9;  // [m/s]: what is slower has no direction
+constexpr double kStands = 1e-9;  // [m/s]; a slower motion has no direction
 
 }  // namespace
 

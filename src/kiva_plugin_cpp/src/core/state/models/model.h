@@ -91,7 +91,7 @@ class ModelOwner {
   virtual bool drivesJoints() const { return false; }
 
   /// Returns whether its contacts are reported as collisions; those with a floor never are.
-  virtual bool tellsCollisions() const { return false; }
+  virtual bool reportsCollisions() const { return false; }
   virtual bool isFloor() const { return false; }
   /// Follows a contact with a model that is no floor.
   virtual void touched(MotionView& /*world*/, Model& /*model*/) const {}

@@ -31,7 +31,7 @@ std::array<Point, 4> corners(const Rectangle& r) {
   return out;
 }
 
-/// Of a point from a rectangle; negative inside.
+/// Returns the distance of a point from a rectangle; negative inside.
 double distance(const Rectangle& r, const Point& p) {
   const double dx = p.x - r.x, dy = p.y - r.y;
   const double along = std::abs(r.c * dx + r.s * dy) - r.hx;

@@ -156,7 +156,7 @@ class Churn : public ::testing::TestWithParam<int> {
         return serve(id);
     }
   }
-  /// To a unit, beneath it, up, away, down: what a robot does all day.
+  /// Drives a robot to a unit, lifts it, drives away and puts it down: a robot's daily work.
   void serve(int id) {
     const Fleet& f = w_.world.fleet();
     const int robot = f.find(id);

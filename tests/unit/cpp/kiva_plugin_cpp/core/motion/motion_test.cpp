@@ -12,7 +12,7 @@ namespace {
 constexpr double kSlack =
     0.03;  // [s]: a segment's start and its coming to rest, beyond its profile
 
-/// From rest to rest over `distance` [s].
+/// Returns the time from rest to rest over `distance` [s].
 double trapezoidTime(double distance, double speed, double acceleration) {
   if (acceleration == 0) return distance / speed;
   const bool reaches_top = distance * acceleration >= speed * speed;
@@ -162,7 +162,7 @@ TEST(Motion, EveryStatusChangeTellsWhereTheRobotIs) {
   EXPECT_NEAR(w.changes[3].time, w.world.time(), 2 * w.world.stepSize());
 }
 
-/// Of a robot on its way over 20 m.
+/// Largest values of a robot on its way over 20 m.
 struct Peaks {
   double speed = 0;         // [m/s]
   double acceleration = 0;  // [m/s²], over 10 ms

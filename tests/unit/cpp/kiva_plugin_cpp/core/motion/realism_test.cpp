@@ -144,7 +144,7 @@ TEST(FloorPatch, IsTurnedOnAsHardAsItGrips) {
   }
 }
 
-/// Of 64 robots, who does not come to the next cell as it should.
+/// Returns those of 64 robots that do not reach the next cell properly.
 std::vector<int> whoSlides(double share, std::uint64_t seed) {
   Floorplan plan = planWith([share](Realism& real) { real.floor = {true, share, 0.05}; });
   plan.options.seed = seed;
@@ -252,7 +252,7 @@ TEST(Load, TipsTheSameFromACheckpointOn) {
 
 // --- localisation
 
-/// Of ten drives of a metre each [s].
+/// Returns the time of ten drives of a metre each [s].
 double timeOfStops(const Floorplan& plan) {
   Warehouse w(plan);
   w.spawn("kiva", "kiva1", 0, 0);

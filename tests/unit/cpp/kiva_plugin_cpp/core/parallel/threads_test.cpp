@@ -125,7 +125,7 @@ TEST(Threads, TakeOverWhatOthersDoNotComeTo) {
   });
 }
 
-/// Of the whole process [s].
+/// Returns the processor time of the whole process [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 TEST(Threads, CostNothingWhileTheyWait) {

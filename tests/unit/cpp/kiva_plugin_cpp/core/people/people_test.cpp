@@ -29,7 +29,7 @@ class People : public ::testing::Test {
   Person person() const { return w.world.people().at(0); }
   Pose pose() const { return w.world.state("person1")->pose; }
 
-  /// Of the person, seen from the robot.
+  /// Returns the distance of the person ahead of the robot [m].
   double ahead() const {
     return std::cos(w.yaw(1)) * (pose().X() - w.x(1)) + std::sin(w.yaw(1)) * (pose().Y() - w.y(1));
   }

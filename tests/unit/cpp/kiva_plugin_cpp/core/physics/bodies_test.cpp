@@ -174,7 +174,7 @@ struct Rolling {
 class RollingBody : public ::testing::TestWithParam<Rolling> {
  protected:
   static constexpr double kRadius = 0.2, kHeight = 0.5;
-  /// On the floor plane, or on a large box of that height, lying along y.
+  /// Puts a body on the floor plane, or on a large box of that height, lying along y.
   RollingBody() {
     const bool on_box = GetParam().floor == "box";
     if (on_box)
@@ -319,7 +319,7 @@ class Pendulum : public Bodies {
     const Pose turned = Pose(0, 0, 3, 0, angle, 0);
     w.world.setState("rod", {turned, {}});
   }
-  /// Of the rod, from hanging down, positive about y [rad].
+  /// Returns the angle of the rod from hanging down, positive about y [rad].
   double angle() {
     const Vector3 arm = position("rod", "rod") - Vector3(0, 0, 3);
     return std::atan2(-arm.X(), -arm.Z());
