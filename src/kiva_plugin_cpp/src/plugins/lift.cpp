@@ -61,14 +61,14 @@ double resistance(const Scene& world, const Model& model) {
   return mass * world.settings.gravityDown();
 }
 
-void setTower(MotionView& world, int i, double height) {
-  raiseLoad(world, i, height - world.fleet.tower[i]);
+void setTower(TaskView& world, Obstacles& obstacles, int i, double height) {
+  raiseLoad(world.fleet, obstacles, world.storage, i, height - world.fleet.tower[i]);
   world.fleet.tower[i] = height;
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: 4·height/time² in its first half, minus that in its second.
-void moveTower(MotionView& world, int i, double height) {
+void moveTower(TaskView& world, Obstacles& obstacles, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
@@ -76,7 +76,7 @@ void moveTower(MotionView& world, int i, double height) {
   Profile profile = world.fleet.profile(i);
   profile.advance(height, top, acceleration, acceleration, world.clock.dt);
   world.fleet.setProfile(i, profile);
-  setTower(world, i, profile.position);
+  setTower(world, obstacles, i, profile.position);
 }
 
 void begin(RobotView& world, int i) {
@@ -115,7 +115,7 @@ void putDownOnFloor(ContactView& world, int i, int unit) {
 
 /// Lowers the tower, puts a carried unit on the floor, then ends the command in BLOCKED.
 void abandon(ContactView& world, int i, int unit) {
-  moveTower(world, i, 0);
+  moveTower(world, world.obstacles, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
 }
@@ -123,7 +123,7 @@ void abandon(ContactView& world, int i, int unit) {
 /// Holds the tower where its force does not suffice: beneath an obstacle that it can't lift, or
 /// under a load that is too heavy. Gives up after kStalled. `above` is the obstacle as seen from
 /// the height `before` [m].
-void stall(MotionView& world, int i, double before, const Above& above) {
+void stall(TaskView& world, Obstacles& obstacles, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
@@ -136,7 +136,7 @@ void stall(MotionView& world, int i, double before, const Above& above) {
   }
   const double height = meets ? before + above.clearance : before;
   f.setProfile(i, {height, 0});
-  setTower(world, i, height);
+  setTower(world, obstacles, i, height);
   overdue += world.clock.dt;
   if (overdue < kStalled) return;
   const std::string other = meets ? world.models[above.model]->name : "";
@@ -151,8 +151,8 @@ void raiseSegment(ContactView& world, int i, int unit) {
   const double before = world.fleet.tower[i];
   const bool is_loaded = world.fleet.unit[i] >= 0;
   const Above above = is_loaded ? findAbove(world, i) : Above();
-  moveTower(world, i, r.lift.height);
-  if (is_loaded) stall(world, i, before, above);
+  moveTower(world, world.obstacles, i, r.lift.height);
+  if (is_loaded) stall(world, world.obstacles, i, before, above);
   if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
     takeUp(world, i, unit);
   }
@@ -165,25 +165,25 @@ void raiseSegment(ContactView& world, int i, int unit) {
 }
 
 void lowerSegment(ContactView& world, int i, int unit) {
-  moveTower(world, i, 0);
+  moveTower(world, world.obstacles, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
 /// Stops the tower and holds it.
-void holdTower(MotionView& world, int i) {
+void holdTower(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
   profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt, &f.tasks[i].stop_at);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
-  setTower(world, i, profile.position);
+  setTower(world, obstacles, i, profile.position);
 }
 
 void liftSegment(ContactView& world, int i) {
   const Task& task = world.fleet.tasks[i];
-  if (isHeld(world.fleet, i)) return holdTower(world, i);
+  if (isHeld(world.fleet, i)) return holdTower(world, world.obstacles, i);
   const MotionSegment segment = task.segments.front();
   if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
@@ -193,10 +193,10 @@ void liftSegment(ContactView& world, int i) {
 }
 
 /// Lowers a tower whose unit was deleted.
-void lowerEmptyTower(MotionView& world, int i) {
+void lowerEmptyTower(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
-  moveTower(world, i, 0);
+  moveTower(world, obstacles, i, 0);
 }
 
 /// Prefetches the tasks of the robots that follow at place `k` of a list. Tasks of a large fleet
@@ -226,7 +226,7 @@ void LiftPlugin::control(ContactView& world) const {
     const int i = robots[k];
     const Task& task = f.tasks[i];
     const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;
-    if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, i);
+    if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, world.obstacles, i);
     if (task.lifts()) liftSegment(world, i);
   }
 }

@@ -143,7 +143,7 @@ void holdDrive(RobotView& world, int i, const OnLine& at) {
   if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
 }
 
-void driveSegment(MotionView& world, int i) {
+void driveSegment(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
@@ -177,7 +177,7 @@ void driveSegment(MotionView& world, int i) {
   const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
                                  : isExact(lag) && isExact(at.heading) && isExact(at.across);
   if (exact && !segment.reverse && !backs &&
-      tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
+      tryCruise(world, obstacles, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
   Profile command = f.command(i);
@@ -203,7 +203,8 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void MotionPlugin::control(ContactView& world) const {
   for (int i : world.schedule.stepped_singly) {
-    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive))
+      driveSegment(world, world.obstacles, i);
   }
 }
 

@@ -76,7 +76,7 @@ bool hasRoom(TaskView& world, int i) {
   return false;
 }
 
-void turnSegment(MotionView& world, int i) {
+void turnSegment(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
@@ -104,7 +104,7 @@ void turnSegment(MotionView& world, int i) {
   }
   const double top = turnSpeed(r, world.clock.dt), acceleration = f.deceleration[i];
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
-  if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
+  if (exact && tryCruise(world, obstacles, i, {0, 0, 1, top, acceleration})) return;
   Profile command = f.command(i);
   command.advance(f.reference_end[i], top, acceleration, acceleration, world.clock.dt);
   f.follow(i, command);
@@ -120,7 +120,8 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void RotationPlugin::control(ContactView& world) const {
   for (int i : world.schedule.stepped_singly) {
-    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn)) turnSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn))
+      turnSegment(world, world.obstacles, i);
   }
 }
 

@@ -21,7 +21,7 @@ namespace fleet {
 ///   kDriving            withdraw: told to stop                  kWithdrawn
 ///   all but kObstacle   finish: its path is over                kStanding
 ///   all                 a new Course: it left the fleet         kObstacle
-enum class Phase : std::uint8_t {
+enum class CoursePhase : std::uint8_t {
   kObstacle,   ///< Commanded by others, or pushed off the floor.
   kStanding,   ///< A member of the fleet without a path.
   kSent,       ///< The path was sent, and not reported yet.
@@ -93,13 +93,13 @@ struct Course {
   Journey journey;
   int run = 0, run_heading = 0;  ///< cells driven straight on, and their heading
 
-  Phase phase() const { return phase_; }
-  bool isMember() const { return phase_ != Phase::kObstacle; }
+  CoursePhase phase() const { return phase_; }
+  bool isMember() const { return phase_ != CoursePhase::kObstacle; }
   /// Returns whether a path is under way, or sent and not yet accepted.
-  bool isActive() const { return phase_ > Phase::kStanding; }
-  bool isAccepted() const { return phase_ >= Phase::kDriving; }
-  bool isRefused() const { return phase_ == Phase::kRefused; }
-  bool isWithdrawn() const { return phase_ == Phase::kWithdrawn; }
+  bool isActive() const { return phase_ > CoursePhase::kStanding; }
+  bool isAccepted() const { return phase_ >= CoursePhase::kDriving; }
+  bool isRefused() const { return phase_ == CoursePhase::kRefused; }
+  bool isWithdrawn() const { return phase_ == CoursePhase::kWithdrawn; }
   int points() const { return static_cast<int>(cells.size()); }
 
   /// Makes the robot a member of the fleet, in a cell.
@@ -116,7 +116,7 @@ struct Course {
   void finish(Cell cell);
 
  private:
-  Phase phase_ = Phase::kObstacle;
+  CoursePhase phase_ = CoursePhase::kObstacle;
 };
 
 }  // namespace fleet

@@ -25,9 +25,9 @@ struct Queue {
   }
 };
 
-class Search {
+class RouteSearch {
  public:
-  Search(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
+  RouteSearch(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
       : graph_(graph), start_(start), keeps_before_(keeps_before), out_(*out) {
     const std::size_t nodes = static_cast<std::size_t>(graph.cells) * kHeadings;
     out_.seconds.assign(nodes, std::numeric_limits<double>::infinity());
@@ -93,14 +93,14 @@ class Search {
 
 Routes routesFrom(const RouteGraph& graph, Cell start) {
   Routes out;
-  Search(graph, start, true, &out).run();
+  RouteSearch(graph, start, true, &out).run();
   return out;
 }
 
 Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends) {
   // Kept between calls: on a large floor fresh memory takes as long as the search.
   thread_local Routes all;
-  Search(graph, start, false, &all).run();
+  RouteSearch(graph, start, false, &all).run();
   Ways out;
   out.seconds.reserve(ends.size());
   out.steps.reserve(ends.size());

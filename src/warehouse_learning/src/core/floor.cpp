@@ -19,8 +19,8 @@ int nearest(double way, int cells) {
 
 }  // namespace
 
-Floor::Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
-             std::vector<int> stations)
+RimmedFloor::RimmedFloor(const layout::FloorDescription& description, int rim,
+                         const layout::Raster& raster, std::vector<int> stations)
     : layout::Floor(description),
       rim_(rim),
       raster_(raster),
@@ -29,16 +29,16 @@ Floor::Floor(const layout::FloorDescription& description, int rim, const layout:
   for (const int cell : stations_) is_station_[cell] = 1;
 }
 
-int Floor::longest() const { return std::max(width(), height()) - 2 * rim_; }
+int RimmedFloor::longest() const { return std::max(width(), height()) - 2 * rim_; }
 
-int Floor::step(int heading) const {
+int RimmedFloor::step(int heading) const {
   const int steps[] = {1, width(), -1, -width()};
   return steps[heading & 3];
 }
 
-int Floor::inside(int cell) const { return std::clamp(cell, 0, size() - 1); }
+int RimmedFloor::inside(int cell) const { return std::clamp(cell, 0, size() - 1); }
 
-int Floor::cellOf(double to_x, double to_y) const {
+int RimmedFloor::cellOf(double to_x, double to_y) const {
   return nearest((to_y - raster_.y) / raster_.spacing, height()) * width() +
          nearest((to_x - raster_.x) / raster_.spacing, width());
 }

@@ -15,12 +15,12 @@ using layout::Deck;
 using layout::kHeadings;
 using layout::kNowhere;
 
-class Floor : public layout::Floor {
+class RimmedFloor : public layout::Floor {
  public:
   /// `description` includes the rim, which is `rim` cells wide; `stations` are the cells where
   /// units are delivered. Throws layout::FloorError as layout::Floor does.
-  Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
-        std::vector<int> stations);
+  RimmedFloor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
+              std::vector<int> stations);
 
   int rim() const { return rim_; }                    ///< Width of the rim [cells].
   double spacing() const { return raster_.spacing; }  ///< Edge of a cell [m].

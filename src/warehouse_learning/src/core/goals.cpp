@@ -5,7 +5,7 @@
 
 namespace learning {
 
-Goals::Goals(const Floor& floor, const State& state)
+Goals::Goals(const RimmedFloor& floor, const TaskState& state)
     : floor_(floor),
       state_(state),
       ways_(floor),

@@ -17,7 +17,7 @@ namespace learning {
 /// The goals of all robots, each kept until it is reached or no longer available.
 class Goals {
  public:
-  Goals(const Floor& floor, const State& state);
+  Goals(const RimmedFloor& floor, const TaskState& state);
 
   void begin(int w);  ///< Begins an episode: chooses all goals.
   void end(int w,
@@ -51,9 +51,9 @@ class Goals {
   /// Takes the nearest choice as the robot's goal, which is then no other robot's.
   void take(int w, int robot, std::vector<Choice>* open);
 
-  const Floor& floor_;
-  const State& state_;
-  Ways ways_;
+  const RimmedFloor& floor_;
+  const TaskState& state_;
+  WayTable ways_;
   std::vector<int> places_;  // storage places
   Table<std::int32_t> cell_;
   Table<const Way*> way_;

@@ -30,7 +30,7 @@ float* oneHot(float* out, int which, int of) {
 
 }  // namespace
 
-Observer::Observer(const Floor& floor, const State& state, const Goals& goals, int radius)
+Observer::Observer(const RimmedFloor& floor, const TaskState& state, const Goals& goals, int radius)
     : floor_(floor), state_(state), goals_(goals), still_(floor.size()) {
   for (int cell = 0; cell < floor.size(); ++cell) {
     still_[cell] = (floor.isPassable(cell) ? 0 : kBlocked) |

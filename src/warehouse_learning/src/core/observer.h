@@ -17,7 +17,7 @@ namespace learning {
 class Observer {
  public:
   /// `radius`: that of the neighbourhood [cells], at most the floor's rim.
-  Observer(const Floor& floor, const State& state, const Goals& goals, int radius);
+  Observer(const RimmedFloor& floor, const TaskState& state, const Goals& goals, int radius);
 
   /// Returns the count of numbers a robot.
   int size() const;
@@ -33,8 +33,8 @@ class Observer {
   float* goal(float* row, int w, int robot) const;
   void around(float* row, int cell, int heading) const;
 
-  const Floor& floor_;
-  const State& state_;
+  const RimmedFloor& floor_;
+  const TaskState& state_;
   const Goals& goals_;
   std::vector<std::uint8_t> still_;  // bits of each cell's immobile properties
   std::vector<std::uint8_t> look_;   // the same with mobile properties, of one warehouse at a time

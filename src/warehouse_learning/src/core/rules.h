@@ -39,10 +39,10 @@ struct Outcome {
   std::vector<Who> arrived;     ///< Robots that stand at a station with a load.
 };
 
-class Rules {
+class TaskRules {
  public:
   /// `reserve`: a robot can't go forward where another one stands or goes.
-  Rules(const Floor& floor, State* state, Goals* goals, bool reserve);
+  TaskRules(const RimmedFloor& floor, TaskState* state, Goals* goals, bool reserve);
 
   // Arrays have an element a robot, warehouse by warehouse.
 
@@ -64,8 +64,8 @@ class Rules {
   bool begin(int w, int robot, Action action);
   void changeLoad(int w, int robot, Outcome* outcome);
 
-  const Floor& floor_;
-  State& state_;
+  const RimmedFloor& floor_;
+  TaskState& state_;
   Goals& goals_;
   bool reserve_;
   Table<std::int32_t> load_before_;

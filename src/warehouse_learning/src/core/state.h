@@ -10,8 +10,8 @@ namespace learning {
 constexpr int kNone = -1;
 
 /// The task in many warehouses at once: a row a warehouse, a column a robot, a unit or a cell.
-struct State {
-  State(int warehouses, int robots, int units, int cells)
+struct TaskState {
+  TaskState(int warehouses, int robots, int units, int cells)
       : cell(warehouses, robots),
         heading(warehouses, robots),
         busy(warehouses, robots),

@@ -16,9 +16,9 @@ using Way = std::vector<std::int16_t>;
 constexpr std::int16_t kFar = std::numeric_limits<std::int16_t>::max();  ///< There is no way.
 
 /// Ways to goals, computed on demand.
-class Ways {
+class WayTable {
  public:
-  explicit Ways(const Floor& floor);
+  explicit WayTable(const RimmedFloor& floor);
 
   /// Returns the way to a goal, at a fixed address. On the aisles' deck it avoids storage places
   /// except the goal.
@@ -27,7 +27,7 @@ class Ways {
  private:
   Way measure(int goal, Deck deck) const;
 
-  const Floor& floor_;
+  const RimmedFloor& floor_;
   std::vector<int> beside_;  // by cell and heading; kNowhere where there is no passage
   std::deque<Way> ways_;
   std::array<std::vector<const Way*>, 2> to_;  // by deck, by goal

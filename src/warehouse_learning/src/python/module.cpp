@@ -34,9 +34,10 @@ int within(const char* name, py::ssize_t value, py::ssize_t low, py::ssize_t hig
                         std::to_string(low) + " to " + std::to_string(high - 1) + " was expected");
 }
 
-std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<double, 2> origin,
-                                 double spacing, const py::object& passable,
-                                 const py::object& storage, const std::vector<int>& stations) {
+std::shared_ptr<RimmedFloor> makeFloor(int width, int height, int rim, std::array<double, 2> origin,
+                                       double spacing, const py::object& passable,
+                                       const py::object& storage,
+                                       const std::vector<int>& stations) {
   if (rim < 0 || width <= 2 * rim || height <= 2 * rim) {
     throw py::value_error("floor: expected cells within a rim");
   }
@@ -49,14 +50,14 @@ std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<doub
   description.height = height;
   description.passable.assign(open.data(), open.data() + open.size());
   description.storage.assign(places.data(), places.data() + places.size());
-  return std::make_shared<Floor>(description, rim, layout::Raster{origin[0], origin[1], spacing},
-                                 stations);
+  return std::make_shared<RimmedFloor>(description, rim,
+                                       layout::Raster{origin[0], origin[1], spacing}, stations);
 }
 
 using Places = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// Returns (cell, heading), each of the shape of x.
-py::tuple locate(const Floor& floor, const Places& x, const Places& y, const Places& yaw) {
+py::tuple locate(const RimmedFloor& floor, const Places& x, const Places& y, const Places& yaw) {
   if (y.size() != x.size() || yaw.size() != x.size()) {
     throw py::value_error("x, y and yaw: expected arrays of one shape");
   }
@@ -85,7 +86,7 @@ py::array copy(const Table<T>& table) {
 
 class Task {
  public:
-  Task(std::shared_ptr<Floor> floor, int warehouses, std::vector<std::int32_t> kiva_id,
+  Task(std::shared_ptr<RimmedFloor> floor, int warehouses, std::vector<std::int32_t> kiva_id,
        std::vector<std::int32_t> shelf_id, int radius, bool reserve)
       : floor_(std::move(floor)),
         state_(within("warehouses", warehouses, 1, 1 << 24), static_cast<int>(kiva_id.size()),
@@ -246,7 +247,7 @@ class Task {
     observer_.observe(rows.mutable_data(), static_cast<int>(size));
   }
 
-  const State& state() const { return state_; }
+  const TaskState& state() const { return state_; }
   const Goals& goals() const { return goals_; }
 
  private:
@@ -281,12 +282,12 @@ class Task {
     return out;
   }
 
-  std::shared_ptr<Floor> floor_;
-  State state_;
+  std::shared_ptr<RimmedFloor> floor_;
+  TaskState state_;
   Goals goals_;
-  Rules rules_;
+  TaskRules rules_;
   Observer observer_;
-  Table<bool> possible_;  // as Rules has it
+  Table<bool> possible_;  // as TaskRules has it
   bool is_possible_known_ = false;
   std::vector<std::int32_t> kiva_id_, shelf_id_;
   std::vector<int> unit_of_;  // by shelf_id
@@ -294,7 +295,7 @@ class Task {
 };
 
 void defineFloor(py::module_& m) {
-  py::class_<Floor, std::shared_ptr<Floor>>(m, "Floor")
+  py::class_<RimmedFloor, std::shared_ptr<RimmedFloor>>(m, "Floor")
       .def(py::init(&makeFloor), py::arg("width"), py::arg("height"), py::arg("rim"),
            py::arg("origin"), py::arg("spacing"), py::arg("passable"), py::arg("storage"),
            py::arg("stations"),
@@ -313,7 +314,7 @@ void defineTask(py::module_& m) {
       "The task in many warehouses at once. Arrays are (warehouses, robots), "
       "unless stated otherwise; another type or shape is a ValueError, a number out of range "
       "an IndexError.");
-  task.def(py::init<std::shared_ptr<Floor>, int, std::vector<std::int32_t>,
+  task.def(py::init<std::shared_ptr<RimmedFloor>, int, std::vector<std::int32_t>,
                     std::vector<std::int32_t>, int, bool>(),
            py::arg("floor"), py::arg("warehouses"), py::arg("kiva_id"), py::arg("shelf_id"),
            py::arg("radius"), py::arg("reserve"),
@@ -354,12 +355,12 @@ void defineTask(py::module_& m) {
     };
     task.def_property_readonly(name, get, doc);
   };
-  add("cell", &State::cell, "int32. A view.");
-  add("heading", &State::heading, "int8: quarter turns from +x. A view.");
-  add("busy", &State::busy, "bool: still at an action. A view.");
-  add("load", &State::load, "int32: the unit that it carries, -1 = none. A view.");
-  add("unit_cell", &State::unit_cell, "(warehouses, units) int32, -1 = carried. A view.");
-  add("requested", &State::requested, "(warehouses, units) bool. A view.");
+  add("cell", &TaskState::cell, "int32. A view.");
+  add("heading", &TaskState::heading, "int8: quarter turns from +x. A view.");
+  add("busy", &TaskState::busy, "bool: still at an action. A view.");
+  add("load", &TaskState::load, "int32: the unit that it carries, -1 = none. A view.");
+  add("unit_cell", &TaskState::unit_cell, "(warehouses, units) int32, -1 = carried. A view.");
+  add("requested", &TaskState::requested, "(warehouses, units) bool. A view.");
   const auto goals = [](const py::object& self) {
     return view(self.cast<const Task&>().goals().cells(), self);
   };

@@ -11,9 +11,9 @@ namespace {
 /// The graph of wishes as networkx.DiGraph builds it: nodes and edges in the order in which robots
 /// add them.
 struct Graph {
-  Graph(const std::vector<Wish>& wishes, int cells) : next(cells, -1), before(cells) {
+  Graph(const std::vector<MoveWish>& wishes, int cells) : next(cells, -1), before(cells) {
     std::vector<char> known(cells);
-    for (const Wish& wish : wishes) {
+    for (const MoveWish& wish : wishes) {
       for (const int cell : {wish.from, wish.to}) {
         if (!known[cell]) nodes.push_back(cell);
         known[cell] = true;
@@ -53,7 +53,7 @@ int firstOf(const PythonSet& part, const Graph& graph, const Layout& layout) {
 
 }  // namespace
 
-const std::vector<char>& Arbiter::settle(const std::vector<Wish>& wishes,
+const std::vector<char>& Arbiter::settle(const std::vector<MoveWish>& wishes,
                                          const std::vector<int>& robot_at) {
   wishes_ = &wishes;
   committed_.assign(wishes.size(), false);
@@ -70,7 +70,7 @@ void Arbiter::link(const std::vector<int>& robot_at) {
   behind_.resize(count);
   for (auto& robots : behind_) robots.clear();
   for (std::size_t robot = 0; robot < count; ++robot) {
-    const Wish& wish = (*wishes_)[robot];
+    const MoveWish& wish = (*wishes_)[robot];
     ahead_[robot] = wish.to == wish.from ? static_cast<int>(robot) : robot_at[wish.to];
     if (wish.to != wish.from && ahead_[robot] >= 0) {
       behind_[ahead_[robot]].push_back(static_cast<int>(robot));

@@ -10,7 +10,7 @@
 namespace rware {
 
 /// The wish of a robot: cells, `to` equal to `from` if it stays.
-struct Wish {
+struct MoveWish {
   int from, to;
 };
 
@@ -22,7 +22,7 @@ class Arbiter {
  public:
   explicit Arbiter(const Layout& layout) : layout_(layout) {}
   /// `robot_at`: by cell, the robot there, or -1. Returns, by robot, whether its wish is granted.
-  const std::vector<char>& settle(const std::vector<Wish>& wishes,
+  const std::vector<char>& settle(const std::vector<MoveWish>& wishes,
                                   const std::vector<int>& robot_at);
 
  private:
@@ -35,7 +35,7 @@ class Arbiter {
   std::vector<int> orderAround(int robot) const;
 
   const Layout& layout_;
-  const std::vector<Wish>* wishes_ = nullptr;
+  const std::vector<MoveWish>* wishes_ = nullptr;
   // By robot: the robot in the cell that it wants (itself if it stays, -1 if the cell is empty);
   // the length of the longest chain that ends with it; the robots that want its cell.
   std::vector<int> ahead_, length_;

@@ -86,7 +86,7 @@ int Warehouse::beyond(const Agent& agent) const {
   }
 }
 
-Wish Warehouse::wish(const Agent& agent, int action) const {
+MoveWish Warehouse::wish(const Agent& agent, int action) const {
   if (action != kForward) return {agent.cell, agent.cell};
   const int target = ahead(agent);
   const int other = agent_at_[target];

@@ -57,7 +57,7 @@ class Warehouse {
 
  private:
   int beyond(const Agent& agent) const;
-  Wish wish(const Agent& agent, int action) const;
+  MoveWish wish(const Agent& agent, int action) const;
   void turn(Agent* agent, int action) const;
   void toggleLoad(Agent* agent, double* reward) const;
   void move(const std::vector<char>& committed);
@@ -74,7 +74,7 @@ class Warehouse {
   std::vector<int> shelf_cell_;
   std::vector<char> requested_;  // by shelf
   std::vector<int> requests_;
-  std::vector<Wish> wishes_;
+  std::vector<MoveWish> wishes_;
   int steps_ = 0, inactive_ = 0;
 };
 

@@ -32,8 +32,8 @@ struct Rocking {
 };
 
 /// Returns the feet of the description, in the frame of the centre of mass.
-std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double weight) {
-  std::vector<Foot> feet;
+std::vector<SlidingFoot> feetOf(const FloorState& floor, const Model& model, double weight) {
+  std::vector<SlidingFoot> feet;
   const Link& link = model.description->links.front();
   const Pose to_mass = (link.pose_in_model * link.inertial_pose_in_link).Inverse();
   const auto add = [&](double x, double y, double friction) {
@@ -54,7 +54,7 @@ std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double wei
       for (double y : {box.min.Y(), box.max.Y()}) add(x, y, friction);
     }
   }
-  for (Foot& foot : feet) foot.grip_limit *= weight / static_cast<double>(feet.size());
+  for (SlidingFoot& foot : feet) foot.grip_limit *= weight / static_cast<double>(feet.size());
   return feet;
 }
 
@@ -63,9 +63,9 @@ const SlidingFriction& frictionOf(const Model& model) {
 }
 
 /// Returns the extent of the feet from the centre of mass in a direction.
-double supportAlong(const std::vector<Foot>& feet, const btVector3& way_in_body) {
+double supportAlong(const std::vector<SlidingFoot>& feet, const btVector3& way_in_body) {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Foot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
+  for (const SlidingFoot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
   return most;
 }
 
@@ -78,7 +78,7 @@ std::vector<btVector3> allAround() {
   return ways;
 }
 
-double leastSupport(const std::vector<Foot>& feet) {
+double leastSupport(const std::vector<SlidingFoot>& feet) {
   static const std::vector<btVector3> ways = allAround();
   double least = std::numeric_limits<double>::infinity();
   for (const btVector3& way : ways) least = std::min(least, supportAlong(feet, way));
@@ -86,7 +86,7 @@ double leastSupport(const std::vector<Foot>& feet) {
 }
 
 Rocking rockingOf(const WorldSettings& settings, const btRigidBody& body,
-                  const std::vector<Foot>& feet) {
+                  const std::vector<SlidingFoot>& feet) {
   Rocking r;
   r.weight = body.getMass() * settings.gravityDown();
   if (feet.empty()) return r;

@@ -18,14 +18,14 @@ constexpr double kAngleError = 1e-3;  // [rad] error of angleOf(), with a large 
 constexpr double kTouching = 1e-6;    // [m]; a laser that close to a surface may be inside it
 
 /// Adjacent rays of a fan.
-struct Interval {
+struct RayInterval {
   int first = 0, last = -1;
 };
 
 /// A footprint relative to the laser, and the rays that may meet it.
-struct Target : FlatPose {
+struct RayTarget : FlatPose {
   const Footprint* shape = nullptr;
-  Interval rays[3];  // the whole circle, and both ends of the fan
+  RayInterval rays[3];  // the whole circle, and both ends of the fan
   int parts = 0;
 };
 
@@ -41,7 +41,7 @@ double angleOf(double x, double y) {
 
 /// Returns the directions from the laser in which a target lies, counterclockwise; they may exceed
 /// ±π. Returns false if the target surrounds the laser.
-bool anglesTo(const Target& t, double* from, double* to) {
+bool anglesTo(const RayTarget& t, double* from, double* to) {
   const Footprint& f = *t.shape;
   if (f.kind != Footprint::Kind::kBox) {
     const double radius = radiusOf(f), square = t.x * t.x + t.y * t.y - radius * radius;
@@ -67,26 +67,26 @@ bool anglesTo(const Target& t, double* from, double* to) {
 }
 
 /// Determines the rays between two angles [rad], which may exceed ±π.
-void findRays(const RayFan& fan, double from, double to, Target* target) {
+void findRays(const RayFan& fan, double from, double to, RayTarget* target) {
   const double span = fan.max_angle - fan.min_angle;
   const double per = span > 0 ? (fan.rays - 1) / span : 0;
   for (const double turn : {-2 * M_PI, 0.0, 2 * M_PI}) {
     const double first = std::ceil((from + turn - kAngleError - fan.min_angle) * per);
     const double last = std::floor((to + turn + kAngleError - fan.min_angle) * per);
-    const Interval rays{static_cast<int>(std::max(first, 0.0)),
-                        static_cast<int>(std::min(last, fan.rays - 1.0))};
+    const RayInterval rays{static_cast<int>(std::max(first, 0.0)),
+                           static_cast<int>(std::min(last, fan.rays - 1.0))};
     if (rays.first <= rays.last) target->rays[target->parts++] = rays;
   }
 }
 
-void findRays(const RayFan& fan, Target* target) {
+void findRays(const RayFan& fan, RayTarget* target) {
   double from = 0, to = 0;
   if (anglesTo(*target, &from, &to)) return findRays(fan, from, to, target);
   target->rays[target->parts++] = {0, fan.rays - 1};
 }
 
 /// Casts rays by the slab test (Kay and Kajiya 1986) in the box's own axes, several at a time.
-__attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, const double* c,
+__attribute__((target_clones("avx2", "default"))) void meetBox(const RayTarget& t, const double* c,
                                                                const double* s, int rays,
                                                                double* range, std::int64_t* model) {
   const double tc = t.c, ts = t.s, hx = t.shape->hx, hy = t.shape->hy;
@@ -111,7 +111,7 @@ __attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, 
 }
 
 /// Does the same for any other footprint.
-void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Interval& rays,
+void meetOther(const RayTarget& t, const Sensor& from, const RayFan& fan, const RayInterval& rays,
                FanHits* hits) {
   const Footprint& f = *t.shape;
   const double radius = radiusOf(f);
@@ -130,7 +130,7 @@ void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Int
   }
 }
 
-void meet(const Target& target, const Sensor& from, const RayFan& fan, const Interval& rays,
+void meet(const RayTarget& target, const Sensor& from, const RayFan& fan, const RayInterval& rays,
           FanHits* hits) {
   if (target.shape->kind != Footprint::Kind::kBox) {
     return meetOther(target, from, fan, rays, hits);
@@ -167,7 +167,7 @@ template <typename Targets>
 void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, FanHits* hits) {
   hits->first = fan.rays;
   hits->last = -1;
-  for (const Target& target : targets) {
+  for (const RayTarget& target : targets) {
     for (int k = 0; k < target.parts; ++k) {
       hits->first = std::min(hits->first, target.rays[k].first);
       hits->last = std::max(hits->last, target.rays[k].last);
@@ -186,13 +186,13 @@ void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, Fan
 void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
                      FanHits* hits) const {
   const Sector sector(fan, reach);
-  boost::container::small_vector<Target, 32> targets;
+  boost::container::small_vector<RayTarget, 32> targets;
   const auto isAtHeight = [&](const Footprint& f) {
     return f.z_min <= from.z && from.z <= f.z_max;
   };
   const auto add = [&](const Footprint& f, const FlatPose& pose) {
     if (!sector.mayHold(pose.x, pose.y, radiusOf(f))) return;
-    Target target;
+    RayTarget target;
     static_cast<FlatPose&>(target) = pose;
     target.shape = &f;
     findRays(fan, &target);
@@ -225,7 +225,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
     return false;
   });
   begin(fan, reach, targets, hits);
-  for (const Target& target : targets) {
+  for (const RayTarget& target : targets) {
     for (int k = 0; k < target.parts; ++k) meet(target, from, fan, target.rays[k], hits);
   }
 }

@@ -100,7 +100,7 @@ void integrateRobots(MotionView& world) {
       integrate(f, i, world.clock.dt);
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
-    followRobot(world, i);
+    followRobot(f, world.obstacles, world.storage, i);
     if (f.localises) track(world, i);
     if (f.tasks[i].follows() && f.tasks[i].drives()) countPoints(world, i, alongSegment(f, i));
     letRest(f, i);

@@ -11,9 +11,9 @@ namespace kiva {
 namespace {
 
 /// Reads the table; its elements live as long as the program.
-class Table {
+class FormatTable {
  public:
-  explicit Table(const char* at) : at_(at) {
+  explicit FormatTable(const char* at) : at_(at) {
     while (skipBlanks(), *at_ == '#') {
       ++at_;
       const std::string line = word();
@@ -117,7 +117,7 @@ const ElementFormat::Child* ElementFormat::child(const std::string& of_name) con
 
 const ElementFormat& sdfFormat() {
   // The line of <sdf> is the last of the table: each line refers only to those before it.
-  static Table table(kFormatText);
+  static FormatTable table(kFormatText);
   return table.root();
 }
 

@@ -24,7 +24,7 @@ const XmlElement& scopeOf(const XmlElement& part) {
 }
 
 /// Resolves frames and limits the number of its steps.
-class Search {
+class FrameSearch {
  public:
   Pose frame(const XmlElement& scope, const std::string& name) {
     if (++steps_ > kMostSteps)
@@ -83,18 +83,18 @@ Pose poseAround(const XmlElement& part) {
   const XmlElement* const pose_element = part.FirstChildElement("pose");
   const std::string name = pose_element ? attributeOf(*pose_element, "relative_to") : "";
   const XmlElement* const link = part.Parent()->ToElement();
-  if (!link || !is(*link, "link")) return Search().around(part);
+  if (!link || !is(*link, "link")) return FrameSearch().around(part);
   if (name.empty()) return valueOfPose(pose_element);
   const XmlElement& scope = scopeOf(part);
-  return Search().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(pose_element));
+  return FrameSearch().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(pose_element));
 }
 
 Pose frameIn(const XmlElement& scope, const std::string& name) {
-  return Search().frame(scope, name);
+  return FrameSearch().frame(scope, name);
 }
 
 std::string linkOf(const XmlElement& model, const std::string& name) {
-  return Search().link(model, name);
+  return FrameSearch().link(model, name);
 }
 
 std::string canonicalLinkOf(const XmlElement& model) {

@@ -75,7 +75,7 @@ void IncludeGraph::prune(XmlDocument* document, Faults* warnings) {
     XmlElement* next = nullptr;
     for (XmlElement* include = element->FirstChildElement("include"); include; include = next) {
       next = include->NextSiblingElement("include");
-      const Fault fault = faultOfInclude(*include);
+      const IncludeFault fault = faultOfInclude(*include);
       if (fault.what.empty()) continue;
       const XmlElement* const uri = include->FirstChildElement("uri");
       const bool stands_in = fault.is_of_model && mayStandIn(*element) && hasStandIn();

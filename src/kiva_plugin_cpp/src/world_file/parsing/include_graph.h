@@ -35,11 +35,11 @@ class IncludeGraph {
   };
   Cost follow(const std::string& uri);
   Cost read(const std::string& file);
-  struct Fault {
+  struct IncludeFault {
     std::string what;  ///< Empty: no limit is exceeded.
     bool is_of_model = false;
   };
-  Fault faultOfInclude(const XmlElement& include);
+  IncludeFault faultOfInclude(const XmlElement& include);
   bool hasStandIn() const;
 
   const ModelPaths& model_paths_;

@@ -25,9 +25,9 @@ std::string exact(const Vector3& v) {
   return exact(v.X()) + ' ' + exact(v.Y()) + ' ' + exact(v.Z());
 }
 
-class Writer {
+class SdfWriter {
  public:
-  Writer(const XmlElement& robot, SdfDocument* parsed)
+  SdfWriter(const XmlElement& robot, SdfDocument* parsed)
       : robot_(robot), parsed_(parsed), tree_(readUrdf(robot, &parsed->warnings)) {}
 
   std::unique_ptr<XmlDocument> run() {
@@ -318,7 +318,7 @@ class Writer {
 }  // namespace
 
 std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed) {
-  return Writer(*urdf.RootElement(), parsed).run();
+  return SdfWriter(*urdf.RootElement(), parsed).run();
 }
 
 }  // namespace kiva

@@ -63,7 +63,7 @@ void Execution::extend(int robot) {
                             course.reached < course.points();
     if (is_waiting) send(robot, course.reached);
     if (isAtEnd(robot)) releaseUpTo(robot, course.points());
-    if (course.phase() == Phase::kSent) send(robot, 0);
+    if (course.phase() == CoursePhase::kSent) send(robot, 0);
   }
 }
 

@@ -187,7 +187,7 @@ struct Attention {
   double clear_time = 0;  ///< Duration for which its way is free from here [s], if needed.
 };
 
-void attend(MotionView& world, const Attention& due, double now) {
+void attend(TaskView& world, Obstacles& obstacles, const Attention& due, double now) {
   FleetState& f = world.fleet;
   const int i = due.robot;
   bool ended = due.ended;
@@ -196,8 +196,7 @@ void attend(MotionView& world, const Attention& due, double now) {
   if (ended) return moved(f, i);
   // A robot that has just read a code may change its way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
-  if (f.clear_until[i] <= now && !noteClearance(world, world.obstacles, i, time()))
-    return moved(f, i);
+  if (f.clear_until[i] <= now && !noteClearance(world, obstacles, i, time())) return moved(f, i);
   planAttention(world, i, now);
 }
 
@@ -230,7 +229,7 @@ void findAttention(const Scene& world, int b, double now, std::vector<Attention>
 
 /// Computes clear times on all threads, after all robots have moved. Storing them later does not
 /// change their results.
-void attendAll(MotionView& world, std::vector<Attention> all, double now) {
+void attendAll(TaskView& world, Obstacles& obstacles, std::vector<Attention> all, double now) {
   const FleetState& f = world.fleet;
   world.schedule.workers->share(
       static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
@@ -240,7 +239,7 @@ void attendAll(MotionView& world, std::vector<Attention> all, double now) {
           if (asks) all[k].clear_time = clearTime(world, i, false);
         }
       });
-  for (const Attention& due : all) attend(world, due, now);
+  for (const Attention& due : all) attend(world, obstacles, due, now);
 }
 
 /// Sets the motion per unit of reference, exactly or by the robot's own estimate.
@@ -259,7 +258,7 @@ void setMotion(RobotView& world, int i, const ReferenceMotion& per) {
 
 }  // namespace
 
-bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
+bool tryCruise(RobotView& world, Obstacles& obstacles, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   const double way = std::abs(f.reference_end[i] - f.reference[i]);
@@ -277,7 +276,7 @@ bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, world.obstacles, i, true)) {
+  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, obstacles, i, true)) {
     replanAttention(world, i);
     return true;
   }
@@ -315,7 +314,7 @@ void cruise(MotionView& world) {
     any |= world.schedule.cruised[b];
     if (world.schedule.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
   }
-  attendAll(world, std::move(due), next);
+  attendAll(world, world.obstacles, std::move(due), next);
   if (any & kCarries) world.storage.noteMove();
 }
 

@@ -26,7 +26,7 @@ inline bool isExact(double error) { return std::abs(error) < 1e-8; }
 
 /// Starts a cruise along the segment with this step, if the robot can and its way is free. The
 /// cruise lasts until something else moves the robot, see moved(). Returns whether it cruises.
-bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
+bool tryCruise(RobotView& world, Obstacles& obstacles, int robot, const ReferenceMotion& per);
 
 /// Sets the end of the robot's reference, without a dip in its speed.
 void setReferenceEnd(RobotView& world, Obstacles& obstacles, int robot, double goal);

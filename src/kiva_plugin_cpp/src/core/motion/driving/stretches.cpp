@@ -24,12 +24,12 @@ constexpr double kJustRead = 0.02;  // [m] by which a reading may move it back
 constexpr double kTiny = 1e-9;      // [m]
 
 /// The believed pose relative to a segment.
-struct OnLine {
+struct PoseOnLine {
   double along, across;  // [m]; across to the left
   double heading;        // [rad]
 };
 
-OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
+PoseOnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
   const double dx = at.x - segment.x, dy = at.y - segment.y;
   return {c * dx + s * dy, c * dy - s * dx, at.yaw - segment.yaw};
@@ -63,7 +63,7 @@ void setMotion(FleetState& f, int i) {
 }
 
 /// Sets two arcs of half the length each that end on the line, along it.
-void setArcs(Stretch* stretch, const OnLine& at, double length) {
+void setArcs(Stretch* stretch, const PoseOnLine& at, double length) {
   stretch->curvature = -4 / (length * length) * (at.across + 0.75 * at.heading * length);
   stretch->next_curvature = -2 * at.heading / length - stretch->curvature;
   stretch->next_length = length / 2;
@@ -74,7 +74,7 @@ double narrowest(const Stretch& stretch) {
   return std::max(std::abs(stretch.curvature), std::abs(stretch.next_curvature));
 }
 
-void steerBack(Stretch* stretch, const OnLine& at, double room) {
+void steerBack(Stretch* stretch, const PoseOnLine& at, double room) {
   stretch->curvature = stretch->next_curvature = stretch->next_length = 0;
   stretch->until = stretch->from + room;
   if (room < kLeastSteering) return;
@@ -148,7 +148,7 @@ void beginStretch(RobotView& world, int i, bool turns) {
     drawSlip(world, i,
              std::max(0.1, std::abs(f.reference_end[i] - l.pose.yaw) * l.believed.separation / 2));
   } else {
-    const OnLine at = onLine(l.pose, f.tasks[i].segments.front());
+    const PoseOnLine at = onLine(l.pose, f.tasks[i].segments.front());
     f.reference[i] = at.along;
     stretch.from = at.along;
     steerBack(&stretch, at, roomAhead(world, i, at.along));
@@ -170,7 +170,7 @@ bool continueStretch(TaskView& world, int i) {
   readCode(world, i, false);
   const bool looked = l.draws != draws;
   if (checkLost(world, i)) return false;
-  const OnLine at = onLine(l.pose, f.tasks[i].segments.front());
+  const PoseOnLine at = onLine(l.pose, f.tasks[i].segments.front());
   f.reference[i] = stretch.from = at.along;
   if (looked) {
     steerBack(&stretch, at, roomAhead(world, i, at.along));

@@ -53,7 +53,7 @@ struct Velocities {
 };
 
 /// One direction at a contact, with its effect on the velocities.
-struct Row {
+struct ContactRow {
   btVector3 linear, angular;
   double spin[2];
   // Change of the turning velocities by a unit impulse.
@@ -62,13 +62,13 @@ struct Row {
 
 struct FloorContacts {
   ContactProblem problem;
-  Row rows[ContactProblem::kMaxRows];
+  ContactRow rows[ContactProblem::kMaxRows];
   double target_speed[ContactProblem::kMaxRows];  // least velocity along a normal, 0 along the
                                                   // ground [m/s]
 };
 
 /// A point of the robot just above, on or in the floor.
-struct Touch {
+struct FloorTouch {
   btVector3 at;  // position in the chassis frame
   double gap;    // [m]
   double friction;
@@ -177,7 +177,7 @@ class JointedStep {
     }
   }
 
-  void add(const Touch& touch) {
+  void add(const FloorTouch& touch) {
     if (touch.gap > kForeseen || contacts_.problem.contacts() == ContactProblem::kMaxContacts) {
       return;
     }
@@ -194,8 +194,8 @@ class JointedStep {
     contacts_.target_speed[row + 1] = contacts_.target_speed[row + 2] = 0;
   }
 
-  void fill(int row, const Touch& touch, const btVector3& direction) {
-    Row& r = contacts_.rows[row];
+  void fill(int row, const FloorTouch& touch, const btVector3& direction) {
+    ContactRow& r = contacts_.rows[row];
     r.linear = direction;
     r.angular = (touch.at - body_.centre).cross(direction);
     r.spin[0] = r.spin[1] = 0;
@@ -252,7 +252,7 @@ class JointedStep {
     }
   }
 
-  static void respond(const JointedBody::Response& response, int free, Row* row) {
+  static void respond(const JointedBody::Response& response, int free, ContactRow* row) {
     const double impulse[5] = {row->angular.x(), row->angular.y(), row->angular.z(), row->spin[0],
                                row->spin[1]};
     const int responding = free ? 5 : 3;  // held wheels keep their speeds
@@ -264,18 +264,18 @@ class JointedStep {
   }
 
   double coupling(int i, int j) const {
-    const Row &r = contacts_.rows[i], &s = contacts_.rows[j];
+    const ContactRow &r = contacts_.rows[i], &s = contacts_.rows[j];
     return r.linear.dot(s.linear) * body_.inverse_mass + r.angular.x() * s.turning[0] +
            r.angular.y() * s.turning[1] + r.angular.z() * s.turning[2] + r.spin[0] * s.turning[3] +
            r.spin[1] * s.turning[4];
   }
 
-  double velocity(const Row& r) const {
+  double velocity(const ContactRow& r) const {
     return r.linear.dot(after_.linear) + r.angular.dot(after_.turning) +
            r.spin[0] * after_.spin[0] + r.spin[1] * after_.spin[1];
   }
 
-  void push(const Row& r, double impulse) {
+  void push(const ContactRow& r, double impulse) {
     after_.linear += r.linear * (impulse * body_.inverse_mass);
     after_.turning += btVector3(r.turning[0], r.turning[1], r.turning[2]) * impulse;
     for (int wheel = 0; wheel < 2; ++wheel) after_.spin[wheel] += r.turning[3 + wheel] * impulse;

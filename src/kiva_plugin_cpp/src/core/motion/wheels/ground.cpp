@@ -15,15 +15,15 @@ constexpr double kFarthest = 1e6;  // [m] from the origin
 constexpr double kOffLine = 0.1;   // [m] off its line up to which a robot may drive
 
 /// A cell of the grid, by its grid point.
-struct Cell {
+struct GridCell {
   std::int64_t column, row;
 };
 
-Cell cellAt(const WorldSettings& settings, double x, double y) {
+GridCell cellAt(const WorldSettings& settings, double x, double y) {
   return {std::llround(x / settings.grid_spacing), std::llround(y / settings.grid_spacing)};
 }
 
-bool isSlippery(const WorldSettings& settings, const Cell& cell) {
+bool isSlippery(const WorldSettings& settings, const GridCell& cell) {
   RandomStream random(settings.options.seed, Matter::kFloor,
                       static_cast<std::uint64_t>(cell.column),
                       static_cast<std::uint64_t>(cell.row));
@@ -61,8 +61,8 @@ double leastFriction(const Scene& world, const FloorPatch& area) {
   }
   const FloorRealism& real = world.settings.realism.floor;
   if (!real.enabled || real.friction >= least) return least;
-  const Cell first = cellAt(world.settings, area.min_x, area.min_y);
-  const Cell last = cellAt(world.settings, area.max_x, area.max_y);
+  const GridCell first = cellAt(world.settings, area.min_x, area.min_y);
+  const GridCell last = cellAt(world.settings, area.max_x, area.max_y);
   for (std::int64_t row = first.row; row <= last.row; ++row) {
     for (std::int64_t column = first.column; column <= last.column; ++column) {
       if (isSlippery(world.settings, {column, row})) return real.friction;

@@ -22,7 +22,7 @@ using Velocity = std::array<double, 3>;
 /// One wheel within a step. A motor holds its wheel at the target while its torque suffices.
 /// Otherwise it gives its whole torque, and the wheel's speed is solved together with the floor's
 /// impulses.
-struct Wheel {
+struct TractionWheel {
   double speed = 0;             // at the beginning of the step [rad/s]
   double target = 0;            // [rad/s]
   bool saturated = false;       // the motor is at its limit
@@ -47,7 +47,7 @@ class FloorFriction {
 
   /// Computes the impulses that end the slip of both wheels. Where these exceed the grip, they are
   /// those of Coulomb friction, whose circle driving and sideways holding share.
-  void solve(Wheel wheels[2]) {
+  void solve(TractionWheel wheels[2]) {
     holdBoth(wheels);
     bool holds = true;
     for (int wheel = 0; wheel < 2; ++wheel) {
@@ -58,7 +58,7 @@ class FloorFriction {
     if (!holds) slide(wheels);
   }
 
-  Velocity after(const Wheel wheels[2]) const {
+  Velocity after(const TractionWheel wheels[2]) const {
     Velocity velocity = before_;
     for (int wheel = 0; wheel < 2; ++wheel) {
       const double* friction = wheels[wheel].friction;
@@ -71,12 +71,12 @@ class FloorFriction {
 
  private:
   /// Returns the change of a saturated wheel's rim speed per impulse of the floor on it [1/kg].
-  double yielding(const Wheel& wheel) const {
+  double yielding(const TractionWheel& wheel) const {
     return wheel.saturated ? v_.radius * v_.radius / v_.wheel_inertia : 0;
   }
 
   /// Returns the slip of the rim over the floor without friction in this step [m/s].
-  double slipAhead(const Wheel& wheel, int side, const Velocity& velocity) const {
+  double slipAhead(const TractionWheel& wheel, int side, const Velocity& velocity) const {
     const double spin =
         wheel.saturated ? wheel.speed + wheel.motor / v_.wheel_inertia : wheel.target;
     return velocity[kAhead] - velocity[kTurn] * arm_[side] - v_.radius * spin;
@@ -88,7 +88,7 @@ class FloorFriction {
 
   /// Holds both wheels: three unknowns. The sideways one is shared in proportion to their grips,
   /// since wheels on one axle slip sideways together.
-  void holdBoth(Wheel wheels[2]) const {
+  void holdBoth(TractionWheel wheels[2]) const {
     const double mass = 1 / v_.mass, turn = 1 / v_.inertia, cx = v_.centre[0];
     const double a00 = mass + arm_[0] * arm_[0] * turn + yielding(wheels[0]);
     const double a11 = mass + arm_[1] * arm_[1] * turn + yielding(wheels[1]);
@@ -111,7 +111,7 @@ class FloorFriction {
   }
 
   /// Iterates by block Gauss-Seidel over the wheels, each solved exactly.
-  void slide(Wheel wheels[2]) const {
+  void slide(TractionWheel wheels[2]) const {
     for (int wheel = 0; wheel < 2; ++wheel) {
       double* x = wheels[wheel].friction;
       const double size = std::hypot(x[0], x[1]);
@@ -127,7 +127,7 @@ class FloorFriction {
   }
 
   /// Solves one wheel with the other fixed. Returns the change of its friction [N s].
-  double slideOne(Wheel wheels[2], int wheel) const {
+  double slideOne(TractionWheel wheels[2], int wheel) const {
     const double was[2] = {wheels[wheel].friction[0], wheels[wheel].friction[1]};
     wheels[wheel].friction[0] = wheels[wheel].friction[1] = 0;
     const Velocity others = after(wheels);
@@ -147,12 +147,13 @@ class FloorFriction {
 };
 
 /// Returns the impulse with which the motor brings the wheel to its target in the step [Nm s].
-double neededMotor(const Vehicle& v, const Wheel& wheel) {
+double neededMotor(const Vehicle& v, const TractionWheel& wheel) {
   return v.wheel_inertia * (wheel.target - wheel.speed) + v.radius * wheel.friction[0];
 }
 
 /// Determines the motors that are at their limits, together with the floor's friction.
-void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit, Wheel wheels[2]) {
+void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit,
+                 TractionWheel wheels[2]) {
   for (int round = 0; round < 3; ++round) {
     floor->solve(wheels);
     bool changed = false;
@@ -166,7 +167,7 @@ void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit, Whe
   }
 }
 
-double speedAfter(const Vehicle& v, const Wheel& wheel) {
+double speedAfter(const Vehicle& v, const TractionWheel& wheel) {
   if (!wheel.saturated) return wheel.target;
   return wheel.speed + (wheel.motor - v.radius * wheel.friction[0]) / v.wheel_inertia;
 }
@@ -182,7 +183,7 @@ void applyTraction(FleetState& fleet, int i, const Ground& ground, double dt) {
   const double around = turn * turn * dt;
   const Velocity before{c * fleet.vx[i] + s * fleet.vy[i] - turn * cy + around * cx,
                         -s * fleet.vx[i] + c * fleet.vy[i] + turn * cx + around * cy, turn};
-  Wheel wheels[2];
+  TractionWheel wheels[2];
   for (int side = 0; side < 2; ++side) {
     wheels[side].speed = fleet.wheel_speed[side][i];
     wheels[side].target = fleet.wheel_target[side][i];

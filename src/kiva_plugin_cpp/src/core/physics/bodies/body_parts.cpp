@@ -37,7 +37,7 @@ class Foreseeing : public Base {
 
 /// A box that computes its faces once for all boxes of that size. A body is rebuilt whenever it
 /// comes near another, and needs its faces as soon as they may touch.
-class Box : public Foreseeing<btBoxShape> {
+class FacetedBox : public Foreseeing<btBoxShape> {
  public:
   using Foreseeing<btBoxShape>::Foreseeing;
   bool initializePolyhedralFeatures(int shift) override {
@@ -62,7 +62,7 @@ class Box : public Foreseeing<btBoxShape> {
 };
 
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
-  auto box = std::make_unique<Box>(toBullet(shape.size * 0.5));
+  auto box = std::make_unique<FacetedBox>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
   return box;
 }

@@ -97,7 +97,7 @@ Flat faceOf(const btCollisionObjectWrapper& wrapper, const btVector3& at) {
 }
 
 /// Points of the round body that may touch.
-struct Candidates {
+struct TouchCandidates {
   int count = 0;
   btVector3 at[4];
   bool is_line = false;  // the middle, then both ends
@@ -128,9 +128,9 @@ bool clip(const Flat& flat, btVector3* a, btVector3* b) {
 
 /// Determines contacts of the lower cap: corners of a face beneath it, and the part of its rim
 /// above the face.
-Candidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
-                     const btVector3& reach) {
-  Candidates out;
+TouchCandidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
+                          const btVector3& reach) {
+  TouchCandidates out;
   const btScalar lean = round.axis.dot(flat.normal);
   for (int corner = 0; corner < 4 && flat.half[0] < kInfinity; ++corner) {
     btVector3 at = flat.point + flat.side[0] * (corner & 1 ? flat.half[0] : -flat.half[0]) +
@@ -146,7 +146,7 @@ Candidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
   return out;
 }
 
-Candidates findCandidates(const Round& round, const Flat& flat, btScalar foresight) {
+TouchCandidates findCandidates(const Round& round, const Flat& flat, btScalar foresight) {
   const btScalar lean = round.axis.dot(flat.normal);  // cosine of the angle to the normal
   btVector3 down = round.axis * lean - flat.normal;   // across the axis, towards the surface
   if (down.length2() > SIMD_EPSILON) {
@@ -162,7 +162,7 @@ Candidates findCandidates(const Round& round, const Flat& flat, btScalar foresig
   if (!round.is_capsule && rim_rise < std::min(line_rise, foresight)) {
     return findOnCap(round, flat, round.centre + lower, reach);
   }
-  Candidates out;
+  TouchCandidates out;
   btVector3 a = round.centre + lower + reach, b = round.centre - lower + reach;
   if (line_rise < foresight && clip(flat, &a, &b)) {
     out.is_line = true;
@@ -293,7 +293,7 @@ void RoundContacts::processCollision(const btCollisionObjectWrapper* a,
   const Round body(round);
   const Flat surface = edge_ ? faceOf(flat, body.centre) : planeOf(flat);
   const bool is_over = surface.isLevelWith(body.centre) && surface.above(body.centre) > 0;
-  const Candidates candidates =
+  const TouchCandidates candidates =
       findCandidates(body, surface, manifold_->getContactBreakingThreshold());
   if (edge_ && (!is_over || candidates.is_edge)) {
     result->setPersistentManifold(manifold_);

@@ -77,7 +77,7 @@ bool ArticulatedSolver::sortRows(const Island& island) {
   holding_.clear();
   yielding_.clear();
   kinds_.clear();
-  const auto add = [&](const Yielding& row, Kind kind) {
+  const auto add = [&](const YieldingRow& row, Kind kind) {
     yielding_.push_back(row);
     kinds_.push_back(kind);
   };

@@ -31,7 +31,7 @@ class ArticulatedSolver {
 
  private:
   /// A row that may yield: a contact, friction, a motor or a limit.
-  struct Yielding {
+  struct YieldingRow {
     btSolverConstraint* row;
     double least, most;   ///< Limits of its impulse, except friction's [N s, Nm s].
     int normal = -1;      ///< Row of the contact, in the first row of its friction.
@@ -56,7 +56,7 @@ class ArticulatedSolver {
 
   btAlignedObjectArray<btSolverBody>* bodies_ = nullptr;
   std::vector<btSolverConstraint*> holding_;  ///< Rows of joints, which never yield.
-  std::vector<Yielding> yielding_;
+  std::vector<YieldingRow> yielding_;
   std::vector<Kind> kinds_;
   Ldl joints_;
   SquareMatrix a_;  ///< Change of a yielding row's velocity by an impulse of another one.

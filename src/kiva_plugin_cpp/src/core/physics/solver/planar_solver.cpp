@@ -201,7 +201,7 @@ class Solver {
   /// Adds rows along the motion of each foot, and across.
   void addFeet(const SlidingFriction& friction) {
     const btRigidBody& body = friction.getRigidBodyA();
-    for (const Foot& foot : friction.feet()) {
+    for (const SlidingFoot& foot : friction.feet()) {
       const btVector3 arm = body.getWorldTransform().getBasis() * foot.at, none(0, 0, 0);
       const btVector3 along = friction.wayOf(arm);
       for (const btVector3& way : {along, btVector3(-along.y(), along.x(), 0)}) {

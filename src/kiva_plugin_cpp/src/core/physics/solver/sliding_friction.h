@@ -11,14 +11,14 @@
 namespace kiva {
 
 /// A point at which a body stands on the floor.
-struct Foot {
+struct SlidingFoot {
   btVector3 at;           ///< Position from the centre of mass, in the body's frame [m].
   double grip_limit = 0;  ///< Largest friction force there [N].
 };
 
 class SlidingFriction : public btTypedConstraint {
  public:
-  SlidingFriction(btRigidBody& body, std::vector<Foot> feet);
+  SlidingFriction(btRigidBody& body, std::vector<SlidingFoot> feet);
 
   void getInfo1(btConstraintInfo1* info) override;
   /// Adds impulses that end the motion of a foot along and across its way, within its grip.
@@ -26,7 +26,7 @@ class SlidingFriction : public btTypedConstraint {
   void setParam(int, btScalar, int) override {}
   btScalar getParam(int, int) const override { return 0; }
 
-  const std::vector<Foot>& feet() const { return feet_; }
+  const std::vector<SlidingFoot>& feet() const { return feet_; }
   /// Returns the direction of motion of a foot at `arm` [m] from the centre of mass: a unit vector
   /// in world.
   btVector3 wayOf(const btVector3& arm) const;
@@ -35,7 +35,7 @@ class SlidingFriction : public btTypedConstraint {
   btVector3 impulse(double dt) const { return feedback_.m_appliedForceBodyA * dt; }
 
  private:
-  std::vector<Foot> feet_;
+  std::vector<SlidingFoot> feet_;
   btJointFeedback feedback_;
 };
 

@@ -126,19 +126,19 @@ void moved(MotionView& world, Model& model) {
   updateMover(world, world.obstacles, mover);
 }
 
-void followRobot(MotionView& world, int robot) {
-  const FleetState& f = world.fleet;
+void followRobot(const FleetState& f, Obstacles& obstacles, Storage& storage, int robot) {
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
   if (still) return;
-  world.obstacles.follow(robot);
-  if (f.unit[robot] >= 0) world.storage.noteMove();
+  obstacles.follow(robot);
+  if (f.unit[robot] >= 0) storage.noteMove();
 }
 
-void raiseLoad(MotionView& world, int robot, double by) {
-  const int unit = world.fleet.unit[robot];
+void raiseLoad(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot,
+               double by) {
+  const int unit = fleet.unit[robot];
   if (unit < 0) return;
-  world.obstacles.raise(robot, world.storage.units[unit].model, by);
-  world.storage.noteMove();
+  obstacles.raise(robot, storage.units[unit].model, by);
+  storage.noteMove();
 }
 
 void hideFootprints(Obstacles& obstacles, Model& model) {

@@ -17,9 +17,10 @@ void refitGeometry(MotionView& world, Model& model);
 /// and needs nothing else.
 void moved(MotionView& world, Model& model);
 /// Updates the footprints of a robot that drove by itself in this step.
-void followRobot(MotionView& world, int robot);
+void followRobot(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot);
 /// Raises the footprints of a robot's load, if it has one [m].
-void raiseLoad(MotionView& world, int robot, double by);
+void raiseLoad(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot,
+               double by);
 /// Removes the footprints; the model keeps its geometry.
 void hideFootprints(Obstacles& obstacles, Model& model);
 /// Discards the clearances of all robots, after something was added or moved from outside: robots

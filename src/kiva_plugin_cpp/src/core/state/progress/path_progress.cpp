@@ -24,9 +24,9 @@ struct OnRun {
 
 /// The frame of the present run, which is along an axis: cosine and sine of its heading are
 /// integers, and known without computing them, at every point that is counted.
-class Run {
+class RunFrame {
  public:
-  explicit Run(const Task& task) : path_(task.path), segment_(task.segments.front()) {
+  explicit RunFrame(const Task& task) : path_(task.path), segment_(task.segments.front()) {
     constexpr double kCosine[] = {1, 0, -1, 0};
     const int quarters =
         static_cast<int>(segment_.yaw / kHalfPi + std::copysign(0.5, segment_.yaw));
@@ -96,7 +96,7 @@ double alongSegment(const FleetState& f, int i) {
   return std::cos(segment.yaw) * (at.x - segment.x) + std::sin(segment.yaw) * (at.y - segment.y);
 }
 
-double alongRun(const Task& task, std::uint32_t point) { return Run(task)(point).along; }
+double alongRun(const Task& task, std::uint32_t point) { return RunFrame(task)(point).along; }
 
 void countPoints(RobotView& world, int robot, double along) {
   FleetState& f = world.fleet;
@@ -104,7 +104,7 @@ void countPoints(RobotView& world, int robot, double along) {
   if (!task.isOnRun()) return;
   std::uint32_t& reached = f.reached[robot];
   std::uint32_t& left = f.left[robot];
-  const Run run(task);
+  const RunFrame run(task);
   while (reached <= task.path.end && along >= run(reached).along - kCentred) ++reached;
   const OnRun out = outOfCell(world, robot);
   const auto isLeft = [&](std::uint32_t point) {
@@ -120,7 +120,7 @@ double nextCount(const Scene& world, int robot) {
   double next = std::numeric_limits<double>::infinity();
   if (!task.isOnRun()) return next;
   const std::uint32_t reached = f.reached[robot], left = f.left[robot];
-  const Run run(task);
+  const RunFrame run(task);
   if (reached <= task.path.end) next = run(reached).along - kCentred;
   if (left < reached) next = std::min(next, run(left).along + outOfCell(world, robot).along);
   return next;
