@@ -1,41 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ways over the grid, and the `/mov` commands that follow them."""
+"""Grid points: the nearest to a position, those that a body covers, those that `/mov` passes."""
 
-import heapq
 import math
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 Point = tuple[int, int]
-STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))
-
-# Stopping, a quarter turn and setting off again take about as long as two cells at full speed.
-TURN_COST = 2.0
-
-
-class NoRouteError(ValueError):
-    """There is no way from start to goal; the message names both."""
-
-
-class Grid:
-    """Grid points a robot may stand on: those of the floor that nothing blocks.
-
-    `floor` is a rectangle min_x … max_y [m]; `blocked` holds grid points (x, y), whole metres.
-    """
-
-    def __init__(self, floor: Any, blocked: Iterable[Point] = ()) -> None:
-        self.x = range(math.ceil(floor.min_x), math.floor(floor.max_x) + 1)
-        self.y = range(math.ceil(floor.min_y), math.floor(floor.max_y) + 1)
-        self.blocked = {point(p) for p in blocked}
-
-    def free(self, p: Point) -> bool:
-        """Returns whether a robot may stand on a grid point."""
-        return p[0] in self.x and p[1] in self.y and p not in self.blocked
-
-    def neighbours(self, p: Point) -> list[Point]:
-        """Returns the free grid points one step away."""
-        around = ((p[0] + dx, p[1] + dy) for dx, dy in STEPS)
-        return [q for q in around if self.free(q)]
 
 
 def point(p: Sequence[float]) -> Point:
@@ -54,61 +23,6 @@ def covered(x: float, y: float, yaw: float, length: float, width: float) -> list
 
 def _between(centre: float, reach: float) -> range:
     return range(math.ceil(centre - reach), math.floor(centre + reach) + 1)
-
-
-def route(
-    grid: Grid, start: Sequence[float], goal: Sequence[float], heading: Point | None = None
-) -> list[Point]:
-    """Returns the grid points from start to goal, both included: short, with few turns.
-
-    `heading` is the step (dx, dy) the robot faces at the start. Dijkstra (1959) over points and
-    headings. The start may be blocked, for there the robot stands. Raises NoRouteError.
-    """
-    start, goal = point(start), point(goal)
-    queue: list[Any] = [(0.0, start, heading, None)]
-    came_from: dict[Any, Any] = {}
-    while queue:
-        cost, here, step, before = heapq.heappop(queue)
-        if (here, step) in came_from:
-            continue
-        came_from[here, step] = before
-        if here == goal:
-            return _walk_back(came_from, (here, step))
-        for there in grid.neighbours(here):
-            ahead = (there[0] - here[0], there[1] - here[1])
-            turn = TURN_COST if step not in (None, ahead) else 0.0
-            heapq.heappush(queue, (cost + 1 + turn, there, ahead, (here, step)))
-    raise NoRouteError(f"no way from {start} to {goal}")
-
-
-def _walk_back(came_from: dict[Any, Any], node: Any) -> list[Point]:
-    points = []
-    while node:
-        points.append(node[0])
-        node = came_from[node]
-    return points[::-1]
-
-
-def corners(points: Sequence[Point]) -> list[Point]:
-    """Returns the points where a route turns, and its end."""
-    turns = [
-        b
-        for a, b, c in zip(points, points[1:], points[2:])
-        if (b[0] - a[0], b[1] - a[1]) != (c[0] - b[0], c[1] - b[1])
-    ]
-    return [*turns, points[-1]] if len(points) > 1 else []
-
-
-def goals(points: Sequence[Point]) -> list[Point]:
-    """Returns the fewest `/mov` goals of a route: each goes along x first, then along y."""
-    ends = corners(points)
-    kept, here = [], points[0]
-    for end, after in zip(ends, ends[1:] + [None]):
-        # A leg along x is left to the goal of the leg along y that follows it.
-        if end[1] != here[1] or after is None:
-            kept.append(end)
-        here = end
-    return kept
 
 
 def elbow(start: Point, goal: Point) -> list[Point]:
