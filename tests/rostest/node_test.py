@@ -19,6 +19,7 @@ from warehouse_msgs.msg import Event, KivaStatus
 from warehouse_msgs.srv import CreateWarehouse
 
 PATIENCE = 60.0  # [s, wall]
+START = rospy.Time(0)
 
 
 class Listener:
@@ -143,5 +144,5 @@ class Robot:
         messages = self._events.messages[before:]
         return [event for event in messages if event.model == name and event.kind in kinds]
 
-    def _wait_for_idle(self, since=rospy.Time(0)):
+    def _wait_for_idle(self, since=START):
         self._status.until(lambda s: s.status == KivaStatus.STATUS_IDLE and s.header.stamp >= since)

@@ -88,7 +88,7 @@ class Demo:
         self._fetch(errands)
         self._meet(self._line_up())
         for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
-            self._expect(f"nothing was {name}", lambda: not self._models(kind))
+            self._expect(f"nothing was {name}", self._is_without, kind)
 
     def deliver(self, duration: float) -> None:
         """Plays the last act: a fleet delivers for a duration [s, simulated]. Raises DemoError."""
@@ -96,19 +96,22 @@ class Demo:
         if is_offered(self._ros, "warehouse/transport"):
             raise DemoError("a coordinator runs already; the demonstration brings its own")
         fleet = CoordinatorClient(self._ros)
+
+        def now() -> float:
+            return float(fleet.state.header.stamp.to_sec())
+
         self._build(FLEET)
         before = len(self._events)
         with coordinator():
             if not self._until(lambda: fleet.state and fleet.state.automatic, PATIENCE):
                 alarms = fleet.state.alarms if fleet.state else ()
                 raise DemoError("; ".join(alarms) or "no coordinator publishes its robots' states")
-            end = fleet.state.header.stamp.to_sec() + duration
-            is_over = lambda: fleet.state.header.stamp.to_sec() >= end  # noqa: E731
-            self._until(is_over, PATIENCE + DEADLINE * duration)
+            end = now() + duration
+            self._until(lambda: now() >= end, PATIENCE + DEADLINE * duration)
         count = sum(event.kind == TransportEvent.ARRIVED for event in fleet.take_events())
         kinds = {event.kind for event in self._events[before:]}
         robots = fleet.state.automatic
-        self._expect(f"{robots} robots were coordinated for {duration:g} s", is_over)
+        self._expect(f"{robots} robots were coordinated for {duration:g} s", lambda: now() >= end)
         self._expect(f"{count} storage units were delivered", lambda: count)
         self._expect("there was no collision", lambda: Event.COLLISION not in kinds)
         self._expect("every robot moved on", lambda: not fleet.state.watchdog)
@@ -153,18 +156,12 @@ class Demo:
         self._write("\nEach sets off for the other's place. A blocked robot finds another way.\n")
         moves = (MoveGoal(robot, *self._point(cell)) for robot, cell in goals.items())
         self._act(*moves, may_be_blocked=True)
-        names = {f"kiva{robot}" for robot in self._cast}
-        self._expect(
-            "meeting head on, one of them was blocked at least",
-            lambda: self._models(Event.BLOCKED) & names,
-        )
+        self._expect("meeting head on, one of them was blocked at least", self._is_blocked)
         for robot, cell in goals.items():
             self._drive(robot, cell)
             x, y = self._point(cell)
-            self._expect(
-                f"kiva{robot} reached ({x:g}, {y:g}) all the same",
-                lambda: self._is_at(robot, cell),
-            )
+            text = f"kiva{robot} reached ({x:g}, {y:g}) all the same"
+            self._expect(text, self._is_at, robot, cell)
 
     def _drive(self, robot: int, goal: Point) -> None:
         chart = self._chart()
@@ -256,16 +253,16 @@ class Demo:
     def _check_delivered(self, errand: Errand) -> None:
         robot, name = f"kiva{errand.robot}", f"storage_unit{errand.unit}"
         for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
-            fact = (kind, robot, name)
-            self._expect(
-                f"{robot} {word} {name}",
-                lambda: any((e.kind, e.model, e.other) == fact for e in self._events),
-            )
-        self._expect(
-            f"{name} stands before {errand.belt}, on the floor, with its items",
-            lambda: self._stands(name, self._point(errand.to_belt[-1])),
-        )
-        self._expect(f"{robot} left it there", lambda: self._is_at(errand.robot, errand.exit))
+            self._expect(f"{robot} {word} {name}", self._has_event, kind, robot, name)
+        text = f"{name} stands before {errand.belt}, on the floor, with its items"
+        self._expect(text, self._stands, name, self._point(errand.to_belt[-1]))
+        self._expect(f"{robot} left it there", self._is_at, errand.robot, errand.exit)
+
+    def _has_event(self, *fact: Any) -> bool:
+        return any((e.kind, e.model, e.other) == fact for e in self._events)
+
+    def _is_without(self, kind: int) -> bool:
+        return not any(event.kind == kind for event in self._events)
 
     def _stands(self, name: str, point: tuple[float, float]) -> bool:
         known = self._world.objects, self._world.units
@@ -286,11 +283,12 @@ class Demo:
         i = fleet.kiva_id.index(robot)
         return math.dist((fleet.x[i], fleet.y[i]), self._point(cell)) < TOLERANCE
 
-    def _models(self, kind: int) -> set[str]:
-        return {event.model for event in self._events if event.kind == kind}
+    def _is_blocked(self) -> bool:
+        names = {f"kiva{robot}" for robot in self._cast}
+        return any(event.kind == Event.BLOCKED and event.model in names for event in self._events)
 
-    def _expect(self, text: str, condition: Callable[[], Any]) -> None:
-        is_true = self._until(condition, DELAY)
+    def _expect(self, text: str, condition: Callable[..., Any], *args: Any) -> None:
+        is_true = self._until(lambda: condition(*args), DELAY)
         self._write(f"  {'ok    ' if is_true else 'FAILED'}  {text}")
         if not is_true:
             self.failed.append(text)
