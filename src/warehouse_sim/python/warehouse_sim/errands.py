@@ -89,11 +89,13 @@ def _are_apart(a: Errand, b: Errand) -> bool:
 
 
 def legs(free: Collection[Point], start: Point, goal: Point) -> list[Point]:
-    """Returns the ends of the one or two moves that lead from start to goal over free cells.
+    """Returns the ends of the moves, two at most, that lead from start to goal over free cells.
 
     Raises PlanError.
     """
     free = set(free) | {start}
+    if start == goal:
+        return []
     if free.issuperset(elbow(start, goal)):
         return [goal]
     stops = [
@@ -103,7 +105,8 @@ def legs(free: Collection[Point], start: Point, goal: Point) -> list[Point]:
     ]
     if not stops:
         raise PlanError(f"no way from {start} to {goal}")
-    return [min(stops, key=lambda stop: math.dist(start, stop) + math.dist(stop, goal)), goal]
+    best = min(stops, key=lambda stop: (len(elbow(start, stop) + elbow(stop, goal)), stop))
+    return [best, goal]
 
 
 def meeting(free: set[Point], a: Point, b: Point) -> tuple[Point, Point]:

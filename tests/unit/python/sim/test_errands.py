@@ -68,6 +68,7 @@ def test_one_robot_is_not_enough():
 
 
 def test_two_moves_lead_round_an_obstacle():
+    assert legs(FLOOR, (2, 3), (2, 3)) == []
     assert legs(FLOOR, (2, 3), (6, 3)) == [(6, 3)]
     for start, goal, obstacle in (((2, 3), (6, 3), (4, 3)), ((2, 3), (2, 7), (2, 5))):
         free = FLOOR - {obstacle}
