@@ -5,20 +5,15 @@ A cell is (column, row). Robots go as the actions of warehouse_msgs do: along x 
 """
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations, product
 
-from warehouse_client.routes import Point, elbow
-from warehouse_layout.floor.stations import STEPS
+from warehouse_client.routes import STEPS, NoRouteError, Point, elbow
 
 MAX_ROBOTS = 6  # of which two are chosen; the optimum is not needed
 MAX_ERRANDS = 400
 AISLE = 5  # cells that two robots need to meet head on and see each other in time
-
-
-class PlanError(ValueError):
-    """The warehouse has no room for what is planned; the message says what is missing."""
 
 
 @dataclass(frozen=True)
@@ -59,12 +54,12 @@ def two_errands(chart: Chart, belts: Mapping[str, Point]) -> list[Errand]:
     """Returns the two shortest errands that can be done at once; `belts`: where units are put down.
 
     Their ways are two cells apart at least: neighbours that turn at once would touch.
-    Raises PlanError if there is no such pair.
+    Raises NoRouteError if there is no such pair.
     """
     errands = sorted(_all_errands(chart, belts), key=lambda e: len(e.way))[:MAX_ERRANDS]
     pairs = [pair for pair in combinations(errands, 2) if _are_apart(*pair)]
     if not pairs:
-        raise PlanError("no two robots can fetch two storage units at once here")
+        raise NoRouteError("no two robots can fetch two storage units at once here")
     best = min(pairs, key=lambda pair: len(pair[0].way) + len(pair[1].way))
     return sorted(best, key=lambda errand: errand.robot)
 
@@ -88,34 +83,13 @@ def _are_apart(a: Errand, b: Errand) -> bool:
     return near.isdisjoint(b.way)
 
 
-def legs(free: Collection[Point], start: Point, goal: Point) -> list[Point]:
-    """Returns the ends of the moves, two at most, that lead from start to goal over free cells.
-
-    Raises PlanError.
-    """
-    free = set(free) | {start}
-    if start == goal:
-        return []
-    if free.issuperset(elbow(start, goal)):
-        return [goal]
-    stops = [
-        stop
-        for stop in free
-        if free.issuperset(elbow(start, stop)) and free.issuperset(elbow(stop, goal))
-    ]
-    if not stops:
-        raise PlanError(f"no way from {start} to {goal}")
-    best = min(stops, key=lambda stop: (len(elbow(start, stop) + elbow(stop, goal)), stop))
-    return [best, goal]
-
-
 def meeting(free: set[Point], a: Point, b: Point) -> tuple[Point, Point]:
-    """Returns the ends of a free straight aisle, near to the cells a and b. Raises PlanError."""
+    """Returns the ends of a free straight aisle, near to the cells a and b. Raises NoRouteError."""
     reach = AISLE - 1
     aisles = (
         ((x, y), (x + dx * reach, y + dy * reach)) for (x, y), (dx, dy) in product(free, STEPS)
     )
     ends = [aisle for aisle in aisles if free.issuperset(elbow(*aisle))]
     if not ends:
-        raise PlanError("no aisle is long enough for two robots to meet in")
+        raise NoRouteError("no aisle is long enough for two robots to meet in")
     return min(ends, key=lambda end: (math.dist(a, end[0]) + math.dist(b, end[1]), end))
