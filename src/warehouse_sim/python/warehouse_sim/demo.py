@@ -150,12 +150,14 @@ class Demo:
             self._drive(robot, end)
         return {a: ends[1], b: ends[0]}
 
-    def _meet(self, goals: dict[int, Point]) -> None:
+    def _meet(self, ends: dict[int, Point]) -> None:
         self._write("\nEach sets off for the other's place. A blocked robot finds another way.\n")
-        moves = (MoveGoal(robot, *self._point(cell)) for robot, cell in goals.items())
+        moves = (MoveGoal(robot, *self._point(cell)) for robot, cell in ends.items())
         self._act(*moves, may_be_blocked=True)
         self._expect("meeting head on, one of them was blocked at least", self._is_blocked)
-        for robot, cell in goals.items():
+        # A robot that was blocked at once still stands where the other goes.
+        taken = set(self._chart().robots.values())
+        for robot, cell in sorted(ends.items(), key=lambda pair: pair[1] in taken):
             self._drive(robot, cell)
             x, y = self._point(cell)
             text = f"kiva{robot} reached ({x:g}, {y:g}) all the same"
