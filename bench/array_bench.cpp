@@ -51,7 +51,7 @@ struct Fleet {
       y[i] += v * s[i] * dt;
       const double turn = (right[i] - left[i]) / bench::kTrack * dt;
       yaw[i] += turn;
-      // Of a step's turn, to the fourth order.
+      // Sine and cosine of a step's turn, to the fourth order.
       const double sine = turn * (1 - turn * turn / 6), cosine = 1 - turn * turn / 2;
       const double c_next = c[i] * cosine - s[i] * sine;
       s[i] = s[i] * cosine + c[i] * sine;
@@ -77,7 +77,8 @@ class Grid {
   void fill(const Fleet& fleet) {
     for (auto& cell : cells_) cell.clear();
     for (int i = 0; i < fleet.size(); ++i) {
-      // Into each cell that the body may reach into, so that a ray asks its own cells alone.
+      // Enters a robot into each cell that its body may reach, so that a ray reads its own cells
+      // alone.
       for (int cx = column(fleet.x[i] - kReach); cx <= column(fleet.x[i] + kReach); ++cx) {
         for (int cy = column(fleet.y[i] - kReach); cy <= column(fleet.y[i] + kReach); ++cy) {
           cells_[cy * columns_ + cx].push_back(i);
@@ -86,8 +87,8 @@ class Grid {
     }
   }
 
-  /// The range to the first body but `self`, or to the walls; a walk from cell to cell (Amanatides,
-  /// Woo 1987).
+  /// Returns the range to the first body but `self`, or to the walls, by traversing the cells
+  /// (Amanatides, Woo 1987).
   double cast(const Fleet& fleet, int self, double x, double y, double dx, double dy) const {
     double best = std::min({bench::kRange, toWall(x, dx), toWall(y, dy)});
     int cx = column(x), cy = column(y);
@@ -110,7 +111,7 @@ class Grid {
 
  private:
   static constexpr double kCell = 1.5;   // [m]
-  static constexpr double kReach = 0.5;  // of a body's corner from its centre [m]
+  static constexpr double kReach = 0.5;  // distance of a body's corner from its centre [m]
 
   /// A cell beyond the wall, since a ray that ends on it may be a rounding away from it.
   double origin() const { return -half_ - kCell; }

@@ -23,7 +23,7 @@ class Scene {
  public:
   explicit Scene(double size) : floor_({0, 0, 1}, 0), wall_({0.1, size / 2, 0.5}) {
     world_.setGravity({0, 0, -9.81});
-    // Only what moved: else each step updates everything in the broadphase.
+    // Updates only what moved; otherwise each step updates everything in the broadphase.
     world_.setForceUpdateAllAabbs(false);
     add(0, &floor_, btTransform::getIdentity())->setFriction(1);
     for (int i = 0; i < 4; ++i) {
@@ -56,7 +56,7 @@ class Scene {
 
   void step() { world_.stepSimulation(bench::kStep, 0); }
 
-  /// One scan of a robot at that pose; the ranges are added up, so that nothing is left out.
+  /// Returns the sum of the ranges of a scan at that pose, so that no ray is optimised away.
   double scan(const btTransform& pose) const {
     double sum = 0;
     const btVector3 from = pose * btVector3(bench::kLaserAhead, 0, kLaserUp);

@@ -39,7 +39,7 @@ struct Command {
 struct FollowPath {
   std::int32_t kiva_id = 0;
   std::uint32_t path_id = 0;   ///< The sender's choice, not 0.
-  std::uint32_t first = 0;     ///< Number of the point that x[0], y[0] is; 0 in a new path.
+  std::uint32_t first = 0;     ///< Number of the path's point at x[0], y[0]; 0 in a new path.
   std::vector<double> x, y;    ///< Grid points in world [m]; neighbours differ along one axis.
                                ///< Point 0 is where the robot stands.
   std::uint32_t released = 0;  ///< Count of points of the whole path that are released, at least 1.

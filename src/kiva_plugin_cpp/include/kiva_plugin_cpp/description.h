@@ -107,7 +107,7 @@ struct PluginDescription {
 /// A `<sensor>` of a link, as the plugins in it need it.
 struct SensorDescription {
   std::string name;
-  std::string type;  ///< As SDF has it: ray, imu, contact, …
+  std::string type;  ///< Type in SDF: ray, imu, contact, …
   std::string link;
   Pose pose_in_link;
   double update_rate = 0;  ///< [Hz] of simulated time, 0 = every step.

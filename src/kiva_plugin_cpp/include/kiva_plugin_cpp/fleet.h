@@ -22,8 +22,8 @@ enum class Drive : std::uint8_t {
   kJointed    ///< Wheel joints, casters, rigid contacts with the floor; the chassis pitches.
 };
 
-// Each struct of parameters lists its numbers once, in fields(): name, value, least, most. From
-// that list they are read, and checked and saved in checkpoints.
+// Each struct of parameters lists its numbers once, in fields(): name, value, least, most. This
+// list serves for reading, checking and checkpoints.
 
 struct DriveParameters {
   Drive drive = Drive::kTraction;
@@ -171,8 +171,8 @@ struct RobotReport {
 /// The report of a robot that is elsewhere, whose shadow stands in the world.
 struct ShadowReport {
   RobotReport report;         ///< The velocities are not used.
-  std::uint8_t failures = 0;  ///< As in Fleet.
-  float charge = 1;           ///< As in Fleet.
+  std::uint8_t failures = 0;  ///< Set of failures, as Fleet::failures.
+  float charge = 1;           ///< Charge of the battery, as Fleet::charge.
 };
 
 /// One value a robot. Others may hold its memory and read it without a copy.

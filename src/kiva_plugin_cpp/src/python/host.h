@@ -45,7 +45,7 @@ class Host {
 
   World world;
   ModelPaths model_paths;
-  Column<float> ranges;  // of the last scans()
+  Column<float> ranges;  // result of the last scans()
 
  private:
   std::mutex mutex_;

@@ -100,8 +100,8 @@ class Worlds {
   Workers workers_;
   int robots_;
   FleetRows rows_;
-  std::vector<std::vector<Event>> events_;  ///< of the last step()
-  Column<float> ranges_;                    ///< of the last scans()
+  std::vector<std::vector<Event>> events_;  ///< events of the last step()
+  Column<float> ranges_;                    ///< result of the last scans()
 };
 
 }  // namespace kiva::python

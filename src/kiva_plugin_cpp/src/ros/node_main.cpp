@@ -153,7 +153,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
       recorder->onInput([topic](rosbag::Bag& bag, const ros::Time& t) { topic->write(bag, t); });
     });
   }
-  simulation.add(shadows);  // after the recorder, whose keyframes are of the world before
+  simulation.add(shadows);  // follows the recorder, whose keyframes precede its changes
 
   announce(world, settings, rtf);
   simulation.start();

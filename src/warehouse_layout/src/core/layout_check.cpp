@@ -131,7 +131,7 @@ class Aisles {
   std::vector<Cell> core_;   // cells
   std::vector<Cell> index_;  // into core_, of each cell
   Neighbours ahead_, back_;  // indices into core_
-  std::vector<int> part_;    // of each cell in core_
+  std::vector<int> part_;    // part of each cell in core_
 };
 
 }  // namespace

@@ -149,7 +149,7 @@ class Dominators {
 
   const Neighbours &ahead_, &back_;
   const std::vector<int>& part_;
-  std::vector<int> number_;  // of nodes
+  std::vector<int> number_;  // number of each node
   std::vector<Cell> node_;   // node of each number; the following also go by number
   std::vector<int> dominator_, semi_, ancestor_, best_, below_, begin_, path_;
 };

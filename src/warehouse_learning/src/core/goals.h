@@ -36,7 +36,7 @@ class Goals {
 
  private:
   struct Choice {
-    int aim;  // as in aim_
+    int aim;  // goal, as in aim_
     int cell;
     const Way* way;
   };

@@ -287,7 +287,7 @@ class Task {
   Goals goals_;
   TaskRules rules_;
   Observer observer_;
-  Table<bool> possible_;  // as TaskRules has it
+  Table<bool> possible_;  // result of TaskRules::possible
   bool is_possible_known_ = false;
   std::vector<std::int32_t> kiva_id_, shelf_id_;
   std::vector<int> unit_of_;  // by shelf_id

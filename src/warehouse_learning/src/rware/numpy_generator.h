@@ -20,7 +20,7 @@ class NumpyGenerator {
   struct State {
     unsigned __int128 state = 0, increment = 1;
     bool has_half = false;   ///< Whether half of the last 64 bits is unused.
-    std::uint32_t half = 0;  ///< That half.
+    std::uint32_t half = 0;  ///< The unused half.
   };
 
   NumpyGenerator() = default;

@@ -20,7 +20,7 @@ constexpr double kTurnMargin = 0.05;  // [m] around its turning circle
 constexpr double kBeside = 2;         // [m] from the reach of any robot's corners
 constexpr double kCreep = 0.05;       // [m/s]; a robot that may only be slower stops,
 constexpr double kSetOff = 0.15;      // [m/s] and starts again from this speed on
-constexpr int kHalvings = 20;         // of the top speed, to a micrometre a second
+constexpr int kHalvings = 20;         // steps of the search for a speed, to a micrometre a second
 
 /// The reaction time and deceleration of a robot that stops.
 struct Braking {

@@ -34,7 +34,7 @@ class PlainLinks {
     first_.clear();
     std::unordered_set<std::string> models;  // those before the present one
     std::shared_ptr<const kiva::ModelDescription>
-        last_description;  // instances of one file stand in a row
+        last_description;  // instances of one file mostly are consecutive
     for (const std::string& model : world.modelNames()) {
       models.insert(model);
       const auto description = world.description(model);

@@ -62,7 +62,7 @@ struct Snapshot {
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
-  std::vector<PublishQueue::Publication> publications;  ///< Of plugins.
+  std::vector<PublishQueue::Publication> publications;  ///< Messages of plugins.
   std::string state_hash;                               ///< Empty if it is not due.
   std::function<void()> published;  ///< Called when this snapshot is written to sockets.
   bool reliable = false;  ///< Whether nothing may be dropped, since a client waits for the step.

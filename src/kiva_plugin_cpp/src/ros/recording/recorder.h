@@ -49,7 +49,7 @@ class Recorder : public StepHook {
   double step_size_ = 1;
   std::uint64_t hash_every_ = 0, poses_every_ = 0;  ///< Steps.
   std::uint64_t step_ = 0;                          ///< Steps recorded so far.
-  std::uint32_t index_ = 0;                         ///< Of the next message within this step.
+  std::uint32_t index_ = 0;                         ///< Index of the next message within this step.
   Orders commands_;
   std::vector<std::function<void(rosbag::Bag&, const ros::Time&)>> inputs_;
   bool changed_ = true;

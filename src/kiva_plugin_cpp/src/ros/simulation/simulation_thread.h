@@ -140,7 +140,7 @@ class SimulationThread {
   std::uint64_t models_revision_ = 0;  ///< The revision that the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
-  Orders held_commands_;  ///< Until the next step.
+  Orders held_commands_;  ///< Commands for the next step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

@@ -6,7 +6,7 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostSteps = 1000;  // from frame to frame; a longer chain counts as a circle
+constexpr int kMostSteps = 1000;  // limit from frame to frame; a longer chain counts as a circle
 
 const XmlElement& requiredPart(const XmlElement& scope, const std::string& name) {
   const XmlElement* const part = XmlDocument::findFrame(scope, name);

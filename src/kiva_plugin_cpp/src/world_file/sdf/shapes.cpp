@@ -15,7 +15,7 @@
 namespace kiva {
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;  // of a polyline
+constexpr std::size_t kMostPoints = 2000;  // limit of a polyline
 
 const XmlElement& required(const XmlElement& parent, const char* name) {
   const XmlElement* const child = parent.FirstChildElement(name);

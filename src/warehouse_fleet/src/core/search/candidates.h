@@ -72,7 +72,7 @@ class Candidates {
   struct Scratch {
     std::vector<Cell> reached;  ///< by node of the tree of operations
     std::vector<Path> paths;
-    std::vector<std::pair<int, int>> order;  ///< of paths: cost, index
+    std::vector<std::pair<int, int>> order;  ///< cost and index of each path
   };
   void find(int robot, const Wish& wish, Scratch& scratch);
   void grow(const Wish& wish, Scratch& scratch) const;

@@ -20,7 +20,7 @@ using Actions = std::array<Action, kMaxHorizon>;
 /// The cells that operations pass, relative to the robot's pose: a tree with operations as leaves.
 class Operations {
  public:
-  explicit Operations(int depth);  ///< of 1 to kMaxDepth ticks
+  explicit Operations(int depth);  ///< `depth`: 1 to kMaxDepth ticks
 
   static constexpr std::uint8_t kStay = 4;
   struct Node {

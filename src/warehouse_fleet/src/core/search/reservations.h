@@ -52,7 +52,7 @@ class Reservations {
   std::vector<Path> paths_;
   std::vector<std::uint8_t> is_placed_, is_loaded_;
   std::vector<int> committed_;  ///< ticks
-  std::vector<Cell> standing_;  ///< where robots stand in this step
+  std::vector<Cell> standing_;  ///< cells in which robots stand in this step
 };
 
 }  // namespace fleet

@@ -11,7 +11,7 @@
 namespace kiva::test {
 namespace {
 
-/// Where the workspace's libraries are, from where this test is.
+/// Returns the folder of the workspace's libraries, relative to this test.
 std::string libraryFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path().string();
 }
@@ -27,7 +27,7 @@ class UserPlugin : public ::testing::Test {
   static void setPath(const std::string& folders) {
     setenv("KIVA_PLUGIN_PATH", folders.c_str(), true);
   }
-  /// Why a Kiva with that element is refused.
+  /// Returns the reason for which a Kiva with that element is refused.
   std::string refusal(const std::string& element, const std::string& kind = "kiva",
                       const std::string& name = "kiva1") {
     try {
@@ -186,7 +186,7 @@ TEST_F(UserPlugin, AWorldWithoutItsPluginIsAWarning) {
 
 // --- a table of plugins that is asked first
 
-/// Notes what it was given; refuses what it is told to.
+/// Notes its parameters; refuses a model on demand.
 struct Noting : Plugin {
   Noting(bool is_strict, std::map<std::string, std::string>* notes)
       : is_strict_(is_strict), notes_(notes) {}
@@ -276,7 +276,7 @@ TEST_F(PluginTable, TellsOfAReset) {
 
 // --- when they are called
 
-/// Does what it is told to, around the step.
+/// Runs a script around the step.
 struct Scripted : Plugin {
   std::function<void(World&)> before = [](World&) {};
   std::function<void(const World&)> after = [](const World&) {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Halls as other people have them, in tests/worlds/halls: what stands in them, which cells of their
-// map are taken, what a person is told. What can't be loaded is never free floor.
+// Halls of other makers, in tests/worlds/halls: their models, the taken cells of their maps, and
+// warnings. Parts that can't be loaded never count as free floor.
 #include <gtest/gtest.h>
 
 #include <cmath>

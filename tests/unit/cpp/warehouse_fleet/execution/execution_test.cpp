@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who may be where, without physics: robots here are told what they are released, and report as the
-// test has them.
+// Execution without physics: robots of the test follow their releases, and report as the test
+// demands.
 #include "warehouse_fleet/execution.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ class ExecutionTest : public testing::Test {
     execution_.adopt(plan);
   }
 
-  /// What is released, as messages that arrive at once.
+  /// Returns releases as messages that arrive at once.
   std::vector<Message> release() {
     const Releases releases = execution_.release();
     std::vector<Message> messages;
@@ -189,8 +189,8 @@ class ExecutionTest : public testing::Test {
     return cells;
   }
 
-  /// No robot stands where another does, nor in a cell that another holds; what is released by
-  /// messages under way is held as well.
+  /// Expects that no robot stands where another does, or in a cell that another holds. Cells in
+  /// messages under way are held as well.
   void expectSafe() {
     std::map<Cell, int> above;
     for (std::size_t i = 0; i < robots_.size(); ++i) {

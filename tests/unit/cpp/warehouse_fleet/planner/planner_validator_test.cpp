@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each thing that a plan must not do is seen, with its robots; what is allowed is not.
+// Each violation of a plan is found, with its robots; permitted plans have none.
 #include "planner_shift.h"
 
 namespace fleet::test {

@@ -49,7 +49,7 @@ struct Round {
 
 /// A plane, or the face of a box, in world.
 struct Flat {
-  btVector3 normal, point;  // of the surface, outwards
+  btVector3 normal, point;  // outward normal, and a point of the surface
   btVector3 side[2];        // unit vectors along a face's edges
   btScalar half[2] = {kInfinity, kInfinity};
 

@@ -9,7 +9,7 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostRows = 400;          // of either kind: a direct solution takes cubic time
+constexpr int kMostRows = 400;          // limit of each kind: a direct solution takes cubic time
 constexpr double kNoBound = 1e15;       // limits of an impulse from which on it is unlimited
 constexpr double kSharing = 1e-9;       // see Ldl
 constexpr double kInert = 1e-6;         // smallest share of a row's mobility that joints must leave

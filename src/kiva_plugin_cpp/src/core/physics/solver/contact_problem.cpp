@@ -81,7 +81,7 @@ void ContactProblem::solveActive(const int* active, int count) {
     for (int j = 0; j < i; ++j) {
       double sum = a[active[i]][active[j]];
       for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      l[i][j] = sum;  // of L D, until it is divided below
+      l[i][j] = sum;  // row of L D, until it is divided below
     }
     for (int j = 0; j < i; ++j) {
       const double scaled = l[i][j] / d[j];

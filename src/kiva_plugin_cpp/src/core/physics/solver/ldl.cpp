@@ -15,7 +15,8 @@ void Ldl::factorise(SquareMatrix a, double softness) {
     d_[i] = own;
     for (int j = 0; j < i; ++j) {
       const double* const other = l_[j];
-      for (int k = 0; k < j; ++k) row[j] -= row[k] * other[k];  // of L D, until it is divided below
+      for (int k = 0; k < j; ++k)
+        row[j] -= row[k] * other[k];  // row of L D, until it is divided below
     }
     for (int j = 0; j < i; ++j) {
       const double scaled = row[j] / d_[j];

@@ -30,7 +30,8 @@ struct CollisionGeometry {
   int handle =
       -1;  ///< Index in Obstacles; -1 for robots and loads, whose footprints are a mover's.
   int triangle = -1;  ///< Index in the mesh of a static model, if this is one triangle of it.
-  std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< That triangle's, in world.
+  std::shared_ptr<std::array<Vector3, 3>> corners =
+      nullptr;  ///< Corners of that triangle in world [m].
 };
 
 /// The level faces of a static model at one height near the ground.

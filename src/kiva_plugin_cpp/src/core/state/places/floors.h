@@ -48,7 +48,7 @@ class FloorCover {
  private:
   struct Piece {
     std::array<Vector3, 4>
-        corners;  // of a convex outline, counterclockwise; a triangle repeats the last one
+        corners;  // convex outline, counterclockwise; a triangle repeats the last corner
     double min_x, max_x, min_y, max_y;
     double z, area;  // height, and area of the whole surface
     double friction;

@@ -63,7 +63,7 @@ struct Task {
   ReleasedPath path;                   ///< The path that the segments are taken from, if any.
   bool cancelled = false;              ///< It ends with the present segments.
   double overdue = 0;                  ///< Time since the reference ended short of its end [s].
-  double stop_at = Profile::kNowhere;  ///< Held: end of the reference.
+  double stop_at = Profile::kNowhere;  ///< Position at which the reference of a stopped robot ends.
   Sighting sighting, last_sighting;    ///< The newest one, and the one before.
   std::string blocked_by;              ///< A model's name, or empty.
   std::string blocked_reason;          ///< The reason in words.

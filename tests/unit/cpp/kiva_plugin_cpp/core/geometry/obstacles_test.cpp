@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who is asked for around a place: everything that is near enough, once, however things and robots
-// came, moved and went.
+// Queries around a point: each obstacle that is near enough is visited once, however models and
+// robots were added, moved and removed.
 #include "core/geometry/obstacles.h"
 
 #include <gtest/gtest.h>

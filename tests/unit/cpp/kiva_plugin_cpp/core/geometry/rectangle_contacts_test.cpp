@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where two outlines on the floor touch, over random ones.
+// Contacts of random outlines on the floor.
 #include "core/geometry/rectangle_contacts.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ double distance(const Rectangle& r, const Point& p) {
   return std::hypot(along, across);
 }
 
-/// Along the axes of `a`.
+/// Returns the gap along the axes of `a`.
 double apartAlong(const Rectangle& a, const Rectangle& b) {
   double most = -1e9;
   for (const auto& [nx, ny, half] : {std::array<double, 3>{a.c, a.s, a.hx}, {-a.s, a.c, a.hy}}) {
@@ -55,7 +55,7 @@ double apartAlong(const Rectangle& a, const Rectangle& b) {
   return most;
 }
 
-/// How far two rectangles are apart; where they overlap, minus the shortest way apart.
+/// Returns the distance of two rectangles; where they overlap, minus the shortest separation.
 double distance(const Rectangle& a, const Rectangle& b) {
   const double apart = std::max(apartAlong(a, b), apartAlong(b, a));
   if (apart <= 0) return apart;

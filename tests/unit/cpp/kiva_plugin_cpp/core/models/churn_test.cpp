@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A warehouse in turmoil: models come and go, robots are commanded, moved and reset, all at random.
-// Whatever refers to what has to stay right, and whatever began has to end.
+// A warehouse in turmoil: models are added and removed, robots are commanded, moved and reset, all
+// at random. All references must stay valid, and every command must end.
 #include <algorithm>
 #include <random>
 

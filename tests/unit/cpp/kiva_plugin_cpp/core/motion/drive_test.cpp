@@ -143,7 +143,8 @@ TEST(Traction, SidewaysAndAlongShareCoulombsCircle) {
 
 constexpr double kGravity = 9.81;  // [m/s²]
 
-/// Acceleration of a Kiva of that drive, asked for 1 m/s², with those Coulomb coefficients [m/s²].
+/// Returns the acceleration [m/s²] of a Kiva of that drive, commanded to 1 m/s², with those Coulomb
+/// coefficients.
 double speedingUp(const std::string& drive, double tyre, double floor, const char* friction) {
   Warehouse w;
   w.world.remove("ground_plane");

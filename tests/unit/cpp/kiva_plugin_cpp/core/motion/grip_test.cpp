@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the floor grips with, everywhere and in places, and what robots make of it: they plan with
-// the floor as it was built, and get everywhere that way, slower.
+// Friction of the floor, everywhere and in places, and its effect on robots: they plan with the
+// floor as built, and reach all goals that way, more slowly.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -101,7 +101,8 @@ TEST(Grip, ThatIsNoneIsToldOnce) {
   EXPECT_EQ(hall.count(Kind::kBlocked, "kiva1"), 1);
 }
 
-/// The acceleration of a robot at that place, as its surface lets it; 1 m/s² is asked.
+/// Returns the acceleration of a robot at that place, which its surface limits; the command is 1
+/// m/s².
 double speedingUpAt(const std::string& models, double x, double y) {
   Hall hall(models);
   hall.spawn("kiva", "kiva1", x, y);
@@ -182,8 +183,8 @@ TEST(Grip, OutlivesACheckpoint) {
 
 // --- the step
 
-/// How long a turn, a drive of 2 m and a lift take at that step, be it in arrays, in Bullet or with
-/// wheel joints.
+/// Returns the durations of a turn, a drive of 2 m and a lift at that step size, in arrays, in
+/// Bullet or with wheel joints.
 std::array<double, 3> durations(const char* drive, bool in_bullet, double step) {
   Floorplan plan;
   plan.step = step;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves along the grid: where they end, how long they take, how fast they are, what is reported.
+// Moves along the grid: ends, durations, speeds and reports.
 #include <numeric>
 #include <random>
 
@@ -43,7 +43,7 @@ class MoveOfAnyLength : public ::testing::TestWithParam<Drive> {
     return all;
   }
 
-  /// Moves along an axis (0 = x, 1 = y). Returns the time that took [s], turning left out.
+  /// Moves along an axis (0 = x, 1 = y). Returns the duration [s], without that of turning.
   double move(int axis, double distance) {
     axis == 0 ? w_.movx(1, distance) : w_.movy(1, distance);
     w_.runUntilState(1, axis == 0 ? State::kMovingX : State::kMovingY);

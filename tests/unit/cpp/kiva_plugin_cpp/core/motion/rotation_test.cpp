@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turns in place: which way, how far, how long.
+// Turns in place: direction, angle and duration.
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any model of SDF primitives and joints moves as mechanics says: falls, bounces, slides, swings.
+// Models of SDF primitives and joints move by the laws of mechanics: they fall, bounce, slide and
+// swing.
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -233,8 +234,8 @@ TEST_F(Bodies, ACylinderFallsOffTheEdgeOfABox) {
 
 class Slope : public Bodies {
  protected:
-  /// Puts a cube on a plate that is inclined by `angle` [rad] about y, and returns how far it has
-  /// slid down after `seconds`.
+  /// Puts a cube on a plate that is inclined by `angle` [rad] about y. Returns the distance that it
+  /// slides down in `seconds`.
   double slide(double angle, double friction, double seconds, double of_plate = 1) {
     const std::string plate = model(link("plate", collision(box(20, 4, .2), {of_plate, 0})), true);
     w.world.spawn(instance(plate, "plate", Pose(0, 0, 10, 0, angle, 0)));
@@ -324,7 +325,7 @@ class Pendulum : public Bodies {
     const Vector3 arm = position("rod", "rod") - Vector3(0, 0, 3);
     return std::atan2(-arm.X(), -arm.Z());
   }
-  /// Kinetic and potential, from hanging at rest [J].
+  /// Returns the kinetic and potential energy, relative to hanging at rest [J].
   double energy() {
     const EntityState rod = *w.world.state("rod", "rod");
     const double rate = rod.twist.angular.Y();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage units that are pushed: they slide on their feet as Coulomb says, as planar bodies, and
-// are whole ones where they could tip over.
+// Storage units that are pushed: they slide on their feet by Coulomb's law, as planar bodies, and
+// are whole bodies where they could tip over.
 #include "core/state/places/poses.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
@@ -104,7 +104,8 @@ struct Encounter {
     return sum;
   }
 
-  static constexpr double kMass = 60, kInertia = 6.4, kSpeed = 0.5;  // of the model; [m/s]
+  static constexpr double kMass = 60, kInertia = 6.4,
+                          kSpeed = 0.5;  // mass and inertia of the model; speed [m/s]
   Warehouse w;
 };
 

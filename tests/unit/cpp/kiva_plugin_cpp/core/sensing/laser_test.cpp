@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lasers see: the grid of footprints against Bullet's own rays, and REP 117.
+// Scans of lasers: the grid of footprints against Bullet's own rays, and REP 117.
 #include <btBulletDynamicsCommon.h>
 
 #include <random>
@@ -18,7 +18,7 @@ constexpr double kLowest = 0.05, kHighest = 0.35;  // [m], of the rays
 /// A round shape as a prism of so many sides that rays that just touch it are right too.
 constexpr int kSides = 8192;
 
-/// Whether rays can meet the shape: casters and wheels are within their robot's body.
+/// Returns whether rays can meet the shape: casters and wheels are within their robot's body.
 bool isSeen(const Shape& shape, const btTransform& at) {
   if (shape.kind == Shape::Kind::kBox) return true;
   const bool upright = at.getBasis().getColumn(2).z() > 0.999;
@@ -130,7 +130,7 @@ class Scene {
   std::vector<int> cells_;
 };
 
-/// Whether a point is within anything that stands there: a ray that starts inside passes out.
+/// Returns whether a point is inside any model: a ray that starts inside passes out.
 bool isInside(const kiva::Scene& parts, const Vector3& point) {
   Footprint here;
   here.kind = Footprint::Kind::kCircle;
@@ -157,8 +157,8 @@ struct Ray {
   static constexpr double kRange = 5;  // [m]
 };
 
-/// Whether the truth is what a ray a third of a millimetre aside would see, or between: Bullet
-/// takes a triangle for larger than it is by a ten-thousandth of its edges.
+/// Returns whether the expected range is that of a ray a third of a millimetre aside, or in
+/// between: Bullet takes a triangle for larger than it is by a ten-thousandth of its edges.
 bool isAtEdge(const World& world, const Ray& ray, double truth) {
   const double ranges[] = {ray.cast(world), ray.cast(world, 3e-4), ray.cast(world, -3e-4)};
   return truth >= *std::min_element(ranges, ranges + 3) - 3e-4 &&
@@ -191,7 +191,8 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
   EXPECT_LT(edges, rays / 5000);
 }
 
-/// Compares each range of a robot's scan with that of its ray alone. Returns how many met anything.
+/// Compares each range of a robot's scan with that of its ray alone. Returns the number of rays
+/// with a hit.
 int compareScan(const Warehouse& w, int id) {
   const Robot& robot = w.robot(id);
   const LaserParameters& laser = robot.laser;
