@@ -16,10 +16,10 @@ namespace {
 constexpr char kHelp[] = "array_bench [--no-lasers] [--default] [--seconds S] N…\n";
 constexpr double kWheelAcceleration = 1e6;  // [rad/s²], beyond any need: speed changes at once
 
-struct Fleet {
+struct ArrayFleet {
   std::vector<double> x, y, yaw, c, s, left, right, left_wanted, right_wanted;
 
-  explicit Fleet(int robots) {
+  explicit ArrayFleet(int robots) {
     const bench::Lattice lattice(robots);
     for (auto* array : {&x, &y, &yaw, &c, &s, &left, &right, &left_wanted, &right_wanted}) {
       array->assign(robots, 0);
@@ -35,7 +35,7 @@ struct Fleet {
 
   void want(long step) {
     for (int i = 0; i < size(); ++i) {
-      const bench::Twist w = bench::command(i, step);
+      const bench::PlanarTwist w = bench::command(i, step);
       left_wanted[i] = w.speed - w.yaw_rate * bench::kTrack / 2;
       right_wanted[i] = w.speed + w.yaw_rate * bench::kTrack / 2;
     }
@@ -74,7 +74,7 @@ class Grid {
     cells_.resize(columns_ * columns_);
   }
 
-  void fill(const Fleet& fleet) {
+  void fill(const ArrayFleet& fleet) {
     for (auto& cell : cells_) cell.clear();
     for (int i = 0; i < fleet.size(); ++i) {
       // Enters a robot into each cell that its body may reach, so that a ray reads its own cells
@@ -89,7 +89,7 @@ class Grid {
 
   /// Returns the range to the first body but `self`, or to the walls, by traversing the cells
   /// (Amanatides, Woo 1987).
-  double cast(const Fleet& fleet, int self, double x, double y, double dx, double dy) const {
+  double cast(const ArrayFleet& fleet, int self, double x, double y, double dx, double dy) const {
     double best = std::min({bench::kRange, toWall(x, dx), toWall(y, dy)});
     int cx = column(x), cy = column(y);
     const double per_x = kCell / std::abs(dx), per_y = kCell / std::abs(dy);
@@ -126,7 +126,7 @@ class Grid {
     return (origin() + (cell + (d > 0)) * kCell - at) / d;
   }
 
-  static double toBox(const Fleet& fleet, int i, double x, double y, double dx, double dy) {
+  static double toBox(const ArrayFleet& fleet, int i, double x, double y, double dx, double dy) {
     const double rx = x - fleet.x[i], ry = y - fleet.y[i], c = fleet.c[i], s = fleet.s[i];
     const double at[2] = {c * rx + s * ry, c * ry - s * rx};
     const double d[2] = {c * dx + s * dy, c * dy - s * dx};
@@ -166,7 +166,7 @@ class Lasers {
     ranges_.assign(robots, std::vector<float>(angles.size()));
   }
 
-  void scan(const Fleet& fleet, long step) {
+  void scan(const ArrayFleet& fleet, long step) {
     // A body moves 1 cm in ten steps, which the cells' overlap covers.
     if (step % 10 == 0) grid_.fill(fleet);
     const int first = static_cast<int>((bench::kStepsPerScan - step % bench::kStepsPerScan) %
@@ -175,7 +175,7 @@ class Lasers {
   }
 
  private:
-  void scanOne(const Fleet& fleet, int i) {
+  void scanOne(const ArrayFleet& fleet, int i) {
     const double c = fleet.c[i], s = fleet.s[i];
     const double x = fleet.x[i] + bench::kLaserAhead * c, y = fleet.y[i] + bench::kLaserAhead * s;
     for (std::size_t k = 0; k < c_.size(); ++k) {
@@ -190,7 +190,7 @@ class Lasers {
 };
 
 void run(const bench::Options& options, bool default_robot, int robots) {
-  Fleet fleet(robots);
+  ArrayFleet fleet(robots);
   Lasers lasers(robots, rayAngles(default_robot));
   long step = 0, samples = 0;
   double speed = 0;

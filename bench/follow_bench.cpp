@@ -29,9 +29,9 @@ constexpr std::uint32_t kAhead = 3;   // points released beyond those reached: i
 enum class By { kCommand, kPath, kReleases };
 constexpr const char* kNames[] = {"command", "path", "releases"};
 
-class Lanes {
+class FollowLanes {
  public:
-  Lanes(int robots, By by) : by_(by), released_(robots, kCells + 1) {
+  FollowLanes(int robots, By by) : by_(by), released_(robots, kCells + 1) {
     kiva::WorldDescription empty =
         kiva::loadWorld(std::string(WORLDS_DIR) + "/empty.sdf", {WORLDS_DIR "/models"});
     for (auto& model : empty.models) growFloor(&model, robots);
@@ -129,9 +129,9 @@ class Lanes {
 };
 
 void run(int robots) {
-  std::vector<std::unique_ptr<Lanes>> worlds;
+  std::vector<std::unique_ptr<FollowLanes>> worlds;
   for (By by : {By::kCommand, By::kPath, By::kReleases}) {
-    worlds.push_back(std::make_unique<Lanes>(robots, by));
+    worlds.push_back(std::make_unique<FollowLanes>(robots, by));
   }
   std::vector<std::vector<double>> took(worlds.size()), over(worlds.size());
   for (int second = 0; second < kSeconds; ++second) {

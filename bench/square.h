@@ -34,16 +34,16 @@ struct Lattice {
   int columns;
 };
 
-struct Twist {
+struct PlanarTwist {
   double speed = 0;     ///< [m/s]
   double yaw_rate = 0;  ///< [rad/s]
 };
 
 /// Returns the command of a robot at a step. Robots take turns, so that all chunks cost the same.
-inline Twist command(int robot, long step) {
+inline PlanarTwist command(int robot, long step) {
   constexpr long kSide = 1000, kStagger = 137;  // steps
   const bool straight = (step + robot * kStagger) / kSide % 2 == 0;
-  return straight ? Twist{1, 0} : Twist{0, M_PI / 2};
+  return straight ? PlanarTwist{1, 0} : PlanarTwist{0, M_PI / 2};
 }
 
 inline bool scanDue(int robot, long step) { return (step + robot) % kStepsPerScan == 0; }

@@ -18,7 +18,7 @@ namespace fleet {
 ///   kStanding           send: a path is released to it          kSent
 ///   kSent               refuse: the robot refuses the path      kRefused
 ///   kSent, kRefused     accept: the robot reports the path      kDriving
-///   kDriving            withdraw: told to stop                  kWithdrawn
+///   kDriving            withdraw: commanded to stop             kWithdrawn
 ///   all but kObstacle   finish: its path is over                kStanding
 ///   all                 a new Course: it left the fleet         kObstacle
 enum class CoursePhase : std::uint8_t {

@@ -21,8 +21,8 @@ using std::chrono::microseconds;
 // Time for which a thread stays awake between two loops. Waking takes 20 µs and costs the waker 7
 // µs; the loops of a step, with the time between them, last no longer.
 constexpr microseconds kPatience{50};
-// Longest interruption of a thread. Longer ones come from a program that needs the core, which is
-// then left to it for a multiple of the time that it took.
+// Longest duration of an interrupt. A longer absence means that a program needs the core, which is
+// then left to it for kLeft times that duration.
 constexpr microseconds kInterrupt{100};
 constexpr int kLeft = 5;
 constexpr int kPieces = 4;  // least number of pieces in which a thread takes its turns

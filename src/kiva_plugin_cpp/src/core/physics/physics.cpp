@@ -132,7 +132,7 @@ void Physics::step(double dt) {
 }
 
 void Physics::setGravity(const Vector3& gravity) {
-  world_.setGravity(toBullet(gravity));  // wakes no sleeping bodies
+  world_.setGravity(toBullet(gravity));  // applies to bodies that are awake
   auto& bodies = world_.getNonStaticRigidBodies();
   for (int i = 0; i < bodies.size(); ++i) {
     if ((bodies[i]->getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0) {

@@ -92,7 +92,7 @@ void IncludeGraph::prune(XmlDocument* document, Faults* warnings) {
 
 bool IncludeGraph::hasStandIn() const { return !findModel(kUnknownObstacle, model_paths_).empty(); }
 
-IncludeGraph::Fault IncludeGraph::faultOfInclude(const XmlElement& include) {
+IncludeGraph::IncludeFault IncludeGraph::faultOfInclude(const XmlElement& include) {
   const std::string blank = blankField(include);
   if (!blank.empty()) return {"expected a text in <" + blank + ">"};
   const std::string uri = contentOf(include.FirstChildElement("uri"));

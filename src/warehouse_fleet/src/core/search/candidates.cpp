@@ -98,8 +98,8 @@ Path Candidates::rest(const Path& path, const GridPose& begin, const Wish& wish,
                       bool& is_punctual) const {
   Path rest;
   GridPose state = commit(wish, rest);
-  // The position of the path in the tree of operations: a tick later if the robot is punctual; else
-  // as early as the path passes there.
+  // The poses of the path by tick. The rest begins where the path passes the robot's pose: at the
+  // planned tick if the robot is punctual, else at the first one.
   std::array<GridPose, kMaxHorizon + 1> states{begin};
   for (int tick = 0; tick < horizon_; ++tick) {
     const int heading = turned(states[tick].heading, quarters(path.actions[tick]));

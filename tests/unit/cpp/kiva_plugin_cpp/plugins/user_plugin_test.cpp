@@ -302,7 +302,7 @@ class PluginCalls : public UserPlugin {
 };
 
 /// Remembers a number, and fails to go back to 13.
-struct Counting : Plugin {
+struct CountingPlugin : Plugin {
   int count = 0;
   void load(World&, const std::string&, const Parameters&) override {}
   std::string save() const override { return std::to_string(count); }
@@ -314,7 +314,8 @@ struct Counting : Plugin {
 
 TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
   w.spawn("wall", "wall1", 0, 0);
-  const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
+  const auto first = std::make_shared<CountingPlugin>(),
+             second = std::make_shared<CountingPlugin>();
   insideOf(w.world).plugins.world = {first, second};
   first->count = 1;
   second->count = 13;

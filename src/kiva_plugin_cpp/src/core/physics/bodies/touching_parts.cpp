@@ -8,7 +8,7 @@ namespace kiva {
 namespace {
 
 // Share of its depth by which a step lifts a body that could bounce; more would throw it. A body
-// too fast for that limit is not lifted: it leaves by itself.
+// faster than kBouncing is not lifted: it leaves by itself.
 constexpr double kGentle = 0.02;
 constexpr double kBouncing = 0.2;  // [m/s]
 

@@ -222,13 +222,13 @@ void heap(Warehouse& w, unsigned seed) {
   w.world.setState("round1", rolling);
 }
 
-struct Scene {
+struct SavedScene {
   const char* name;
   Drive drive;
   void (*fill)(Warehouse&, unsigned seed);
 };
 
-class CheckpointIn : public ::testing::TestWithParam<Scene> {
+class CheckpointIn : public ::testing::TestWithParam<SavedScene> {
  protected:
   std::unique_ptr<Warehouse> make(unsigned seed) const {
     Floorplan plan = hall();
@@ -240,10 +240,10 @@ class CheckpointIn : public ::testing::TestWithParam<Scene> {
 };
 
 INSTANTIATE_TEST_SUITE_P(, CheckpointIn,
-                         ::testing::Values(Scene{"AHall", Drive::kTraction,
-                                                 [](Warehouse& w, unsigned) { furnish(w); }},
-                                           Scene{"AHeap", Drive::kTraction, heap},
-                                           Scene{"AJointedHeap", Drive::kJointed, heap}),
+                         ::testing::Values(SavedScene{"AHall", Drive::kTraction,
+                                                      [](Warehouse& w, unsigned) { furnish(w); }},
+                                           SavedScene{"AHeap", Drive::kTraction, heap},
+                                           SavedScene{"AJointedHeap", Drive::kJointed, heap}),
                          [](const auto& scene) { return scene.param.name; });
 
 TEST_P(CheckpointIn, SavingDoesNotChangeTheFutureAndRestoredWorldsShareIt) {

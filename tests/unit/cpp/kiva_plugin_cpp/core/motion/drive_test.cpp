@@ -9,8 +9,8 @@ namespace kiva::test {
 namespace {
 
 /// A robot of one drive model, with `load` kg on it if that is positive.
-struct Journey {
-  Journey(const char* drive, double load) {
+struct DrivenRobot {
+  DrivenRobot(const char* drive, double load) {
     w.spawnText(kivaText({{"drive", drive}}), "kiva1", 0, 0);
     if (load > 0) {
       w.spawnText(unitOfMass(load), "storage_unit1", 0, 0);
@@ -25,7 +25,7 @@ struct Journey {
 class TractionAgainstJointed : public ::testing::TestWithParam<double> {};
 
 TEST_P(TractionAgainstJointed, DifferByLessThanACentimetreAlongTenMetres) {
-  Journey traction("traction", GetParam()), jointed("jointed", GetParam());
+  DrivenRobot traction("traction", GetParam()), jointed("jointed", GetParam());
   double worst = 0;
   traction.w.run(12, [&] {
     jointed.w.step();

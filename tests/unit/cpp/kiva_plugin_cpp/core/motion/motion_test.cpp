@@ -20,12 +20,12 @@ double trapezoidTime(double distance, double speed, double acceleration) {
                      : 2 * std::sqrt(distance / acceleration);
 }
 
-struct Drive {
+struct MoveCase {
   double acceleration;  // [m/s²]
   double load;          // [kg]
 };
 
-class MoveOfAnyLength : public ::testing::TestWithParam<Drive> {
+class MoveOfAnyLength : public ::testing::TestWithParam<MoveCase> {
  protected:
   void SetUp() override {
     w_.spawnText(kivaText({{"acceleration", number(GetParam().acceleration)}}), "kiva1", 0, 0);
@@ -72,7 +72,8 @@ TEST_P(MoveOfAnyLength, StopsOnItsGridPointAfterTheTrapezoidsTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Loads, MoveOfAnyLength,
-                         ::testing::Values(Drive{1, 0}, Drive{1, 450}, Drive{0, 0}, Drive{0, 450}),
+                         ::testing::Values(MoveCase{1, 0}, MoveCase{1, 450}, MoveCase{0, 0},
+                                           MoveCase{0, 450}),
                          [](const auto& info) {
                            return "Acceleration" + number(info.param.acceleration) + "Load" +
                                   number(info.param.load);

@@ -16,12 +16,12 @@ std::string inertial(double mass, double ixx, double iyy, double izz) {
          number(iyy) + "</iyy><izz>" + number(izz) + "</izz></inertia></inertial>";
 }
 
-struct Touch {
+struct SurfaceText {
   double friction = 1;
   double restitution = 0;
 };
 
-std::string collision(const std::string& geometry, const Touch& touch = {},
+std::string collision(const std::string& geometry, const SurfaceText& touch = {},
                       const std::string& pose = "0 0 0 0 0 0") {
   return "<collision name='" + std::to_string(geometry.size()) + pose + "'><pose>" + pose +
          "</pose><geometry>" + geometry + "</geometry><surface><friction><ode><mu>" +
@@ -49,7 +49,7 @@ std::string ball(double radius) {
 }
 
 /// A 10 kg cube of half a metre.
-std::string cube(const Touch& touch = {}) {
+std::string cube(const SurfaceText& touch = {}) {
   return model(link("body", inertial(10, 0.417, 0.417, 0.417) + collision(box(.5, .5, .5), touch)));
 }
 

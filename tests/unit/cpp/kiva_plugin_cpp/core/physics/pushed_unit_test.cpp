@@ -213,8 +213,8 @@ TEST_F(PushedUnit, ABoxOnItStaysThere) {
 }
 
 /// A loaded robot that drives into a row of units.
-struct Row {
-  Row() {
+struct PushedRow {
+  PushedRow() {
     w.spawn("storage_unit", "storage_unit1", 0, 0);
     for (int i = 2; i <= 4; ++i) {
       w.spawnText(unitWithFriction(0.4), "storage_unit" + std::to_string(i), 2.0 + i, 0.1 * i);
@@ -235,7 +235,7 @@ struct Row {
 };
 
 TEST(PushedUnits, GoOnBitByBitFromACheckpoint) {
-  Row saved, restored, again;
+  PushedRow saved, restored, again;
   saved.w.runUntil([&] { return saved.slides(); }, 20);
   restored.w.world.restore(saved.w.world.checkpoint());
   for (int i = 0; i < 4000; ++i) {

@@ -85,9 +85,10 @@ class Triangles {
 
 /// Robots, some with a load, units, belts, walls and people, near one another at random places and
 /// angles.
-class Scene {
+class CrowdedScene {
  public:
-  explicit Scene(unsigned seed, const std::string& robot = modelText("kiva")) : random_(seed) {
+  explicit CrowdedScene(unsigned seed, const std::string& robot = modelText("kiva"))
+      : random_(seed) {
     for (int cell = 0; cell < kSide * kSide; ++cell) cells_.push_back(cell);
     std::shuffle(cells_.begin(), cells_.end(), random_);
     for (int i = 1; i <= 12; ++i) {
@@ -168,7 +169,7 @@ bool isAtEdge(const World& world, const Ray& ray, double truth) {
 TEST(Laser, SeesWhatBulletsRaysMeet) {
   int hits = 0, rays = 0, edges = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    Scene scene(seed);
+    CrowdedScene scene(seed);
     const World& world = scene.w.world;
     const Triangles triangles(world);
     for (int k = 0; k < 6000; ++k) {
@@ -231,7 +232,7 @@ TEST(Laser, ScansWhatItsRaysMeetOneByOne) {
   unsigned seed = 0;
   for (const Changes& laser : lasers) {
     for (int round = 0; round < 3; ++round) {
-      Scene scene(++seed, kivaText(laser));
+      CrowdedScene scene(++seed, kivaText(laser));
       for (int id = 1; id <= 24; ++id) hits += compareScan(scene.w, id);
     }
   }
@@ -240,7 +241,7 @@ TEST(Laser, ScansWhatItsRaysMeetOneByOne) {
 
 // --- round and tilted shapes, against what their own equations say
 
-struct Solid {
+struct SolidCase {
   std::string name, geometry;
   /// Whether a point in the shape's frame is in it.
   bool (*holds)(const Vector3&);
@@ -248,7 +249,7 @@ struct Solid {
 
 double beyond(double value, double half) { return std::max(0.0, std::abs(value) - half); }
 
-const Solid kSolids[] = {
+const SolidCase kSolids[] = {
     {"Ellipsoid", "<ellipsoid><radii>0.6 0.3 0.2</radii></ellipsoid>",
      [](const Vector3& p) {
        return std::pow(p.X() / 0.6, 2) + std::pow(p.Y() / 0.3, 2) + std::pow(p.Z() / 0.2, 2) <= 1;
@@ -261,7 +262,7 @@ const Solid kSolids[] = {
        return std::abs(p.X()) <= 0.2 && std::abs(p.Y()) <= 0.3 && std::abs(p.Z()) <= 0.4;
      }}};
 
-class SolidUnderLaser : public ::testing::TestWithParam<Solid> {};
+class SolidUnderLaser : public ::testing::TestWithParam<SolidCase> {};
 
 TEST_P(SolidUnderLaser, IsSeenWhereItIsFromOutsideAndInside) {
   std::mt19937 random(7);
