@@ -7,8 +7,7 @@ from nav_msgs.msg import OccupancyGrid
 from test_floor_plan import same
 
 from kiva_plugin_cpp import World
-from warehouse_layout.floor import floor_markings, painted
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import floor_markings, painted, plan_reader
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
 from warehouse_viewer.drawing import markers
 from warehouse_viewer.drawing.drawing import Drawing, Moment
@@ -60,7 +59,7 @@ def grid_of(world):
 
 
 def test_messages_tell_the_same_floor_plan_as_the_world(world, scenery):
-    assert same(FloorPlan.of_messages(grid_of(world), scenery), FloorPlan.of_world(world))
+    assert same(plan_reader.of_messages(grid_of(world), scenery), plan_reader.of_world(world))
 
 
 def test_rviz_shows_paint_in_few_triangles_and_names_stations(world, scenery):
