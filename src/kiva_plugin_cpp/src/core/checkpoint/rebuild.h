@@ -38,7 +38,8 @@ struct ContactMemory {
 struct PhysicsState {
   std::vector<ModelInPhysics> models;  ///< In order of arrival.
   std::vector<ContactMemory> contacts;
-  std::vector<std::vector<Footprint>> movers;  ///< By robot: footprints of the robot and its load, in its frame.
+  std::vector<std::vector<Footprint>>
+      movers;  ///< By robot: footprints of the robot and its load, in its frame.
 };
 
 PhysicsState readPhysics(const WorldState& world);
