@@ -31,7 +31,9 @@ def space(building):
 
 def chosen(building, **parameters):
     usual = space(building).usual()
-    return usual | {"stations": 1, "robots": 2, "replenish": 1, "units": 14, "length": 4} | parameters
+    return (
+        usual | {"stations": 1, "robots": 2, "replenish": 1, "units": 14, "length": 4} | parameters
+    )
 
 
 def building_of(lines):
@@ -208,7 +210,7 @@ def _command(tmp_path):
     day.write_text("reference,sku,quantity,at,due\n" + "\n".join(rows) + "\n")
     money.write_text("robot: {price: 20000}\nstation: {price: 40000}\nperson_hour: 28\n")
     command = [sys.executable, DESIGN, "--building", "36x26", "--demand", day, "--costs", money]
-    return [*command, "--late", "5%", "--cpu-hours", "0.0004"]
+    return [*command, "--late", "5%", "--cpu-hours", "0.0002"]
 
 
 def run(command, *more):

@@ -79,7 +79,9 @@ class Judge:
         at work for a share of their time."""
         # What is done in all of the day: a short shift has its busiest hours alone.
         orders = self.day.orders / self.day.hours * (1 - late)
-        priced = LayoutCosts(self.costs, self.area, int(file.storage_units))
+        units = file.storage_units
+        assert isinstance(units, int), "what the search draws has a count of them"
+        priced = LayoutCosts(self.costs, self.area, units)
         own = LayoutCosts(self.costs, file, 0)
         priced.replenishing, priced.chargers = own.replenishing, own.chargers
         pieces = orders * self.day.pieces_per_order

@@ -2,7 +2,10 @@
 """Floors that follow the outline of a building, whatever it is: two-way streets over all of it,
 stations with lanes in the middle of the storage, and places nearest to them."""
 
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +22,7 @@ from warehouse_layout.place import file_check
 from warehouse_operations.design.building import Building
 
 SHIFTS = len(sites.SHIFTS)  # ways to lay the streets over a building
-BELT_CELLS = 2
+BELT = range(2)  # cells behind a service cell
 
 
 def filled(
@@ -45,43 +48,24 @@ def filled(
 def _drawn(
     building: Building, ground: Ground, site: Site, request: Request, pick_kind: str
 ) -> LayoutFile | None:
-    """Returns the building with the streets, places and stations of a site; None: too few places."""
+    """Returns the building with streets, places and stations of a site; None: too few places."""
     places = places_for(request.shelves)
     if len(site.places) < places + request.robots:
         return None
     floor = building.file.floor.copy()
     floor[building.free] = lf.KEEP_OUT
-    low = ground.low
-    floor[tuple((np.argwhere(site.streets) + low).T[::-1])] = lf.FLOOR
-    at = site.places + low
-    storage, parking = np.split(at[: places + request.robots], [places])
-    floor[tuple(storage.T[::-1])] = lf.STORAGE
-    floor[tuple(parking.T[::-1])] = lf.PARKING
-    charging = parking[: round(CHARGED * request.robots + 0.5)]
-    floor[tuple(charging.T[::-1])] = lf.CHARGING
-    stations = []
-    for number, lane in enumerate(site.lanes):
-        cells = [(int(x + low[0]), int(y + low[1])) for x, y in lane]
-        middle = len(cells) // 2
-        is_pick = number < len(site.drops)
-        for x, y in cells:
-            floor[y, x] = lf.FLOOR
-        if is_pick:
-            x, y = cells[middle]
-            dx, dy = STEPS[site.headings[number]]
-            for i in range(1, BELT_CELLS + 1):
-                floor[y + i * dy, x + i * dx] = lf.BELT
-        name = f"pick{number + 1}" if is_pick else f"replenish{number + 1 - len(site.drops)}"
-        stations.append(
-            StationEntry(
-                key=name,
-                name=name,
-                kind=pick_kind if is_pick else "replenish",
-                service=cells[middle],
-                queue=tuple(cells[:middle]),
-                exit=tuple(cells[middle + 1 :]),
-            )
-        )
+    storage, parking = np.split(site.places[: places + request.robots] + ground.low, [places])
+    charging = parking[: math.ceil(CHARGED * request.robots - 1e-9)]
+    _draw(floor, np.argwhere(site.streets) + ground.low, lf.FLOOR)
+    _draw(floor, storage, lf.STORAGE)
+    _draw(floor, parking, lf.PARKING)
+    _draw(floor, charging, lf.CHARGING)
+    stations = tuple(_stations(site, ground, pick_kind))
+    for station in stations:
+        _draw(floor, [*station.queue, station.service, *station.exit], lf.FLOOR)
+    for station, heading in zip(stations, site.headings):
+        belt = [np.add(station.service, (i + 1) * np.array(STEPS[heading])) for i in BELT]
+        _draw(floor, belt, lf.BELT)
     return replace(
         building.file,
         floor=floor,
@@ -90,3 +74,27 @@ def _drawn(
         robots=request.robots,
         items=0 if building.file.stock else request.items,
     )
+
+
+def _draw(floor: np.ndarray, cells: np.ndarray | Sequence[Any], character: str) -> None:
+    """Draws a character in cells x y, (n, 2)."""
+    x, y = np.reshape(cells, (-1, 2)).astype(int).T
+    floor[y, x] = character
+
+
+def _stations(site: Site, ground: Ground, pick_kind: str) -> Iterator[StationEntry]:
+    """Yields the stations of a site, the picking ones first."""
+    picks = len(site.drops)
+    for number, lane in enumerate(site.lanes):
+        cells = [(int(x), int(y)) for x, y in np.add(lane, ground.low)]
+        middle = len(cells) // 2
+        is_pick = number < picks
+        name = f"pick{number + 1}" if is_pick else f"replenish{number + 1 - picks}"
+        yield StationEntry(
+            key=name,
+            name=name,
+            kind=pick_kind if is_pick else "replenish",
+            service=cells[middle],
+            queue=tuple(cells[:middle]),
+            exit=tuple(cells[middle + 1 :]),
+        )

@@ -189,7 +189,7 @@ class Search:
             self._judge_short(chosen)
 
     def _parents(self) -> list[Candidate]:
-        """Returns the best so far: the cheapest of those in time, else those that are late least."""
+        """Returns the best so far: the cheapest in time, else those that are late least."""
         judged = [candidate for candidate in self._known.values() if candidate]
         return sorted(
             judged,
@@ -290,9 +290,7 @@ class Search:
         going = [i for i, each in enumerate(judged) if each.late <= self.late]
         for i, more in zip(going, self._days([batch[i] for i in going], MORE_SEEDS)):
             each = batch[i]
-            judged[i] = self.judge.judged(
-                each.number, each.chosen, each.file, [*records[i], *more]
-            )
+            judged[i] = self.judge.judged(each.number, each.chosen, each.file, [*records[i], *more])
             verdict = judged[i].verdict
             assert verdict is not None
             judged[i].late = max(verdict.limit(RISK, 1), 0.0)
