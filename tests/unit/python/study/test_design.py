@@ -15,8 +15,8 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check
 from warehouse_operations.design.building import Building, BuildingError, rectangles
 from warehouse_operations.design.candidate import Candidate, Judge, front
-from warehouse_operations.design.plans import OUTLINE, POLICIES, Space
-from warehouse_operations.design.search import HOPELESS, _mixed
+from warehouse_operations.design.plans import MANY_ROBOTS, OUTLINE, POLICIES, Space
+from warehouse_operations.design.search import HOPELESS, Search, _mixed
 from warehouse_operations.sizing.costs import Bill, Costs, Thing
 from warehouse_operations.sizing.day import Day
 from warehouse_operations.stock.orders_text import DayText
@@ -154,15 +154,25 @@ def test_parameters_without_effect_are_the_same_layout():
 
 
 def test_whole_days_are_for_stations_that_can_do():
-    def candidate(number, stations, late=0.0):
-        parts = {"stations": stations, "replenish": 0, "robots": 4}
-        return Candidate(number, parts, None, late, Bill(0, 0, 0, number, None, ""))
+    def candidate(number, stations, robots, late=0.0):
+        parts = chosen(hall, stations=stations, replenish=0, robots=robots, units=20 + number)
+        return Candidate(number, parts, None, late, Bill(number, 0, 0, number, None, ""))
 
-    queue = [candidate(i, 1) for i in range(5)] + [candidate(9, 2)]
-    assert [each.number for each in _mixed(queue, [], 0.01)] == [0, 1, 9]
-    late = [candidate(i, 1, 0.5) for i in range(HOPELESS)]
-    assert [each.number for each in _mixed(queue, late, 0.01)] == [9]
-    assert [each.number for each in _mixed(queue, [*late, candidate(8, 1)], 0.01)] == [0, 1, 9]
+    hall = Building.read("40x30")
+    search = Search(space(hall), Costs(), 0.01, None, None)
+    queue = [candidate(i, 1, 4 + i) for i in range(5)] + [candidate(9, 2, 4)]
+    assert [each.number for each in _mixed(queue)] == [0, 1, 9]
+
+    def judged(*days):
+        search._days = {str(each.chosen): each for each in days}
+        return [each.number for each in queue if search._is_able(each)]
+
+    assert judged() == [0, 1, 2, 3, 4, 9]
+    assert judged(candidate(11, 1, 5, 0.5)) == [2, 3, 4, 9], "as few robots as were late"
+    assert judged(candidate(11, 1, 6, 0.5), candidate(12, 1, 7)) == [0, 1, 2, 3, 4, 9]
+    assert judged(candidate(11, 1, MANY_ROBOTS, 0.5)) == [9], "more robots would not help"
+    late = [candidate(11 + i, 1, 3, 0.5) for i in range(HOPELESS)]
+    assert judged(*late) == [9]
 
 
 def test_bills_have_the_layouts_stations_and_the_buildings_floor():

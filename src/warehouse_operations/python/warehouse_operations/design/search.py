@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The search for layouts, in stages, each of which leaves fewer and judges them longer.
+"""The search for layouts, in rounds of two stages, and two more at the end.
 
-1. By hand: what has no room, or costs more than a layout that does, is not simulated.
-2. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
+By hand: what has no room, or would cost more than a layout that is known to do, is not simulated.
+1. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
    `layout new` makes them, then what Optuna proposes (objectives: to buy, cost a piece;
    constraint: late orders), then neighbours of the best with less to pay.
-3. Ideal and whole: the best by whole days, with the same seeds for all. What is late gets robots,
-   what is not loses one, until one more and one less are known.
-4. Physics: those of the front.
-5. Unseen: the front by seeds of which none had a part in its choice; they decide nothing more.
+2. Ideal and whole: the cheapest by whole days, with the same seeds for all. What is late gets
+   robots, what is not loses one. What a short shift took for able and days do not is not followed.
+3. Physics: those of the front.
+4. Unseen: the front by seeds of which none had a part in its choice; they decide nothing more.
 
 Trials are asked for in batches of the same size on any number of cores, and the budget counts
-simulated orders: so the answer depends on arguments and seed alone. Shifts are kept; started
+simulated pieces: so the answer depends on arguments and seed alone. Shifts are kept; started
 again, a search comes by the same trials without simulating them again.
 """
 
 import itertools
 import math
-from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, wait
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -28,7 +27,7 @@ import numpy as np
 
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_operations.design.candidate import Candidate, Judge, beats, front, robots_of
-from warehouse_operations.design.plans import Chosen, Space
+from warehouse_operations.design.plans import MANY_ROBOTS, Chosen, Space
 from warehouse_operations.sizing import point as shift
 from warehouse_operations.sizing import sites
 from warehouse_operations.sizing.costs import Bill, Costs
@@ -38,19 +37,20 @@ from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.wish import Wish, WishError, count
 
 BATCH = 4  # trials that are asked for together
-SECONDS_A_PIECE = 0.0005  # of a core, about, that a piece of an ideal shift takes
-FIRST_SHARE = 0.5  # of the budget, for the short shifts
-PROPOSED = 0.5  # of the short shifts, for what Optuna proposes
-LAST, LEAST_WHOLE = 5, 4  # layouts that physics sees at most, and that have whole days at least
+# Seconds of a core, about, that an ideal shift takes, and each of its pieces.
+SECONDS_A_SHIFT, SECONDS_A_PIECE = 0.1, 0.0003
+ROUNDS = 4
+SHORT_SHARE = 0.5  # of a round's budget, for the short shifts
+PROPOSING = 2  # rounds in which Optuna proposes; in the others neighbours are tried
+LAST = 5  # layouts that physics sees at most
+RESCUES = 3  # batches of whole days, at most, beyond the budget where nothing is in time
 SEARCH_SEED = 1
 SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days: none that the search saw
 UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
-ASKED = 20  # trials without a shift for each that has one, at most
-SAME, HOPELESS = 2, 4  # layouts with the same stations: in a batch, and late before they are left
+ASKED = 500  # batches of trials a round, at most
+SAME, HOPELESS = 2, 8  # layouts with the same stations: in a batch, and late until they are left
 PARENTS = 3  # layouts whose neighbours are tried
-MOST_TRIALS = 2000
-SHORT = "short shifts"
-ENDS = 2 * len(UNSEEN)  # shifts of the last stages, about
+SHORT, WHOLE = "short shifts", "whole days"
 WORST = 1e12  # price, and cost a piece, of a layout without room
 RISK = 0.05  # that more orders are late than may be, where a layout goes on
 
@@ -79,22 +79,34 @@ class Search:
     cpu_s: float = 0.0  # of all its shifts, kept ones too
     simulated: int = 0  # shifts that were not kept from before
     by_hand: int = 0  # trials that were given up without a shift
-    candidates: list[Candidate] = field(default_factory=list)
     importance: dict[str, float] = field(default_factory=dict)
     _known: dict[str, Candidate | None] = field(default_factory=dict)
     _beaten: dict[str, Bill] = field(default_factory=dict)  # of those that cost more than others
-    _stage: str = ""
+    _days: dict[str, Candidate] = field(default_factory=dict)  # judged by whole days
+    _beside: list[Candidate] = field(default_factory=list)  # to be judged by whole days, too
+    _spent: float = 0.0  # of the budget [s]
+    _stage: str = SHORT
 
     def run(self) -> list[Candidate]:
         """Returns the layouts that had whole days, the cheapest that keeps the limit first; []
         where no layout has room for a fleet at all."""
-        self._stage = SHORT
-        self._propose()
-        if not self.is_random:
-            self._refine()
-        self.candidates = [candidate for candidate in self._known.values() if candidate]
-        self._stage = "whole days"
-        best = self._whole()
+        study, rng = self._study(), np.random.default_rng(self.seed)
+        for number in range(ROUNDS):
+            proposes = self.is_random or number < PROPOSING
+            self._stage = SHORT
+            end = self.budget * (number + SHORT_SHARE) / ROUNDS
+            self._short(end, study if proposes else None, rng)
+            self._stage = WHOLE
+            self._whole(self.budget * (number + 1) / ROUNDS)
+        self.importance = _importance(study)
+        for _ in range(RESCUES):
+            if any(each.late <= self.late for each in self._days.values()):
+                break
+            self._judge_days(self._least_late())
+        best = sorted(
+            self._days.values(),
+            key=lambda each: (each.late > self.late, each.bill.a_piece, each.number),
+        )
         chosen = front(best, self.late)[:LAST]
         if self.physics_hours:
             self._stage = "physics"
@@ -111,23 +123,17 @@ class Search:
     # The budget.
 
     @property
-    def most_trials(self) -> int:
-        """The number of short shifts that the budget has room for."""
-        seconds = FIRST_SHARE * 3600 * self.hours
-        return min(max(int(seconds / self._seconds(self._short_hours)), 2 * BATCH), MOST_TRIALS)
-
-    @property
-    def most_whole(self) -> int:
-        """The number of layouts with whole days that the budget has room for."""
-        seconds = (1 - FIRST_SHARE) * 3600 * self.hours
-        a_layout = len(SEEDS + MORE_SEEDS) * self._seconds(self.space.day.hours)
-        return max(int(seconds / a_layout), LEAST_WHOLE)
+    def budget(self) -> float:
+        """Seconds of a core, about, for short shifts and whole days: some batches at least."""
+        whole = len(SEEDS + MORE_SEEDS) * self._seconds(self.space.day.hours)
+        least = BATCH * (2 * self._seconds(self._short_hours) + whole)
+        return max(3600 * self.hours, least)
 
     def _seconds(self, hours: float) -> float:
         """Returns what a shift takes of a core, about [s]."""
         by_hour = list(self.space.day.by_hour)
         orders = sum(by_hour[: math.ceil(hours)]) + by_hour[0] * RUN_IN / 60
-        return SECONDS_A_PIECE * max(orders * self.space.day.pieces_per_order, 1.0)
+        return SECONDS_A_SHIFT + SECONDS_A_PIECE * orders * self.space.day.pieces_per_order
 
     @property
     def _short_hours(self) -> float:
@@ -137,8 +143,8 @@ class Search:
 
     # The search by short shifts.
 
-    def _propose(self) -> None:
-        """Tries what Optuna proposes."""
+    def _study(self) -> Any:
+        """Returns a study of Optuna, which begins with the floors that are tried first."""
         import optuna
 
         optuna.logging.set_verbosity(optuna.logging.ERROR)
@@ -152,16 +158,22 @@ class Search:
         if not self.is_random:
             for start in self.space.starts():
                 study.enqueue_trial(start)
-        most = self.most_trials if self.is_random else int(PROPOSED * self.most_trials)
-        for _ in range(ASKED * max(most // BATCH, 1)):
-            if self.trials >= most:
+        return study
+
+    def _short(self, end: float, study: Any, rng: np.random.Generator) -> None:
+        """Judges layouts by short shifts until a part of the budget is spent: what a study
+        proposes, or without it neighbours of the best."""
+        for _ in range(ASKED):
+            if self._spent >= end:
                 break
+            if study is None:
+                self._judge_short(self._neighbours(rng))
+                continue
             trials = [study.ask() for _ in range(BATCH)]
             chosen = [self.space.choose(trial) for trial in trials]
             self._judge_short(chosen)
             for trial, parameters in zip(trials, chosen):
                 self._tell(study, trial, self._known[self.space.known_as(parameters)])
-        self.importance = _importance(study)
 
     def _tell(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
         """Tells Optuna what came of a trial: a layout without room is as bad as can be."""
@@ -173,30 +185,31 @@ class Search:
         trial.set_constraint("late", candidate.late - self.late)
         study.tell(trial, [candidate.bill.to_buy, candidate.bill.a_piece])
 
-    def _refine(self) -> None:
-        """Tries neighbours of the best: with less to pay where they are in time, else with more."""
-        rng = np.random.default_rng(self.seed)
-        for _ in range(ASKED * max(self.most_trials // BATCH, 1)):
-            if self.trials >= self.most_trials:
-                break
-            parents = self._parents()
-            if not parents:
-                break
-            chosen = [
-                self.space.neighbour(parent.chosen, rng, parent.late <= self.late)
-                for parent in itertools.islice(itertools.cycle(parents), BATCH)
-            ]
-            self._judge_short(chosen)
+    def _neighbours(self, rng: np.random.Generator) -> list[dict[str, Any]]:
+        """Returns neighbours of the best: with less to pay where they are in time, else more."""
+        able = [each for each in self._known.values() if each and self._is_able(each)]
+        parents = sorted(able, key=lambda each: (each.bill.a_piece, each.number))[:PARENTS]
+        if not parents:
+            judged = [each for each in self._known.values() if each]
+            parents = sorted(judged, key=lambda each: (each.late, each.number))[:PARENTS]
+        return [
+            self.space.neighbour(parent.chosen, rng, self._is_able(parent))
+            for parent in itertools.islice(itertools.cycle(parents), BATCH)
+        ]
 
-    def _parents(self) -> list[Candidate]:
-        """Returns the best so far: the cheapest in time, else those that are late least."""
-        judged = [candidate for candidate in self._known.values() if candidate]
-        return sorted(
-            judged,
-            key=lambda each: (
-                max(each.late, self.late), each.bill.a_piece, each.number
-            ),
-        )[:PARENTS]  # fmt: skip
+    def _is_able(self, each: Candidate) -> bool:
+        """Returns whether a candidate is in time by all that is known."""
+        return each.late <= self.late and not self._is_refuted(each)
+
+    def _is_refuted(self, each: Candidate) -> bool:
+        """Returns whether days speak against a layout: of those with the same stations none was in
+        time, and as many robots were late, or so many that more would not help."""
+        alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
+        if not alike or any(day.late <= self.late for day in alike):
+            return False
+        most = max(day.robots for day in alike)
+        is_hopeless = len(alike) >= HOPELESS or most >= MANY_ROBOTS * each.stations
+        return is_hopeless or each.robots <= most
 
     def _judge_short(self, chosen: Sequence[Chosen]) -> None:
         """Judges parameters that are new by a short shift each."""
@@ -215,80 +228,80 @@ class Search:
             if made := self._points(file, (SEARCH_SEED,), True):
                 files[key], points[key] = file, made[0]
         self.by_hand += len(fresh) - len(points)
+        self._spent += len(points) * self._seconds(self._short_hours)
         for key, record in zip(points, self._shifts(list(points.values()))):
             self.trials += 1
             self._known[key] = self.judge.judged(self.trials, fresh[key], files[key], [record])
 
     def _costs_more(self, file: LayoutFile) -> bool:
-        """Returns whether a layout would be beaten by one that is known, even if all went well."""
+        """Returns whether a layout would be beaten by one with whole days if all went well."""
         bill = self.judge.bill(file)
-        return any(
-            candidate.late <= self.late and beats(candidate.bill, bill)
-            for candidate in self._known.values()
-            if candidate
-        )
+        return any(day.late <= self.late and beats(day.bill, bill) for day in self._days.values())
 
     # Whole days.
 
-    def _whole(self) -> list[Candidate]:
-        """Returns candidates judged by whole days, the cheapest in time first."""
-        judged: dict[str, Candidate] = {}
-        queue = sorted(
-            (each for each in self.candidates if each.late <= 2 * self.late),
-            key=lambda each: (each.bill.a_piece, each.number),
-        )
-        queue = queue or sorted(self.candidates, key=lambda each: (each.late, each.number))
-        most = self.shifts + len(SEEDS + MORE_SEEDS) * self.most_whole
-        while self.shifts < most:
-            queue = [each for each in queue if self._is_open(each, judged)]
-            batch = _mixed(queue, judged.values(), self.late)
+    def _whole(self, end: float) -> None:
+        """Judges the cheapest by whole days until a part of the budget is spent."""
+        while self._spent < end:
+            known = [each for each in self._known.values() if each and each.late <= self.late]
+            queue = [each for each in (*known, *self._beside) if self._is_open(each)]
+            queue.sort(key=lambda each: (each.bill.a_piece, each.number))
+            batch = _mixed(queue)
             if not batch:
                 break
-            whole = self.by_whole_days(batch)
-            for each in whole:
-                judged[self.space.known_as(each.chosen)] = each
-            queue += [near for each in whole for near in self._beside(each, judged)]
-            queue.sort(key=lambda each: (each.bill.a_piece, each.number))
-        return sorted(
-            judged.values(),
-            key=lambda each: (each.late > self.late, each.bill.a_piece, each.number),
-        )
+            self._judge_days(batch)
 
-    def _is_open(self, each: Candidate, judged: Mapping[str, Candidate]) -> bool:
+    def _is_open(self, each: Candidate) -> bool:
         """Returns whether whole days of a candidate could still change the front."""
-        if self.space.known_as(each.chosen) in judged:
+        if self.space.known_as(each.chosen) in self._days or self._is_refuted(each):
             return False
         return not any(
-            other.late <= self.late and beats(other.bill, each.bill) for other in judged.values()
+            other.late <= self.late and beats(other.bill, each.bill)
+            for other in self._days.values()
         )
 
-    def _beside(self, each: Candidate, judged: Mapping[str, Candidate]) -> list[Candidate]:
-        """Returns candidates with a robot or two more than one that is late, or one less than one
-        that is not."""
-        if self.is_random:
-            return []
+    def _least_late(self) -> list[Candidate]:
+        """Returns candidates that are late least by short shifts, with the most stations."""
+        left = [
+            each
+            for key, each in self._known.items()
+            if each and key not in self._days and not self._is_refuted(each)
+        ]
+        left.sort(key=lambda each: (each.late, -each.stations, -each.robots, each.number))
+        return left[:BATCH]
+
+    def _judge_days(self, batch: Sequence[Candidate]) -> None:
+        """Judges candidates by whole days, and notes which may follow from them."""
+        for each in self.by_whole_days(batch):
+            key = self.space.known_as(each.chosen)
+            self._days[key] = self._known[key] = each
+            self._beside += self._with_other_robots(each)
+
+    def _with_other_robots(self, each: Candidate) -> list[Candidate]:
+        """Returns candidates with one robot or half as many more than one that is late, or one less
+        than one that is not."""
         out = []
-        for more in (1, 2) if each.late > self.late else (-1,):
+        robots = self.space.parameters["robots"]
+        steps = (1, max(2, each.robots // 2)) if each.late > self.late else (-1,)
+        for more in () if self.is_random else steps:
             chosen = dict(each.chosen) | {"robots": each.robots + more}
-            robots = self.space.parameters["robots"]
             if not robots[0] <= each.robots + more <= robots[-1]:
                 continue
             file = self.space.file_of(chosen)
-            if file is None or self.space.known_as(chosen) in judged:
-                continue
-            out.append(Candidate(each.number, chosen, file, 0.0, self.judge.bill(file)))
+            if file is not None and self.space.known_as(chosen) not in self._days:
+                out.append(Candidate(each.number, chosen, file, 0.0, self.judge.bill(file)))
         return out
 
     def by_whole_days(self, batch: Sequence[Candidate]) -> list[Candidate]:
         """Returns candidates judged by whole days: more of those that are in time so far. late is
         its upper limit then."""
-        records = self._days(batch, SEEDS)
+        records = self._records(batch, SEEDS)
         judged = [
             self.judge.judged(each.number, each.chosen, each.file, mine)
             for each, mine in zip(batch, records)
         ]
         going = [i for i, each in enumerate(judged) if each.late <= self.late]
-        for i, more in zip(going, self._days([batch[i] for i in going], MORE_SEEDS)):
+        for i, more in zip(going, self._records([batch[i] for i in going], MORE_SEEDS)):
             each = batch[i]
             judged[i] = self.judge.judged(each.number, each.chosen, each.file, [*records[i], *more])
             verdict = judged[i].verdict
@@ -304,9 +317,10 @@ class Search:
             for each, record in zip(candidates, self._shifts(points))
         ]
 
-    def _days(self, batch: Sequence[Candidate], seeds: Sequence[int]) -> list[list[Record]]:
+    def _records(self, batch: Sequence[Candidate], seeds: Sequence[int]) -> list[list[Record]]:
         """Returns the records of whole days of each candidate."""
         points = [self._points(each.file, seeds, False) for each in batch]
+        self._spent += len(seeds) * len(batch) * self._seconds(self.space.day.hours)
         records = iter(self._shifts([point for part in points for point in part]))
         return [[next(records) for _ in part] for part in points]
 
@@ -331,7 +345,7 @@ class Search:
 
     def test(self, candidates: Sequence[Candidate]) -> None:
         """Judges candidates by unseen seeds."""
-        for candidate, records in zip(candidates, self._days(candidates, UNSEEN)):
+        for candidate, records in zip(candidates, self._records(candidates, UNSEEN)):
             self.judge.test(candidate, records)
 
     # Shifts.
@@ -371,30 +385,18 @@ class Search:
 
     def _show(self) -> None:
         """Shows how far it is, about: the later stages may end sooner."""
-        share = FIRST_SHARE * self.trials / max(self.most_trials, 1)
-        if self._stage != SHORT:
-            whole = len(SEEDS + MORE_SEEDS) * self.most_whole
-            share = FIRST_SHARE + (1 - FIRST_SHARE) * (self.shifts - self.trials) / (whole + ENDS)
-        text = (
-            f"{self._stage}: {self.trials} of {self.most_trials} trials,"
-            f" {count(self.simulated, 'shift')} simulated"
-        )
+        text = f"{self._stage}: {self.trials} trials, {count(self.simulated, 'shift')} simulated"
+        share = self._spent / self.budget
         self.on_shift(min(share, 1.0), text)
 
 
-def _mixed(
-    queue: Sequence[Candidate], judged: Collection[Candidate], late: float
-) -> list[Candidate]:
+def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
     """Returns the next to have whole days, BATCH at most: the cheapest, but few with the same
-    stations, and none with stations that were late often and never in time."""
-    tried, able = Counter(_stations_of(each) for each in judged), set[tuple[int, int]]()
-    able.update(_stations_of(each) for each in judged if each.late <= late)
+    stations."""
     out: list[Candidate] = []
     for each in queue:
-        stations = _stations_of(each)
-        alike = sum(_stations_of(other) == stations for other in out)
-        hopeless = stations not in able and tried[stations] >= HOPELESS
-        if alike < SAME and not hopeless and len(out) < BATCH:
+        alike = sum(_stations_of(other) == _stations_of(each) for other in out)
+        if alike < SAME and len(out) < BATCH:
             out.append(each)
     return out
 
