@@ -2,7 +2,7 @@
 //
 // The state of a world: its parts, each with a header of its own, in rooms by subject. The rooms of
 // core are functions over those parts; none includes a room that is named after it here, which
-// scripts/check_includes holds them to. src/README.md lists the rooms within these.
+// scripts/check/includes holds them to. src/README.md lists the rooms within these.
 //   parallel       the threads that share loops
 //   estimation     the Kalman filter by which a robot locates itself
 //   state          the parts, and what follows from them alone
