@@ -116,7 +116,7 @@ class OperationsNode:
         idle = ", ".join(role for role in OF_THE_COORDINATOR if role in self._policies.choices)
         if idle:
             self._shift.notices.add(
-                f"policies: the coordinator decides {idle} by itself; what is chosen is not followed"
+                f"policies: the coordinator decides {idle} by itself, whatever is chosen"
             )
         self._publish_notices()
         # It passes on what it does not define itself, which its type does not say.
