@@ -9,6 +9,7 @@ import math
 import subprocess
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
+from types import ModuleType
 from typing import Any
 
 from warehouse_client import survey
@@ -20,10 +21,17 @@ from warehouse_client.services import is_offered
 from warehouse_client.survey import Survey
 from warehouse_layout.floor import poses
 from warehouse_layout.place.layout import Floor
-from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
+from warehouse_msgs.msg import (
+    CoordinatorState,
+    Event,
+    Lift,
+    TrackedObject,
+    TrackedObjects,
+    TransportEvent,
+)
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.missions import Map, Mission, Point, meeting, two_missions
-from warehouse_sim.script_executor import Command, command
+from warehouse_sim.script_executor import Command, ScriptExecutor, command
 
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
@@ -42,7 +50,9 @@ class DemoError(RuntimeError):
 class Demo:
     """`ros` is rospy, `executor` a ScriptExecutor; `tell(text)` reaches who watches."""
 
-    def __init__(self, ros: Any, executor: Any, tell: Callable[[str], Any]) -> None:
+    def __init__(
+        self, ros: ModuleType, executor: ScriptExecutor, tell: Callable[[str], object]
+    ) -> None:
         self._ros, self._executor, self._tell = ros, executor, tell
         self._standing: Any = None
         self.cast: list[int] = []
@@ -163,8 +173,10 @@ class Demo:
         return Map(self._standing, Floor(*bounds) if bounds else None)
 
     def _robot(self, kiva: int) -> tuple[float, float, float]:
-        pose = self._executor.status(kiva).pose
-        return pose.x, pose.y, pose.theta
+        status = self._executor.status(kiva)
+        if status is None:
+            raise DemoError(f"kiva{kiva} has not reported where it is")
+        return status.pose.x, status.pose.y, status.pose.theta
 
     def _models(self, kind: int) -> set[str]:
         """Who had such an event."""
@@ -193,7 +205,7 @@ class Demo:
         with_it = all(_away(item, at) < ON_UNIT for item in items)
         return _away(unit, at) < TOLERANCE and with_it
 
-    def _expect(self, text: str, true: Any) -> None:
+    def _expect(self, text: str, true: object) -> None:
         self._tell(f"  {'ok    ' if true else 'FAILED'}  {text}")
         if not true:
             self.failed.append(text)
@@ -202,7 +214,7 @@ class Demo:
 class FleetWatch:
     """What the coordinator tells. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._state, self.delivered = CoordinatorState(), 0
         subscribe(ros, "warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
         subscribe(ros, "warehouse/transports", TransportEvent, self._count, queue_size=1000)
@@ -261,7 +273,7 @@ def of_tracked(message: TrackedObjects) -> Survey:
     return survey.of_models({o.name: tuple(at) for o, at in zip(message.objects, planar)})
 
 
-def _away(tracked: Any, at: Point) -> float:
+def _away(tracked: TrackedObject, at: Point) -> float:
     return math.dist((tracked.pose.position.x, tracked.pose.position.y), at)
 
 

@@ -3,9 +3,9 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Any
+from types import ModuleType
 
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Event, FleetState
@@ -38,15 +38,15 @@ class Odometer:
 class FleetStatistics:
     """`ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
-        self._odometers: dict[Any, Odometer] = defaultdict(Odometer)
+    def __init__(self, ros: ModuleType) -> None:
+        self._odometers: dict[int, Odometer] = defaultdict(Odometer)
         subscribe(ros, "warehouse/fleet", FleetState, self._measure, queue_size=100)
 
     def _measure(self, fleet: FleetState) -> None:
         for kiva, x, y, yaw in zip(fleet.kiva_id, fleet.x, fleet.y, fleet.yaw):
             self._odometers[kiva].add(x, y, yaw)
 
-    def table(self, kivas: Any, events: Any) -> str:
+    def table(self, kivas: Iterable[int], events: Collection[Event]) -> str:
         """Returns a line of text for each of the robots `kivas`, from these Event messages."""
         titles = ["robot", "metres", "quarter turns", *COLUMNS]
         lines = [[f"kiva{k}", *self._way(k), *_counts(f"kiva{k}", events)] for k in kivas]

@@ -5,10 +5,9 @@ Grid points are (x, y) in whole metres; a route is a list of them, both ends inc
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 from warehouse_client.routes import STEPS, Grid, NoRouteError, covered, point, route
 from warehouse_client.survey import BELT, Survey
@@ -53,7 +52,7 @@ class Map:
     Where the `floor` is not known, it is taken to reach a step beyond what stands on it.
     """
 
-    def __init__(self, survey: Survey, floor: Any = None) -> None:
+    def __init__(self, survey: Survey, floor: Floor | None = None) -> None:
         self.robots = {number: point(pose) for number, pose in survey.kiva.items()}
         self.headings = {number: _step(pose[2]) for number, pose in survey.kiva.items()}
         self.units = {number: point(pose) for number, pose in survey.storage_unit.items()}
@@ -61,7 +60,12 @@ class Map:
         self.floor = floor or _bounds({*self.robots.values(), *self.units.values(), *self.fixed})
         self.drops = {n: _drop(pose, self.grid()) for n, pose in survey.conveyor_belt.items()}
 
-    def grid(self, without: Any = (), loaded_from: Any = None, also: Any = ()) -> Any:
+    def grid(
+        self,
+        without: Collection[int] = (),
+        loaded_from: Point | None = None,
+        also: Iterable[Point] = (),
+    ) -> Grid:
         """Returns the grid for a robot without a load, or with that from the point `loaded_from`.
 
         The robots `without` are no obstacles; the points `also` are.
@@ -155,7 +159,7 @@ def _leave(grid: Grid, start: Point, heading: tuple[int, int], goal: Point) -> l
     return route(grid, start, goal)
 
 
-def meeting(grid: Any, a: Any, b: Any) -> Any:
+def meeting(grid: Grid, a: Point, b: Point) -> tuple[Point, Point]:
     """Returns two ends of a free straight corridor, near to the points a and b.
 
     Raises NoRouteError.

@@ -9,6 +9,7 @@ import queue
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
 
 from warehouse_client.commands import COMMANDS
@@ -40,7 +41,7 @@ class Command:
         return f"{self.topic} {', '.join(f for f in fields if not f.startswith('kiva_id'))}"
 
 
-def command(topic: str, kiva: int, **fields: Any) -> Command:
+def command(topic: str, kiva: int, **fields: float | str) -> Command:
     """Returns a Command for the robot number `kiva`; fields as in interface messages."""
     return Command(topic, COMMANDS[topic](kiva_id=kiva, **fields))
 
@@ -48,7 +49,9 @@ def command(topic: str, kiva: int, **fields: Any) -> Command:
 class ScriptExecutor:
     """`ros` is rospy. `say(seconds, who, text)` tells what happens; seconds are simulated."""
 
-    def __init__(self, ros: Any, say: Callable[[float, str, str], Any], deadline: float) -> None:
+    def __init__(
+        self, ros: ModuleType, say: Callable[[float, str, str], object], deadline: float
+    ) -> None:
         """`deadline` [s, wall] bounds each scene."""
         self._ros, self._say, self._deadline = ros, say, deadline
         self._inbox: queue.Queue[Any] = queue.Queue()
@@ -84,7 +87,7 @@ class ScriptExecutor:
         """Returns whether the commands have a subscriber, and what becomes of them a publisher."""
         return all(p.get_num_connections() for p in (self._answers, *self._publishers.values()))
 
-    def until(self, condition: Callable[[], Any], patience: float = 10.0) -> Any:
+    def until(self, condition: Callable[[], object], patience: float = 10.0) -> object:
         """Waits for condition() at most `patience` [s, wall]; returns its last value."""
         try:
             self._pump(time.monotonic() + patience, condition)
@@ -104,7 +107,7 @@ class ScriptExecutor:
             except queue.Empty:
                 continue
 
-    def _take(self, message: Any) -> None:
+    def _take(self, message: KivaStatus | Event) -> None:
         self._now = max(self._now, message.header.stamp.to_sec())
         if isinstance(message, KivaStatus):
             self._status[message.kiva_id] = message
