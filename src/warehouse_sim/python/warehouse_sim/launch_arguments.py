@@ -241,6 +241,7 @@ ARGUMENTS: dict[str, Check] = {
     "viewer_port": _whole(MOST_PORT),
     "viewer_host": _host,
     "viewer_token_file": _token_file,
+    "pose_topics": _whole(MOST_WHOLE),
     "actions": _flag,
     "coordinator": _flag,
     "transports": _one_of(*CHOICES["transports"]),

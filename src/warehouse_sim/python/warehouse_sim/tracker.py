@@ -176,7 +176,8 @@ def follow(ros: ModuleType, kind: Kind, prefix: str) -> None:
     def advertise(topic: str) -> PoseTopic:
         return PoseTopic(ros, topic)
 
-    limit = topics_allowed(ros.get_param("~max_topics", 30000))
+    asked = ros.get_param("~max_topics", 30000)
+    limit = topics_allowed(asked)
     tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
     listing = LazyPublisher(ros, prefix, TrackedObjects, tracker.message)
     newest = LatestMessages(
@@ -192,7 +193,7 @@ def follow(ros: ModuleType, kind: Kind, prefix: str) -> None:
                 listing.publish()
         else:
             work_left = tracker.go_on()
-        if tracker.count > limit:
+        if asked > 0 and tracker.count > limit:
             ros.logwarn_once(
                 f"{limit} of {tracker.count} objects have a topic of their own; {prefix} has all."
                 " More need a larger ~max_topics, or limit of open files (ulimit -Hn)"

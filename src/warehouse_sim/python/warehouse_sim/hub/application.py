@@ -8,7 +8,7 @@ from pathlib import Path
 from types import FrameType
 
 from starlette.applications import Starlette
-from uvicorn import Config
+from starlette.types import ASGIApp
 
 from warehouse_sim.hub.assistant import Assistant
 from warehouse_sim.hub.routes import routes
@@ -53,7 +53,7 @@ class Hub:
         )
         token, other = tokens
         access = AccessControl(application, token, RATE, other_token=other)
-        self.server = _HubServer(config_of(access), self._begin, self._end)
+        self.server = _HubServer(access, self._begin, self._end)
 
     def _begin(self) -> None:
         self._assistant = self._make_assistant()
@@ -77,9 +77,12 @@ class _HubServer(Server):
     """Ends the simulations before it ends; a second signal does not wait for them."""
 
     def __init__(
-        self, config: Config, on_start: Callable[[], None], on_end: Callable[[], Awaitable[None]]
+        self,
+        application: ASGIApp,
+        on_start: Callable[[], None],
+        on_end: Callable[[], Awaitable[None]],
     ) -> None:
-        super().__init__(config, on_start)
+        super().__init__(config_of(application), on_start)
         self._on_end = on_end
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
