@@ -205,6 +205,10 @@ class Station(BaseModel):
         description="since when the unit is there, or the station does what it does [s], simulated"
     )
     pieces_per_hour: float = Field(description="of the last quarter of an hour")
+    inbound_orders: list[int] = Field(
+        description="an order that each unit of `inbound` is brought for; 0: goods, or not known"
+    )
+    why: str = Field("", description="why it waits, or what it does; see /why")
     queue: list[Queued] = Field(description="of `inbound`")
     totes: list[Tote] = Field(description="by position; of a station in mode MANUAL alone")
 
