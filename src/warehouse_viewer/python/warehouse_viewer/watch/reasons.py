@@ -204,6 +204,10 @@ class Reasons:
             behind = f"kiva{ahead}" if ahead else ""
             return Reason(name, f"waits {why}", since, behind=behind, cause=cause, **about)
         text = DOES.get(self._doing.get(robot, ""), "")
+        if station and self._doing.get(robot) == "waiting":
+            of_order = f" for order {order}" if order else ""
+            text = f"stands at {station} with unit {unit}{of_order}"
+            about["errand"] = ""
         if not text:
             text = f"is {self._doing[robot]}" if self._doing.get(robot) in MOVES else "does its work"
         return Reason(name, text, self._since(name, text), **about)

@@ -54,6 +54,7 @@ def _parted(text: str) -> tuple[str, str]:
 
 
 def _broken(name: str, failures: str) -> str:
+    failures = failures.replace("drive without torque", "drive")  # the word of pages and API
     return f"{name} is broken ({failures})"
 
 

@@ -55,6 +55,33 @@ class NewOrder(Body):
     priority: UInt8 = 0
 
 
+class OrderChange(Body):
+    """Makes an order more or less urgent; what is left out stays as it is."""
+
+    priority: UInt8 | None = None
+    due: Moment | None = Field(None, description="[s], simulated time; 0 = none")
+
+
+class PastEvent(BaseModel):
+    """Something that happened to an order."""
+
+    time: float = Field(description="[s], simulated")
+    kind: str
+    sku: str
+    quantity: int
+    station: str
+    storage_unit: str
+    text: str
+
+
+class OrderHistory(BaseModel):
+    """What has become of an order so far, and what is on its way for it."""
+
+    events: list[PastEvent] = Field(description="the oldest first, 500 at most")
+    storage_units: list[str] = Field(description="at its station, or on their way there")
+    estimated: float = Field(description="when it is likely complete [s], simulated; 0: not known")
+
+
 class Accepted(BaseModel):
     """The number of an order that was accepted."""
 
