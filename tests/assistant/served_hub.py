@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A hub in a process of its own; the assistant's environment has none of the hub's modules."""
+"""A hub in a process of its own. The assistant's environment has none of the hub's modules."""
 
 import json
 import os
@@ -31,6 +31,7 @@ def children(number):
 
 class ServedHub:
     def __init__(self, home, *options):
+        self.home = home
         environment = os.environ | {"ROS_HOME": str(home)}
         environment.pop("WAREHOUSE_TOKEN", None)
         self.process = subprocess.Popen(
@@ -50,14 +51,14 @@ class ServedHub:
         except urllib.error.HTTPError as error:
             return error.code, json.loads(error.read())
 
-    def wait_for(self, name, state):
+    def wait_for(self, name, *states):
         """Waits for a state of a simulation; returns its row, also of one that has failed."""
 
         def row():
             out = self.ask("GET", f"/api/v1/simulations/{name}")[1]
-            return out if out["state"] in (state, "FAILED") else None
+            return out if out["state"] in (*states, "FAILED") else None
 
-        return until(row, f"{name} is not {state}")
+        return until(row, f"{name} is not {states}")
 
     def end(self, number=signal.SIGINT):
         """Ends the hub; returns the processes that it had started itself."""

@@ -14,11 +14,12 @@ from xmlrpc.client import ServerProxy
 import rosgraph
 import rospy
 
-from warehouse_msgs.msg import Event
+from warehouse_client.commands import COMMANDS
+from warehouse_msgs.msg import Event, KivaStatus
 from warehouse_msgs.srv import CreateWarehouse
-from warehouse_sim.script_executor import ScriptExecutor, command
 
 PATIENCE = 60.0  # [s, wall]
+START = rospy.Time(0)
 
 
 class Listener:
@@ -119,15 +120,29 @@ class Robot:
     """Commands one robot, each command after the one before has ended."""
 
     def __init__(self, number):
-        self.number = number
-        self._executor = ScriptExecutor(rospy, lambda *_: None, PATIENCE)
-        self._executor.watch(number)
+        self._number, self._publishers = number, {}
+        self._events = Listener("warehouse/events", Event)
+        self._status = Listener(f"kiva{number}/status", KivaStatus)
 
     def do(self, topic, **fields):
         """The command's last Event; it is DONE."""
-        script = self._script(command(topic, self.number, **fields))
-        self._executor.play({self.number: script})
+        if topic not in self._publishers:
+            self._publishers[topic] = rospy.Publisher(topic, COMMANDS[topic], queue_size=1)
+        publisher, before = self._publishers[topic], len(self._events.messages)
+        wait_until(publisher.get_num_connections, f"a subscriber of {topic}")
+        wait_until(self._events.connections, "the publisher of events")
+        self._wait_for_idle()
+        publisher.publish(kiva_id=self._number, **fields)
+        wait_until(lambda: self._ends(before), f"the end of {topic} {fields}")
+        end = self._ends(before)[0]
+        assert end.kind == Event.DONE, f"{topic} {fields}: {end.text}"
+        self._wait_for_idle(end.header.stamp)
+        return end
 
-    def _script(self, commands):
-        event = yield commands
-        assert event.kind == Event.DONE, f"{commands}: {event.text}"
+    def _ends(self, before):
+        kinds, name = (Event.DONE, Event.BLOCKED, Event.REFUSED), f"kiva{self._number}"
+        messages = self._events.messages[before:]
+        return [event for event in messages if event.model == name and event.kind in kinds]
+
+    def _wait_for_idle(self, since=START):
+        self._status.until(lambda s: s.status == KivaStatus.STATUS_IDLE and s.header.stamp >= since)

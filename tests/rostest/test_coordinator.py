@@ -17,7 +17,7 @@ from nav_msgs.srv import GetMap
 from node_test import call, latched, pid, wait_until
 from warehouse_test import Collector, Commander
 
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_msgs.msg import (
     CoordinatorState,
     Event,
@@ -45,7 +45,7 @@ class Fleet(unittest.TestCase):
         cls.units = Collector("/warehouse/unit_states", UnitStates)
         cls.state.first(lambda state: state.automatic == 20 and state.delivered >= 2, PATIENCE)
         scenery = latched("/warehouse/scenery", Scenery)
-        cls.plan = FloorPlan.of_messages(call("/warehouse/map", GetMap).map, scenery)
+        cls.plan = plan_reader.of_messages(call("/warehouse/map", GetMap).map, scenery)
 
     def tearDown(self):
         contacts = [e for e in list(self.events.messages) if e.kind == Event.COLLISION]

@@ -13,30 +13,11 @@ from node_test import PATIENCE, call, wait_until
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import DeleteModel, GetModelState, GetWorldProperties, SpawnModel
-from warehouse_msgs.msg import (
-    Cancel,
-    Event,
-    FleetFollow,
-    FollowPath,
-    Lift,
-    MoveAlong,
-    MoveTo,
-    Rotate,
-    Stop,
-)
+from warehouse_client import commands
+from warehouse_msgs.msg import Event
 from warehouse_msgs.srv import Step
 
-COMMANDS = {
-    "/mov": MoveTo,
-    "/movx": MoveAlong,
-    "/movy": MoveAlong,
-    "/rot": Rotate,
-    "/lift": Lift,
-    "/follow": FollowPath,
-    "/warehouse/follow": FleetFollow,
-    "/cancel": Cancel,
-    "/stop": Stop,
-}
+COMMANDS = {f"/{topic}": kind for topic, kind in commands.COMMANDS.items()}
 STEP = 0.001  # [s]
 ANSWERS = (Event.ACCEPTED, Event.REFUSED)
 

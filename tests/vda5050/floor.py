@@ -6,10 +6,9 @@ import json
 
 import rospy
 
-from warehouse_client.routes import Grid as RouteGrid
 from warehouse_client.routes import NoRouteError, route
 from warehouse_msgs.msg import WarehouseState
-from warehouse_vda5050.fetch_trip import Extent, wait_for_warehouse
+from warehouse_vda5050.fetch_trip import free_cells, wait_for_warehouse
 from warehouse_vda5050.ros.floor import grid_of, read_map
 
 
@@ -29,12 +28,12 @@ def trips(state, grid, robots, units):
     goals = [(s.name, grid.cell_at(s.x[s.service], s.y[s.service])) for s in state.stations]
     for kiva, here in robots.items():
         others = {cell for cell in robots.values() if cell != here}
-        clear = grid.blocked | others
+        free = free_cells(grid) - others
         for unit, place in sorted(units.items(), key=lambda item: _far(item[1], here)):
-            loaded = RouteGrid(Extent(grid), clear | (set(units.values()) - {place}))
+            loaded = free - (set(units.values()) - {place})
             for station, goal in goals:
                 try:
-                    there = route(RouteGrid(Extent(grid), clear), here, place)
+                    there = route(free, here, place)
                     onward = route(loaded, place, goal)
                     back = route(loaded, goal, place)
                 except NoRouteError:

@@ -35,6 +35,11 @@ class CoordinatorClient:
         subscribe(ros, "warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
         subscribe(ros, "warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
 
+    @property
+    def time(self) -> float:
+        """The time of the last state [s, simulated]; 0 before the first."""
+        return float(self.state.header.stamp.to_sec()) if self.state else 0.0
+
     def submit(
         self,
         shelf_id: int,

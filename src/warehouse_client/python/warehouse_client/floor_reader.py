@@ -5,6 +5,7 @@ from typing import Any
 
 from nav_msgs.srv import GetMap
 
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import Station
 
@@ -42,7 +43,7 @@ class FloorReader:
             return False
         try:
             grid = self._ros.ServiceProxy("warehouse/map", GetMap)().map
-            plan = FloorPlan.of_messages(grid, scenery) if grid.data else None
+            plan = plan_reader.of_messages(grid, scenery) if grid.data else None
         except self._ros.ServiceException:
             return False  # the world comes or goes; there is another time
         except FloorError as error:

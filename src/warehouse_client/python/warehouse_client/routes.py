@@ -3,7 +3,7 @@
 
 import heapq
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 Point = tuple[int, int]
@@ -15,27 +15,6 @@ TURN_COST = 2.0
 
 class NoRouteError(ValueError):
     """There is no way from start to goal; the message names both."""
-
-
-class Grid:
-    """Grid points a robot may stand on: those of the floor that nothing blocks.
-
-    `floor` is a rectangle min_x … max_y [m]; `blocked` holds grid points (x, y), whole metres.
-    """
-
-    def __init__(self, floor: Any, blocked: Iterable[Point] = ()) -> None:
-        self.x = range(math.ceil(floor.min_x), math.floor(floor.max_x) + 1)
-        self.y = range(math.ceil(floor.min_y), math.floor(floor.max_y) + 1)
-        self.blocked = {point(p) for p in blocked}
-
-    def free(self, p: Point) -> bool:
-        """Returns whether a robot may stand on a grid point."""
-        return p[0] in self.x and p[1] in self.y and p not in self.blocked
-
-    def neighbours(self, p: Point) -> list[Point]:
-        """Returns the free grid points one step away."""
-        around = ((p[0] + dx, p[1] + dy) for dx, dy in STEPS)
-        return [q for q in around if self.free(q)]
 
 
 def point(p: Sequence[float]) -> Point:
@@ -56,16 +35,13 @@ def _between(centre: float, reach: float) -> range:
     return range(math.ceil(centre - reach), math.floor(centre + reach) + 1)
 
 
-def route(
-    grid: Grid, start: Sequence[float], goal: Sequence[float], heading: Point | None = None
-) -> list[Point]:
+def route(free: Collection[Point], start: Point, goal: Point) -> list[Point]:
     """Returns the grid points from start to goal, both included: short, with few turns.
 
-    `heading` is the step (dx, dy) the robot faces at the start. Dijkstra (1959) over points and
-    headings. The start may be blocked, for there the robot stands. Raises NoRouteError.
+    Dijkstra (1959) over the free points and headings. The start may be blocked, for there the
+    robot stands. Raises NoRouteError.
     """
-    start, goal = point(start), point(goal)
-    queue: list[Any] = [(0.0, start, heading, None)]
+    queue: list[Any] = [(0.0, start, None, None)]
     came_from: dict[Any, Any] = {}
     while queue:
         cost, here, step, before = heapq.heappop(queue)
@@ -74,10 +50,11 @@ def route(
         came_from[here, step] = before
         if here == goal:
             return _walk_back(came_from, (here, step))
-        for there in grid.neighbours(here):
-            ahead = (there[0] - here[0], there[1] - here[1])
+        for ahead in STEPS:
+            there = (here[0] + ahead[0], here[1] + ahead[1])
             turn = TURN_COST if step not in (None, ahead) else 0.0
-            heapq.heappush(queue, (cost + 1 + turn, there, ahead, (here, step)))
+            if there in free:
+                heapq.heappush(queue, (cost + 1 + turn, there, ahead, (here, step)))
     raise NoRouteError(f"no way from {start} to {goal}")
 
 

@@ -9,6 +9,7 @@ from nav_msgs.srv import GetMap
 
 from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, People, Scenery, UnitStates, WarehouseObjects
 
@@ -74,7 +75,7 @@ class WarehouseClient:
     def plan(self) -> FloorPlan:
         """Reads the FloorPlan by the map service. Raises rospy.ServiceException, FloorError."""
         grid = self._ros.ServiceProxy("warehouse/map", GetMap)().map
-        return FloorPlan.of_messages(grid, self.scenery)
+        return plan_reader.of_messages(grid, self.scenery)
 
     def robot_cells(self, plan: FloorPlan) -> dict[int, int]:
         """Returns the cell of each robot, by its id."""

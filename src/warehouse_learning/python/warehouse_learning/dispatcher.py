@@ -11,7 +11,7 @@ from gymnasium import spaces
 
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.transports.transports import NOWHERE, Kind
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.fields import Field
@@ -59,7 +59,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         self.observation_space = spaces.Box(*fields.bounds(self.fields))
         self.action_space = spaces.Discrete(1 + robots * tasks)
         self.render_mode = render_mode
-        self._grid = Grid(FloorPlan.of_world(self._world), 0)
+        self._grid = Grid(plan_reader.of_world(self._world), 0)
         self._scene = SimpleNamespace(worlds=[self._world], robots=robots, grid=self._grid)
         page = lambda: Page(self._world, self.options.title)  # noqa: E731
         asked = lambda: [task["shelf"] for task in self._tasks]  # noqa: E731

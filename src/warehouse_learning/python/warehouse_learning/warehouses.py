@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_learning import building
 from warehouse_learning._core import Task
 from warehouse_learning.grid import Grid
@@ -44,7 +44,7 @@ class Warehouses:
     def __init__(self, n: int, options: Options, threads: int = 0) -> None:
         self.n, self.options = n, options
         self.worlds, self._checkpoint = building.build(n, options, threads)
-        plan = FloorPlan.of_world(self.worlds[0])
+        plan = plan_reader.of_world(self.worlds[0])
         self.grid = grid = Grid(plan, options.radius)
         if not len(grid.stations):
             raise ValueError("there is no picking station on this floor")

@@ -31,10 +31,10 @@ from warehouse_msgs.msg import (
     MoveAction,
     MoveFeedback,
     MoveResult,
+    MoveTo,
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_sim.script_executor import Command, command
 
 FEEDBACK_GAP = 0.2  # [s, wall]
 PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
@@ -42,32 +42,37 @@ PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
 
 @dataclass(frozen=True)
 class Step:
-    """One command of a goal; on its way the robot goes to `target` (x, y) [m]."""
+    """One command of a goal: a message for a topic of COMMANDS, with which the robot goes to
+    `target` (x, y) [m]."""
 
-    command: Command
+    topic: str
+    message: Any
     target: tuple
     phase: int = 0
 
 
 def move(goal: Any) -> list[Step]:
     """Returns the Steps of a MoveGoal."""
-    target = (goal.x, goal.y)
-    return [Step(command("mov", goal.kiva_id, x=goal.x, y=goal.y), target)]
+    return [_go(goal.kiva_id, (goal.x, goal.y))]
 
 
 def carry(goal: Any, unit: Any) -> list[Step]:
     """Returns the Steps of a CarryGoal, whose storage unit is at the grid point `unit` [m]."""
     kiva, target = goal.kiva_id, (goal.x, goal.y)
     lift, drop = (
-        command("lift", kiva, status=status, shelf_id=goal.shelf_id)
+        Lift(kiva_id=kiva, status=status, shelf_id=goal.shelf_id)
         for status in (Lift.CARRY, Lift.DROP)
     )
     return [
-        Step(command("mov", kiva, x=unit[0], y=unit[1]), unit, CarryFeedback.FETCHING),
-        Step(lift, unit, CarryFeedback.LIFTING),
-        Step(command("mov", kiva, x=goal.x, y=goal.y), target, CarryFeedback.CARRYING),
-        Step(drop, target, CarryFeedback.DROPPING),
+        _go(kiva, unit, CarryFeedback.FETCHING),
+        Step("lift", lift, unit, CarryFeedback.LIFTING),
+        _go(kiva, target, CarryFeedback.CARRYING),
+        Step("lift", drop, target, CarryFeedback.DROPPING),
     ]
+
+
+def _go(kiva: int, target: tuple, phase: int = 0) -> Step:
+    return Step("mov", MoveTo(kiva_id=kiva, x=target[0], y=target[1]), target, phase)
 
 
 class Work:
@@ -185,8 +190,8 @@ class RobotActions:
 
     def _send(self, work: Work) -> None:
         work.command = None
-        request = work.steps[0].command
-        self._publishers[request.topic].publish(request.message)
+        step = work.steps[0]
+        self._publishers[step.topic].publish(step.message)
 
     def _take(self, event: Event) -> None:
         work = self._works.get(event.model)

@@ -2,87 +2,210 @@
 """The demonstration: two robots fetch two storage units at once, then meet head on; at last a fleet
 delivers.
 
-Played over topics alone. What shall come true is checked against the events and the tracked poses.
+The robots are commanded by the actions /warehouse/move and /warehouse/carry. What is expected is
+checked against the events and the poses of the world.
 """
 
 import math
 import subprocess
-from collections.abc import Callable, Generator, Iterator
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from warehouse_client import survey
-from warehouse_client.engine import Engine
-from warehouse_client.latest import LatestMessages
+import numpy as np
+from actionlib import ActionClient, CommState
+
+from warehouse_client import tracking
+from warehouse_client.coordinator import CoordinatorClient
 from warehouse_client.message_check import subscribe
-from warehouse_client.routes import goals, route
+from warehouse_client.routes import Point, goals, route
 from warehouse_client.services import is_offered
-from warehouse_client.survey import Survey
-from warehouse_layout.floor import poses
-from warehouse_layout.place.layout import Floor
-from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
+from warehouse_client.warehouse import WarehouseClient
+from warehouse_msgs.msg import (
+    CarryAction,
+    CarryGoal,
+    Event,
+    FleetState,
+    MoveAction,
+    MoveGoal,
+    TransportEvent,
+)
 from warehouse_msgs.srv import CreateWarehouse
-from warehouse_sim.missions import Map, Mission, Point, meeting, two_missions
-from warehouse_sim.script_executor import Command, command
+from warehouse_sim import event_text
+from warehouse_sim.errands import Chart, Errand, meeting, two_errands
 
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
+DELAY = 10.0  # longest time between a robot's end of work and the messages about it [s, wall]
+PERIOD = 0.02  # between two looks at what has come [s, wall]
 ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
 FLEET = "medium"  # the warehouse that a coordinator drives
 EXCHANGE = 20  # from one unit to the next at a station [s]
-DEADLINE = 10.0  # wall seconds that a simulated one may take
+DEADLINE = 10.0  # longest duration of a simulated second [s, wall]
 
-Script = Generator[Command, Event, None]  # yields commands; each is answered by its last event
+SILENT = (Event.ACCEPTED, Event.SPAWNED, Event.DELETED)
+COLUMNS = {
+    "commands": (Event.ACCEPTED,),
+    "lifts": (Event.LIFTED, Event.DROPPED),
+    "blocked": (Event.BLOCKED,),
+    "refused": (Event.REFUSED,),
+    "collisions": (Event.COLLISION,),
+}
 
 
 class DemoError(RuntimeError):
-    """Something that shall come true did not; the message says what."""
+    """Something expected did not come true; the message says what."""
 
 
 class Demo:
-    """`ros` is rospy, `executor` a ScriptExecutor; `tell(text)` reaches who watches."""
+    """The acts. `ros` is rospy; `write(text)` reaches the person who watches.
 
-    def __init__(self, ros: Any, executor: Any, tell: Callable[[str], Any]) -> None:
-        self._ros, self._executor, self._tell = ros, executor, tell
-        self._standing: Any = None
-        self.cast: list[int] = []
+    `deadline` [s, wall] bounds each scene.
+    """
+
+    def __init__(self, ros: Any, write: Callable[[str], object], deadline: float) -> None:
+        self._ros, self._write, self._deadline = ros, write, deadline
+        self._metres: Counter[int] = Counter()
+        self._turns: Counter[int] = Counter()  # [quarter turns]
+        self._events: list[Event] = []
+        self._cast: list[int] = []
         self.failed: list[str] = []
-        self._newest = LatestMessages(
-            ros,
-            units=("storage_units", TrackedObjects),
-            items=("items", TrackedObjects),
-        )
+        self._world = WarehouseClient(ros, self._measure)
+        self._clients = {
+            MoveGoal: ActionClient("warehouse/move", MoveAction),
+            CarryGoal: ActionClient("warehouse/carry", CarryAction),
+        }
+        self._answers = subscribe(ros, "warehouse/events", Event, self._on_event, queue_size=1000)
 
     def play(self) -> None:
-        """Plays all acts. Raises NoRouteError, DeadlineError or DemoError if it can't go on."""
+        """Plays the acts of two robots. Raises NoRouteError or DemoError if they can't go on."""
         self._look()
-        missions = two_missions(self._map())
-        self.cast = [mission.kiva for mission in missions]
-        for kiva in self.cast:
-            self._executor.watch(kiva)
-        self._fetch(missions)
+        belts = {s.belt: self._cell(s.service_cell) for s in self._plan.stations if s.belt}
+        errands = two_errands(self._chart(), belts)
+        self._cast = [errand.robot for errand in errands]
+        self._fetch(errands)
         self._meet(self._line_up())
         for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
-            self._expect(f"nothing was {name}", not self._models(kind))
+            self._judge(f"nothing was {name}", not self._models(kind))
 
-    def deliver(self, seconds: float) -> None:
-        """Plays the last act: a fleet delivers for so long [s, simulated]. Raises DemoError."""
-        self._tell(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
+    def deliver(self, duration: float) -> None:
+        """Plays the last act: a fleet delivers for a duration [s, simulated]. Raises DemoError."""
+        self._write(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
         if is_offered(self._ros, "warehouse/transport"):
             raise DemoError("a coordinator runs already; the demonstration brings its own")
-        fleet = FleetWatch(self._ros)
+        fleet = CoordinatorClient(self._ros)
         self._build(FLEET)
-        before = len(self._executor.events)
+        before = len(self._events)
         with coordinator():
-            if not self._executor.until(lambda: fleet.robots > 0, PATIENCE):
-                raise DemoError(fleet.alarm or "no coordinator tells of its robots")
-            end = fleet.time + seconds
-            self._executor.until(lambda: fleet.time >= end, PATIENCE + DEADLINE * seconds)
-        after = self._executor.events[before:]
-        self._expect(f"{fleet.robots} robots were coordinated for {seconds:g} s", fleet.time >= end)
-        self._expect(f"{fleet.delivered} storage units were delivered", fleet.delivered > 0)
-        self._expect("there was no collision", not any(e.kind == Event.COLLISION for e in after))
-        self._expect("every robot moved on", not fleet.watchdog)
+            self._until(lambda: fleet.state and fleet.state.automatic, PATIENCE)
+            state = fleet.state
+            if not (state and state.automatic):
+                alarms = state.alarms if state else ()
+                raise DemoError("; ".join(alarms) or "no coordinator publishes its robots' states")
+            end = fleet.time + duration
+            is_over = self._until(lambda: fleet.time >= end, PATIENCE + DEADLINE * duration)
+        state = fleet.state
+        count = sum(event.kind == TransportEvent.ARRIVED for event in fleet.take_events())
+        kinds = {event.kind for event in self._events[before:]}
+        self._judge(f"{state.automatic} robots were coordinated for {duration:g} s", is_over)
+        self._judge(f"{count} storage units were delivered", count > 0)
+        self._judge("there was no collision", Event.COLLISION not in kinds)
+        self._judge("every robot moved on", not state.watchdog)
+
+    def table(self) -> str:
+        """Returns a line of text for each robot of the first acts."""
+        titles = ["robot", "metres", "quarter turns", *COLUMNS]
+        widths = [max(len(title), 6) for title in titles]
+        rows = [titles, ["-" * width for width in widths], *map(self._row, self._cast)]
+        return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row, widths)) for row in rows)
+
+    def _row(self, robot: int) -> list[str]:
+        name = f"kiva{robot}"
+        # The other body of a collision took part in it as well.
+        kinds = [
+            e.kind for e in self._events if name in (e.model, e.kind == Event.COLLISION and e.other)
+        ]
+        counts = [str(sum(kind in column for kind in kinds)) for column in COLUMNS.values()]
+        return [name, f"{self._metres[robot]:.1f}", f"{self._turns[robot]:.0f}", *counts]
+
+    # --- the acts
+
+    def _fetch(self, errands: Sequence[Errand]) -> None:
+        self._write("\nEach robot brings a storage unit to a conveyor belt, both at once.\n")
+        self._act(*(CarryGoal(e.robot, e.unit, *self._point(e.to_belt[-1])) for e in errands))
+        # Out beneath the unit, by the way it came in.
+        self._act(*(MoveGoal(e.robot, *self._point(e.exit)) for e in errands))
+        for errand in errands:
+            self._check_delivered(errand)
+
+    def _line_up(self) -> dict[int, Point]:
+        """Brings both robots to the ends of an aisle; returns where each goes then."""
+        self._write("\nThey line up at the two ends of an aisle.\n")
+        chart, (a, b) = self._chart(), self._cast
+        aisles = chart.free() | {chart.robots[a], chart.robots[b]}
+        ends = meeting(aisles - set(chart.units.values()), chart.robots[a], chart.robots[b])
+        for robot, end in zip(self._cast, ends):
+            self._drive(robot, end)
+        return {a: ends[1], b: ends[0]}
+
+    def _meet(self, ends: dict[int, Point]) -> None:
+        self._write("\nEach sets off for the other's place. A blocked robot finds another way.\n")
+        moves = (MoveGoal(robot, *self._point(cell)) for robot, cell in ends.items())
+        self._act(*moves, may_be_blocked=True)
+        self._expect("meeting head on, one of them was blocked at least", self._is_blocked)
+        # A robot that was blocked at once still stands where the other goes.
+        taken = set(self._chart().robots.values())
+        for robot, cell in sorted(ends.items(), key=lambda pair: pair[1] in taken):
+            self._drive(robot, cell)
+            x, y = self._point(cell)
+            text = f"kiva{robot} reached ({x:g}, {y:g}) all the same"
+            self._expect(text, self._is_at, robot, cell)
+
+    def _drive(self, robot: int, goal: Point) -> None:
+        chart = self._chart()
+        for cell in goals(route(chart.free(without=robot), chart.robots[robot], goal)):
+            self._act(MoveGoal(robot, *self._point(cell)))
+
+    def _act(self, *goals: Any, may_be_blocked: bool = False) -> None:
+        """Sends a goal to each of some robots and waits for their ends. Raises DemoError."""
+        handles = {}
+        for goal in goals:
+            self._write(self._line_of(goal))
+            handles[f"kiva{goal.kiva_id}"] = self._clients[type(goal)].send_goal(goal)
+        is_over = [lambda h=h: h.get_comm_state() == CommState.DONE for h in handles.values()]
+        if not self._until(lambda: all(over() for over in is_over), self._deadline):
+            waiting = (name for name, over in zip(handles, is_over) if not over())
+            raise DemoError(f"out of time; waiting: {', '.join(waiting) or 'no robot'}")
+        for name, handle in handles.items():
+            result = handle.get_result()
+            if result.kind != Event.DONE and not (may_be_blocked and result.kind == Event.BLOCKED):
+                raise DemoError(f"{name}: its goal was not done: {result.text}")
+
+    def _line_of(self, goal: Any) -> str:
+        what = f"carry storage_unit{goal.shelf_id}" if isinstance(goal, CarryGoal) else "go"
+        seconds = self._world.fleet.stamp.to_sec()
+        return f"{seconds:10.3f} s  kiva{goal.kiva_id:<10} {what} to ({goal.x:g}, {goal.y:g})"
+
+    # --- the world
+
+    def _look(self) -> None:
+        """Waits for the warehouse, whose service comes once it is built, and reads its floor."""
+        try:
+            self._ros.wait_for_service("warehouse/create_warehouse_models", PATIENCE)
+        except self._ros.ROSException as error:
+            raise DemoError("no warehouse is running") from error
+        if not self._until(self._is_ready, min(PATIENCE, self._deadline)):
+            raise DemoError(
+                "out of time; waiting: no robot, but the actions and the world's topics"
+            )
+        self._plan = self._world.plan()
+
+    def _is_ready(self) -> bool:
+        soon = self._ros.Duration(nsecs=1)  # zero would be for ever
+        are_there = all(client.wait_for_server(soon) for client in self._clients.values())
+        return are_there and self._world.is_known and self._answers.get_num_connections() > 0
 
     def _build(self, size: str) -> None:
         create = self._ros.ServiceProxy("warehouse/create_warehouse_models", CreateWarehouse)
@@ -93,190 +216,105 @@ class Demo:
         if not answer.success:
             raise DemoError(f"no {size} warehouse: {answer.message}")
 
-    # --- the acts
+    def _chart(self) -> Chart:
+        plan, world = self._plan, self._world
+        passable = np.flatnonzero(plan.passable & ~plan.obstructed)
+        return Chart(
+            {self._cell(cell) for cell in passable},
+            {robot: self._cell(cell) for robot, cell in world.robot_cells(plan).items()},
+            {unit: self._cell(cell) for unit, cell in world.standing_units(plan).items()},
+        )
 
-    def _fetch(self, missions: list[Mission]) -> None:
-        self._tell("\nEach robot brings a storage unit to a conveyor belt, both at once.\n")
-        self._executor.play({m.kiva: self._fetching(m) for m in missions})
-        for mission in missions:
-            self._check_delivered(mission)
+    def _cell(self, number: int) -> Point:
+        row, column = divmod(int(number), self._plan.width)
+        return column, row
 
-    def _fetching(self, mission: Mission) -> Script:
-        kiva, unit = mission.kiva, mission.unit
-        yield from _drive(kiva, mission.to_unit)
-        yield from _do(command("lift", kiva, status=Lift.CARRY, shelf_id=unit))
-        yield from _drive(kiva, mission.to_drop)
-        yield from _do(command("lift", kiva, status=Lift.DROP, shelf_id=unit))
-        # Out beneath the unit, by the way it came in.
-        yield from _drive(kiva, [mission.to_drop[-1], mission.out])
+    def _point(self, cell: Point) -> tuple[float, float]:
+        x, y = self._plan.point_of(cell[1] * self._plan.width + cell[0])
+        return float(x), float(y)
 
-    def _line_up(self) -> dict[int, Point]:
-        """Brings both to the ends of an aisle; returns where each wants to go then."""
-        self._tell("\nThey line up at the two ends of an aisle.\n")
-        chart, (a, b) = self._map(), self.cast
-        aisles = chart.grid(self.cast, also=chart.units.values())
-        end_a, end_b = meeting(aisles, chart.robots[a], chart.robots[b])
-        self._executor.play({a: _drive(a, route(chart.grid([a]), chart.robots[a], end_a))})
-        after = chart.grid(self.cast, also=[end_a])
-        self._executor.play({b: _drive(b, route(after, chart.robots[b], end_b))})
-        return {a: end_b, b: end_a}
+    def _on_event(self, event: Event) -> None:
+        self._events.append(event)
+        # Twenty robots end a path every few seconds.
+        if event.kind not in SILENT and "follow path" not in event.text:
+            self._write(event_text.line(event))
 
-    def _meet(self, goals: dict[int, Point]) -> None:
-        self._tell("\nEach sets off for the other's place. A blocked robot finds another way.\n")
-        self._executor.play({kiva: _try(kiva, goal) for kiva, goal in goals.items()})
-        blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
-        self._expect("meeting head on, one of them was blocked at least", blocked)
-        for kiva, goal in goals.items():
-            chart = self._map()
-            way = route(chart.grid([kiva]), chart.robots[kiva], goal)
-            self._executor.play({kiva: _drive(kiva, way)})
-            arrived = math.dist(self._robot(kiva)[:2], goal) < TOLERANCE
-            self._expect(f"kiva{kiva} reached ({goal[0]}, {goal[1]}) all the same", arrived)
+    def _measure(self, before: FleetState | None, fleet: FleetState) -> None:
+        if before is None or before.kiva_id != fleet.kiva_id:
+            return
+        steps = np.hypot(np.subtract(fleet.x, before.x), np.subtract(fleet.y, before.y))
+        turns = np.abs(np.remainder(np.subtract(fleet.yaw, before.yaw) + np.pi, math.tau) - np.pi)
+        for robot, step, turn in zip(fleet.kiva_id, steps, turns / (math.pi / 2)):
+            self._metres[robot] += step
+            self._turns[robot] += turn
 
-    # --- what is there
+    # --- what is expected
 
-    def _look(self) -> None:
-        """Where everything stands, once it does: the service comes when its warehouse is built."""
-        try:
-            self._ros.wait_for_service("warehouse/create_warehouse_models", PATIENCE)
-        except self._ros.ROSException as error:
-            raise DemoError("no warehouse is running") from error
-        with Engine(self._ros) as engine:
-            self._standing = survey.of_engine(engine)
-        if not self._executor.until(self._is_tracked, PATIENCE):
-            raise DemoError("the tracking nodes do not publish where storage units and items are")
+    def _check_delivered(self, errand: Errand) -> None:
+        robot, name = f"kiva{errand.robot}", f"storage_unit{errand.unit}"
+        for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
+            self._expect(f"{robot} {word} {name}", self._has_event, kind, robot, name)
+        text = f"{name} stands before {errand.belt}, on the floor, with its items"
+        self._expect(text, self._stands, name, self._point(errand.to_belt[-1]))
+        self._expect(f"{robot} left it there", self._is_at, errand.robot, errand.exit)
 
-    def _is_tracked(self) -> bool:
-        """Whether the tracking nodes know of all that stands."""
-        units, items = self._newest["units"], self._newest["items"]
-        if not (units and items):
+    def _has_event(self, *fact: Any) -> bool:
+        return any((e.kind, e.model, e.other) == fact for e in self._events)
+
+    def _stands(self, name: str, point: tuple[float, float]) -> bool:
+        known = self._world.objects, self._world.units
+        if not self._world.is_known:
             return False
-        known = (len(units.objects), len(items.objects))
-        return known == (len(self._standing.storage_unit), len(self._standing.item))
+        units, items = tracking.storage_units(*known), tracking.items(*known)
+        i = units.names.index(name)
+        on_it = items.pose[[unit == name for unit in items.unit]]
+        return (
+            not units.carrier[i]
+            and abs(units.pose[i, 2]) < TOLERANCE
+            and math.dist(units.pose[i, :2], point) < TOLERANCE
+            and bool((np.hypot(*(on_it[:, :2] - point).T) < ON_UNIT).all())
+        )
 
-    def _map(self) -> Map:
-        """Returns the map as it is now: the cast by status, the units by tracked poses."""
-        self._standing.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
-        tracked = of_tracked(self._newest["units"])
-        self._standing.storage_unit = tracked.storage_unit
-        bounds = self._ros.get_param("warehouse/floor", None)
-        return Map(self._standing, Floor(*bounds) if bounds else None)
+    def _is_at(self, robot: int, cell: Point) -> bool:
+        fleet = self._world.fleet
+        i = fleet.kiva_id.index(robot)
+        return math.dist((fleet.x[i], fleet.y[i]), self._point(cell)) < TOLERANCE
 
-    def _robot(self, kiva: int) -> tuple[float, float, float]:
-        pose = self._executor.status(kiva).pose
-        return pose.x, pose.y, pose.theta
+    def _is_blocked(self) -> bool:
+        return not self._models(Event.BLOCKED).isdisjoint(f"kiva{robot}" for robot in self._cast)
 
     def _models(self, kind: int) -> set[str]:
-        """Who had such an event."""
-        return {event.model for event in self._executor.events if event.kind == kind}
+        return {event.model for event in self._events if event.kind == kind}
 
-    # --- what shall have come true
+    def _expect(self, text: str, condition: Callable[..., Any], *args: Any) -> None:
+        """Judges a condition once it holds, or after DELAY: messages may be on their way."""
+        self._judge(text, self._until(lambda: condition(*args), DELAY))
 
-    def _check_delivered(self, mission: Mission) -> None:
-        name, belt = f"storage_unit{mission.unit}", f"conveyor_belt{mission.belt}"
-        for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
-            self._expect(f"kiva{mission.kiva} {word} {name}", self._happened(kind, mission, name))
-        stands = self._executor.until(lambda: self._stands(name, mission.to_drop[-1]))
-        self._expect(f"{name} stands before {belt}, on the floor, with its items", stands)
-        left = math.dist(self._robot(mission.kiva)[:2], mission.out) < TOLERANCE
-        self._expect(f"kiva{mission.kiva} left it there", left)
-
-    def _happened(self, kind: int, mission: Mission, name: str) -> bool:
-        fact = (kind, f"kiva{mission.kiva}", name)
-        return any((e.kind, e.model, e.other) == fact for e in self._executor.events)
-
-    def _stands(self, name: str, at: Point) -> bool:
-        unit = next((o for o in self._newest["units"].objects if o.name == name), None)
-        items = [o for o in self._newest["items"].objects if o.storage_unit == name]
-        if unit is None or unit.carrier or abs(unit.pose.position.z) > TOLERANCE:
-            return False
-        with_it = all(_away(item, at) < ON_UNIT for item in items)
-        return _away(unit, at) < TOLERANCE and with_it
-
-    def _expect(self, text: str, true: Any) -> None:
-        self._tell(f"  {'ok    ' if true else 'FAILED'}  {text}")
-        if not true:
+    def _judge(self, text: str, is_true: bool) -> None:
+        self._write(f"  {'ok    ' if is_true else 'FAILED'}  {text}")
+        if not is_true:
             self.failed.append(text)
 
-
-class FleetWatch:
-    """What the coordinator tells. `ros` is rospy."""
-
-    def __init__(self, ros: Any) -> None:
-        self._state, self.delivered = CoordinatorState(), 0
-        subscribe(ros, "warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
-        subscribe(ros, "warehouse/transports", TransportEvent, self._count, queue_size=1000)
-
-    def _take(self, state: CoordinatorState) -> None:
-        self._state = state
-
-    def _count(self, event: TransportEvent) -> None:
-        self.delivered += event.kind == TransportEvent.ARRIVED
-
-    @property
-    def time(self) -> float:
-        """The time of the last state [s, simulated]."""
-        return self._state.header.stamp.to_sec()
-
-    @property
-    def robots(self) -> int:
-        """How many robots the coordinator commands."""
-        return self._state.automatic
-
-    @property
-    def watchdog(self) -> int:
-        """How often robots made no progress."""
-        return self._state.watchdog
-
-    @property
-    def alarm(self) -> str:
-        """The coordinator's first alarm, or nothing."""
-        return "; ".join(self._state.alarms)
+    def _until(self, condition: Callable[[], Any], patience: float) -> bool:
+        """Waits for a condition, at most `patience` [s, wall]; returns whether it holds."""
+        end = time.monotonic() + patience
+        while not condition():
+            if self._ros.is_shutdown():
+                raise KeyboardInterrupt
+            if time.monotonic() > end:
+                return False
+            time.sleep(PERIOD)
+        return True
 
 
 @contextmanager
 def coordinator() -> Iterator[None]:
     """Runs a coordinator that keeps all stations busy, within a `with` block."""
     # It ends with this process, however that ends.
-    node = [
-        "setpriv",
-        "--pdeathsig",
-        "TERM",
-        "rosrun",
-        "warehouse_fleet",
-        "coordinator",
-        "_demand:=random",
-    ]
-    process = subprocess.Popen([*node, f"_exchange:={EXCHANGE}"], stdout=subprocess.DEVNULL)
+    node = "setpriv --pdeathsig TERM rosrun warehouse_fleet coordinator _demand:=random"
+    process = subprocess.Popen([*node.split(), f"_exchange:={EXCHANGE}"], stdout=subprocess.DEVNULL)
     try:
         yield
     finally:
         process.terminate()
         process.wait()
-
-
-def of_tracked(message: TrackedObjects) -> Survey:
-    """Returns a Survey of the objects in a TrackedObjects message."""
-    planar = poses.planar_of(o.pose for o in message.objects)
-    return survey.of_models({o.name: tuple(at) for o, at in zip(message.objects, planar)})
-
-
-def _away(tracked: Any, at: Point) -> float:
-    return math.dist((tracked.pose.position.x, tracked.pose.position.y), at)
-
-
-def _drive(kiva: int, points: list[Point]) -> Script:
-    """A script: along a route, point by point. Raises DemoError if anything stops the robot."""
-    for x, y in goals(points):
-        yield from _do(command("mov", kiva, x=x, y=y))
-
-
-def _do(wish: Command) -> Script:
-    event = yield wish
-    if event.kind != Event.DONE:
-        raise DemoError(f"{event.model}: {wish} was not done: {event.text}")
-
-
-def _try(kiva: int, goal: Point) -> Script:
-    """A script: straight to the goal, as far as it goes."""
-    yield command("mov", kiva, x=goal[0], y=goal[1])

@@ -8,7 +8,7 @@ import numpy as np
 from warehouse_client.engine import Engine
 from warehouse_layout.file import files, layout_file
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.floor.floor_plan import UNIT, occupancy_of
+from warehouse_layout.floor.plan_reader import UNIT, occupancy_of
 from warehouse_layout.generate import layout_choice, layout_world
 from warehouse_layout.models import models
 from warehouse_layout.place import placement

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The trip of the demonstration: where from and where to, and the orders for it."""
 
+from itertools import product
 from typing import Any
 
 import rospy
 
 from warehouse_client.message_check import subscribe
-from warehouse_client.routes import Grid as RouteGrid
 from warehouse_client.routes import NoRouteError, route
 from warehouse_msgs.msg import WarehouseState
 from warehouse_vda5050.demo_master import DemoMaster, TripError, order_of
@@ -16,14 +16,6 @@ from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.topics import Identity
 
 WAIT = 60.0  # for the warehouse to be built [s]
-
-
-class Extent:
-    """The columns and rows of a floor, as routes want them."""
-
-    def __init__(self, grid: Grid) -> None:
-        self.min_x, self.max_x = 0, grid.columns - 1
-        self.min_y, self.max_y = 0, grid.rows - 1
 
 
 class FetchTrip:
@@ -93,6 +85,11 @@ class FetchTrip:
         print(f"unit {unit} stands at {state.last_node}", flush=True)
 
 
+def free_cells(grid: Grid) -> set[Cell]:
+    """Returns the cells of a floor that nothing blocks."""
+    return set(product(range(grid.columns), range(grid.rows))) - grid.blocked
+
+
 def _action(type: str, parameters: list[tuple[str, Any]]) -> Action:
     pairs = [("stationType", "place"), ("loadType", "unit"), *parameters]
     return Action(type, f"{type}-1", BlockingType.HARD, tuple(pairs))
@@ -109,9 +106,10 @@ def _ways(
     """Returns the way to a unit, beneath others, and the way on with it; None without one."""
     others = {cell for cell in robots.values() if cell != here}
     standing = set(units.values()) - {place}
+    free = free_cells(grid) - others
     try:
-        there = route(RouteGrid(Extent(grid), grid.blocked | others), here, place)
-        onward = route(RouteGrid(Extent(grid), grid.blocked | others | standing), place, goal)
+        there = route(free, here, place)
+        onward = route(free - standing, place, goal)
     except NoRouteError:
         return None
     return there, onward

@@ -15,7 +15,8 @@ from warehouse_client.commands import COMMANDS
 from warehouse_client.message_check import wait_for
 from warehouse_client.services import is_offered
 from warehouse_client.unit_messages import unit_ids, unit_poses
-from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
+from warehouse_layout.floor import plan_reader
+from warehouse_layout.floor.floor_plan import FloorError
 from warehouse_msgs.msg import (
     Event,
     FleetFollow,
@@ -216,7 +217,7 @@ def _chargers(message: Any) -> frozenset[tuple[int, int]]:
     """Returns the cells where robots are charged."""
     try:
         scenery = wait_for(rospy, "warehouse/scenery", Scenery, WAIT)
-        plan = FloorPlan.of_messages(message, scenery)
+        plan = plan_reader.of_messages(message, scenery)
     except (rospy.ROSException, FloorError):
         return frozenset()
     return frozenset((int(cell) % plan.width, int(cell) // plan.width) for cell in plan.charging)

@@ -14,7 +14,7 @@ from warehouse_fleet.hosts.controller import FleetController
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.transports.charging import Opportunity, Threshold
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 
 LONG = float(os.environ.get("CHARGING_MINUTES", "0"))
 MINUTES = LONG or 8
@@ -27,14 +27,14 @@ KEPT = 0.85 if LONG else 0.9
 
 @pytest.mark.parametrize(("size", "robots"), [("small", 4), ("medium", 20), ("large", 100)])
 def test_one_place_in_five_charges(size, robots):
-    plan = FloorPlan.of_world(World.preset(size))
+    plan = plan_reader.of_world(World.preset(size))
     assert len(plan.charging) == np.ceil(robots / 5)
     assert plan.parking.ravel()[plan.charging].all()
 
 
 def test_a_robot_that_is_charged_elsewhere_gets_no_work_below_a_charge():
     world = World.preset("small")
-    plan = replace(FloorPlan.of_world(world), charging=np.zeros(0, np.int32))
+    plan = replace(plan_reader.of_world(world), charging=np.zeros(0, np.int32))
     controller = FleetController(plan, world.fleet.kiva_id)
     controller.robots.charge = np.array([0.04, 0.14, 0.16, 1.0], np.float32)
     assert controller.transports.charging.kept().tolist() == [True, True, False, False]

@@ -12,7 +12,7 @@ from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.transports.transports import STAY, Kind, Step
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.message_enums import RobotMode as Mode
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
@@ -153,7 +153,7 @@ def test_who_queues_is_not_stuck_however_long_a_service_takes(drive):
 
 def test_who_only_waits_leaves_its_place_to_who_fetches_the_unit_there(drive):
     world = World.preset("small")
-    plan = FloorPlan.of_world(world)
+    plan = plan_reader.of_world(world)
     streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
     world.set_pose("kiva1", *plan.point_of(int(np.flatnonzero(streets)[20])), 0, 0)
     driver = drive(world)

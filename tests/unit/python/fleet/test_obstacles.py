@@ -12,7 +12,7 @@ from fault_site import BOX, Site
 from kiva_plugin_cpp import World
 from warehouse_fleet.transports.obstructions import in_the_way
 from warehouse_fleet.transports.transports import Kind
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.stations import STEPS
 
 FREE = 900  # within which no robot is near a cell [s]
@@ -24,7 +24,7 @@ ALL = os.environ.get("OBSTACLES") == "all"
 
 def only_ways_out(size):
     """Cells, ascending, to which the only exit of another cell leads."""
-    plan = FloorPlan.of_world(World.preset(size))
+    plan = plan_reader.of_world(World.preset(size))
     aside = (plan.storage | plan.parking | ~plan.passable).ravel()
     ways = set()
     for cell in np.flatnonzero(~aside).tolist():

@@ -8,7 +8,7 @@ from paths import ROOT
 from kiva_plugin_cpp import World
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.request import PRESETS
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.generate import generator
 from warehouse_layout.place import placement
 
@@ -30,7 +30,7 @@ def changed(path, tmp_path, **values):
 def test_the_world_has_the_floor_plan_of_the_drawing(spacing, tmp_path):
     path = changed(NORTH, tmp_path, spacing=spacing, items=40)
     world, drawn = World.layout(path), placement.place(layout_file.read(path)).plan
-    plan = FloorPlan.of_world(world)
+    plan = plan_reader.of_world(world)
     plan.check()
     assert world.grid_spacing == plan.spacing == spacing
     assert plan.origin == pytest.approx(drawn.origin)
@@ -77,8 +77,8 @@ def test_the_file_of_a_preset_stands_as_the_preset(tmp_path):
 def test_a_warehouse_stands_in_its_building():
     world = World.layout(IN_HALL)
     assert "wall_north" in world.names
-    FloorPlan.of_world(world).check()
-    assert [s.name for s in FloorPlan.of_world(world).stations] == ["pick1"]
+    plan_reader.of_world(world).check()
+    assert [s.name for s in plan_reader.of_world(world).stations] == ["pick1"]
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from nav_msgs.msg import OccupancyGrid
 
-from warehouse_client.routes import STEPS
 from warehouse_layout.file.request import PRESETS, Request, RequestError, resolve
+from warehouse_layout.floor.stations import STEPS
 from warehouse_layout.generate.cells import Cells
 from warehouse_layout.generate.fit import fit
 

@@ -7,12 +7,14 @@ from nav_msgs.msg import OccupancyGrid
 from test_floor_plan import same
 
 from kiva_plugin_cpp import World
-from warehouse_layout.floor import floor_markings, painted
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import floor_markings, palette, plan_reader
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
 from warehouse_viewer.drawing import markers
 from warehouse_viewer.drawing.drawing import Drawing, Moment
 from warehouse_viewer.page.model import Model
+
+LANES = {"queue", "service", "exit"}
+PAINTED = {"storage", "parking", "charging", "keep_out", "street"} | LANES
 
 
 def look_of(world, name):
@@ -60,11 +62,11 @@ def grid_of(world):
 
 
 def test_messages_tell_the_same_floor_plan_as_the_world(world, scenery):
-    assert same(FloorPlan.of_messages(grid_of(world), scenery), FloorPlan.of_world(world))
+    assert same(plan_reader.of_messages(grid_of(world), scenery), plan_reader.of_world(world))
 
 
 def test_rviz_shows_paint_in_few_triangles_and_names_stations(world, scenery):
-    marks = painted.marks(scenery)
+    marks = floor_markings.readable(scenery)
     paint, *names = markers.paint(marks)
     assert {name._marker.text for name in names} == {"pick1", "pick2", "replenish1"}
     assert len(paint.points) == 6 * len(marks)
@@ -83,13 +85,13 @@ def test_the_page_gets_rectangles_by_kind_and_stations(scenery):
     assert {station["name"] for station in scene["stations"]} == {"pick1", "pick2", "replenish1"}
     area = np.reshape(scene["paint"]["storage"], (-1, 4))[:, 2:]
     assert np.round(area + 0.1).prod(axis=1).sum() == 29  # places
-    assert set(scene["paint"]) == set(floor_markings.COLOURS)
+    assert set(scene["paint"]) == PAINTED <= set(palette.CELLS)
 
 
 def test_a_drawing_shows_where_units_are_served(scenery):
     moment = Moment(WarehouseObjects(), UnitStates(), FleetState(), scenery)
     drawing = Drawing(moment, dpi=50)
     drawing.draw(moment)
-    colour = floor_markings.COLOURS[floor_markings.SERVICE]
+    colour = palette.rgb("service")
     far = np.abs(drawing.pixels() / 255 - colour).max(axis=2)
     assert (far < 0.02).sum() > 100

@@ -9,8 +9,7 @@ from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, Rules, epibt
 from warehouse_layout import FloorError
 from warehouse_layout.file.request import PRESETS, resolve
-from warehouse_layout.floor import floor_markings
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import floor_markings, plan_reader
 from warehouse_layout.generate import generated
 from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
@@ -90,14 +89,14 @@ def test_streets_of_neighbours_are_opposed():
 @pytest.mark.parametrize("preset", STATIONED)
 def test_a_world_tells_its_floor_plan(preset):
     world = World.preset(preset)
-    assert same(FloorPlan.of_world(world), plan(resolve(preset)).plan)
+    assert same(plan_reader.of_world(world), plan(resolve(preset)).plan)
 
 
 def test_a_restored_world_and_one_that_was_moved_tell_theirs():
     world, other = World.preset("small"), World()
     other.restore(world.checkpoint())
-    known = FloorPlan.of_world(world)
-    assert same(FloorPlan.of_world(other), known)
+    known = plan_reader.of_world(world)
+    assert same(plan_reader.of_world(other), known)
 
     marks = floor_markings.read(other.visuals("floor_markings1"), [3, -2, 0, 0, 0, 0, 1])
     assert {(m.x - 3, m.y + 2) for m in marks} == {
@@ -111,7 +110,7 @@ def test_markings_turn_with_what_they_mark():
     world = World()
     world.spawn(models.document([models.Part("marks", floor_markings.sdf(known))]))
     world.set_pose("floor_markings1", 0, 0, 0, np.pi / 2)
-    turned = FloorPlan.of_world(world)
+    turned = plan_reader.of_world(world)
     assert len(turned.stations) == len(known.stations)
     for was, now in zip(known.stations, turned.stations):
         x, y = known.point_of(was.cells)
@@ -129,7 +128,7 @@ def test_a_warehouse_that_is_added_to_another_brings_its_floor_plan(tmp_path):
     file.write_text(marks)
     world.spawn(insertable(file, world.names).xml)
     world.set_pose("floor_markings2", 30, 20)
-    names = [station.name for station in FloorPlan.of_world(world).stations]
+    names = [station.name for station in plan_reader.of_world(world).stations]
     assert names == ["pick1", "pick2", "replenish1", "pick3", "pick4", "replenish2"]
 
 
@@ -143,20 +142,20 @@ def test_cells_and_points():
 
 def test_a_street_that_is_closed_is_named():
     world = World.preset("small")
-    known = FloorPlan.of_world(world)
+    known = plan_reader.of_world(world)
     known.check()
     x, y = known.point_of(known.width * 3 + 4)  # on the street between two rows of blocks
     world.spawn_model("wall", "wall1", x, y)
     with pytest.raises(FloorError, match=r"no loaded robot .*\("):
-        FloorPlan.of_world(world).check()
+        plan_reader.of_world(world).check()
 
 
 def test_what_stands_in_a_lane_is_in_the_way_and_the_lane_stays():
     world = World.preset("small")
-    known = FloorPlan.of_world(world)
+    known = plan_reader.of_world(world)
     cell = int(known.station("pick1").cells[2])
     world.spawn_model("person", "person1", *known.point_of(cell))
-    plan = FloorPlan.of_world(world)
+    plan = plan_reader.of_world(world)
     assert same(plan, known)
     assert plan.obstructed.flat[cell]
     plan.check(obstructed=False)
@@ -172,7 +171,7 @@ def unmarked(size, belt=(7, 7), taken=()):
     for i, j in taken:
         occupancy[j, i] = 100
     belts = {"conveyor_belt1": (x + 0.5, y)}
-    return FloorPlan.of_parts(0, 0, 1, occupancy, [], belts)
+    return plan_reader.of_parts(0, 0, 1, occupancy, [], belts)
 
 
 def test_a_belt_on_a_floor_without_markings_gets_a_lane():
@@ -208,7 +207,7 @@ def test_wrong_markings_are_refused(link, size, at, message):
         " 0.01</size></box></geometry></visual></link></model></world></sdf>"
     )
     with pytest.raises(FloorError, match=message):
-        FloorPlan.of_world(world)
+        plan_reader.of_world(world)
 
 
 def test_a_fleet_delivers_to_every_station_and_waits_in_lanes_without_turning():
@@ -255,4 +254,4 @@ def test_a_floor_with_more_marks_than_a_model_holds_is_marked_by_several(monkeyp
     assert [name for name in world.names if floor_markings.is_name(name)] == [
         f"floor_markings{n}" for n in (1, 2, 3)
     ]
-    assert same(FloorPlan.of_world(world), plan(resolve("small")).plan)
+    assert same(plan_reader.of_world(world), plan(resolve("small")).plan)

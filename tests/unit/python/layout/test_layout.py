@@ -8,8 +8,9 @@ import random
 
 import numpy as np
 import pytest
+from grid import Grid
 
-from warehouse_client.routes import Grid, covered, point
+from warehouse_client.routes import covered, point
 from warehouse_layout.file.items import BOARDS, CAPACITY, PLACES, spread
 from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS, resolve
 from warehouse_layout.generate.generated import plan

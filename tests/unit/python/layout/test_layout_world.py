@@ -13,7 +13,8 @@ from warehouse_layout.convert import from_world
 from warehouse_layout.file import drawn_floor
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.request import PRESETS, Request
-from warehouse_layout.floor.floor_plan import BELT, FloorPlan
+from warehouse_layout.floor import plan_reader
+from warehouse_layout.floor.plan_reader import BELT
 from warehouse_layout.generate import compact, generator
 from warehouse_layout.models import world_export
 from warehouse_layout.place import placement
@@ -88,7 +89,7 @@ def test_everything_stands_in_the_world(file, path):
 def test_fleets_find_the_floor_in_it_as_it_was_drawn(file, path):
     if (file.floor == lf.WALL).any():
         return  # beside walls the world's map leaves room to turn
-    standing, drawn = FloorPlan.of_world(World(world=str(path))), placement.place(file).plan
+    standing, drawn = plan_reader.of_world(World(world=str(path))), placement.place(file).plan
     column, row = np.round(np.subtract(drawn.origin, standing.origin) / drawn.spacing).astype(int)
     height, width = drawn.shape
     part = np.s_[row : row + height, column : column + width]

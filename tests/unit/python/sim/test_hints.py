@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from grid import Grid
 
-from warehouse_client.routes import Grid, covered, elbow, point
+from warehouse_client.routes import covered, elbow, point
 from warehouse_client.survey import BELT, Survey, of_models
 from warehouse_layout.file.request import PRESETS, resolve
 from warehouse_layout.generate.generated import plan

@@ -18,7 +18,7 @@ from warehouse_fleet.hosts.controller import FleetController, Observation
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.unit_map import UnitPoses
-from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_layout.message_enums import State, Status
 from warehouse_vda5050 import model
@@ -179,7 +179,7 @@ class Floor:
     def __init__(self, seed, turns):
         world = World.preset("small")
         self.chance, self.now = random.Random(seed), 0.0
-        plan = self.plan = FloorPlan.of_world(world)
+        plan = self.plan = plan_reader.of_world(world)
         x, y = (float(value) for value in plan.point_of(np.int32(0)))
         rows, columns = plan.shape
         fleet, units = world.fleet, world.storage_units

@@ -19,6 +19,7 @@ from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.served_part import LeftOut, served_part
 from warehouse_layout.message_enums import RobotMode as Mode
@@ -225,7 +226,7 @@ class CoordinatorNode:
             grid = request_map()
             if not grid.data:
                 return  # the floor is being built
-            whole = FloorPlan.of_messages(grid, self._watch.scenery)
+            whole = plan_reader.of_messages(grid, self._watch.scenery)
             plan, left_out = served_part(whole)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))

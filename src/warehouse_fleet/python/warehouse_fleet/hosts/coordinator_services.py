@@ -2,6 +2,7 @@
 """The services of the coordinator: requests from ROS to a FleetController."""
 
 import math
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any, Protocol
 
@@ -14,6 +15,7 @@ from warehouse_fleet.hosts.fleet_driver import square
 from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.transport_book import TransportAnswer
+from warehouse_fleet.transports.transports import Transports
 from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_msgs.srv import (
     CancelTransport,
@@ -85,20 +87,16 @@ class CoordinatorServices:
             return TransportResponse(*answer)
 
     def _on_release(self, request: ReleaseTransportRequest) -> ReleaseTransportResponse:
-        host = self._host
-        with host.lock:
-            if host.controller is None:
-                return ReleaseTransportResponse(False, host.reason)
-            answer = host.controller.transports.release(request.transport_id)
-            return ReleaseTransportResponse(*answer)
+        return ReleaseTransportResponse(*self._asked(lambda t: t.release(request.transport_id)))
 
     def _on_cancel(self, request: CancelTransportRequest) -> CancelTransportResponse:
+        return CancelTransportResponse(*self._asked(lambda t: t.cancel(request.transport_id)))
+
+    def _asked(self, ask: Callable[[Transports], tuple[bool, str]]) -> tuple[bool, str]:
+        """Returns what the fleet's transports answer, or that there is no fleet and why."""
         host = self._host
         with host.lock:
-            if host.controller is None:
-                return CancelTransportResponse(False, host.reason)
-            answer = host.controller.transports.cancel(request.transport_id)
-            return CancelTransportResponse(*answer)
+            return ask(host.controller.transports) if host.controller else (False, host.reason)
 
     def _on_mode(self, request: SetRobotModeRequest) -> SetRobotModeResponse:
         host = self._host

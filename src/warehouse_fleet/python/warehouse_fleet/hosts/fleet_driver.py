@@ -17,6 +17,7 @@ from warehouse_fleet.robots.robot_table import columns_of
 from warehouse_fleet.traffic.people import PeopleLog, people_in
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.unit_map import UnitPoses
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.message_enums import EventKind
 
@@ -51,7 +52,7 @@ class FleetDriver:
         plan: FloorPlan | None = None,
     ) -> None:
         self.world = world
-        self.plan = plan or FloorPlan.of_world(world)
+        self.plan = plan or plan_reader.of_world(world)
         self.plan.check(obstructed=False)
         self.controller = FleetController(
             self.plan,

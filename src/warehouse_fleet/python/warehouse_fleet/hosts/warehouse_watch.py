@@ -14,7 +14,7 @@ from warehouse_client.message_check import fit, subscribe
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor import floor_markings
-from warehouse_layout.floor.floor_plan import CONVEYOR, occupancy_of
+from warehouse_layout.floor.plan_reader import CONVEYOR, occupancy_of
 from warehouse_msgs.msg import (
     Event,
     FleetState,

@@ -20,7 +20,8 @@ from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
-from warehouse_layout.floor.floor_plan import FloorPlan, is_taken
+from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.plan_reader import is_taken
 from warehouse_layout.message_enums import RobotMode as Mode
 from warehouse_layout.message_enums import Status
 

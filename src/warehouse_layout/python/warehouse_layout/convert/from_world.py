@@ -17,9 +17,10 @@ from warehouse_layout.convert.common import with_letters
 from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
-from warehouse_layout.floor import floor_markings
-from warehouse_layout.floor.floor_plan import BELT, UNIT, FloorError, FloorPlan
+from warehouse_layout.floor import floor_markings, plan_reader
+from warehouse_layout.floor.floor_plan import FloorError, FloorPlan
 from warehouse_layout.floor.masks import labelled
+from warehouse_layout.floor.plan_reader import BELT, UNIT
 from warehouse_layout.floor.stations import PICK, Station
 from warehouse_layout.models.models import FLOOR, WALLS, kind_and_number
 from warehouse_layout.models.sdf_world import Model, SdfWorld, Solid, WorldError
@@ -207,7 +208,7 @@ class _Drawing:
             for mark in floor_markings.read(model.visuals, model.pose, model.name)
         ]
         at = {m.name: m.pose[:2].tolist() for m in self._kinds.get("conveyor_belt", ())}
-        return FloorPlan.of_parts(*raster.origin, raster.spacing, occupancy, marks, at)
+        return plan_reader.of_parts(*raster.origin, raster.spacing, occupancy, marks, at)
 
     def _standing(self, kind: str, allowed: np.ndarray, where: str) -> tuple[Cell, ...]:
         """Returns the cells in which models of a kind stand; tells of those that are elsewhere."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from warehouse_layout.convert.common import plural
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.floor.palette import PLAN
 
 SUFFIXES = (".svg", ".png")
 DPI = 200
@@ -44,7 +45,7 @@ def draw(file: LayoutFile, out: str | Path) -> None:
     metadata = {"Date": None} if Path(out).suffix.lower() == ".svg" else {}
     try:
         with matplotlib.rc_context(settings):
-            page.figure.savefig(out, dpi=DPI, facecolor="white", metadata=metadata)
+            page.figure.savefig(out, dpi=DPI, facecolor=PLAN["paper"], metadata=metadata)
     except OSError as error:
         raise LayoutFileError(f"{out}: {error.strerror or error}") from error
 
@@ -114,7 +115,7 @@ class _Page:
         width, height = self._size
         low = EDGE / 2
         frame = Rectangle((low, low), width - 2 * low, height - 2 * low, fill=False)
-        frame.set(edgecolor="#2f3640", linewidth=1.0)
+        frame.set(edgecolor=PLAN["ink"], linewidth=1.0)
         self._inches().add_patch(frame)
 
     # --- title
@@ -124,7 +125,7 @@ class _Page:
         axes.text(EDGE + 0.05, top - 0.05, self._subject.file.title, **_text(17, "top", "bold"))
         axes.text(EDGE + 0.05, top - 0.42, "   ".join(self._facts()), **_text(9, "top"))
         if self._subject.fault:
-            style = _text(8, "top") | {"color": "#c2182b"}
+            style = _text(8, "top") | {"color": PLAN["fault"]}
             axes.text(EDGE + 0.05, top - 0.62, self._subject.fault, **style)
 
     def _facts(self) -> Iterator[str]:
@@ -152,7 +153,7 @@ class _Page:
         _dimension(axes, (left, y), (left + along[0], y), _metres(width * spacing))
         _dimension(axes, (x, bottom), (x, bottom + along[1]), _metres(height * spacing))
         step = _nice(0.32 / self._cell)
-        style = _text(5.5, "center") | {"color": "#8a94a0", "ha": "center"}
+        style = _text(5.5, "center") | {"color": PLAN["faint"], "ha": "center"}
         for column in range(0, width, step):
             at = left + (column + 0.5) * self._cell
             axes.text(at, self._plan_bottom() - 0.08, str(column), **style)
@@ -188,7 +189,7 @@ class _Page:
         a_metre = self._cell / spacing  # [in]
         length = _nice(1.1 / a_metre) if a_metre < 1.1 else 1
         for i in range(4):
-            colour = "#2f3640" if i % 2 == 0 else "white"
+            colour = PLAN["paper" if i % 2 else "ink"]
             begin = left + i * length * a_metre / 4
             axes.add_patch(_bar(begin, y, length * a_metre / 4, colour))
         axes.text(left, y - 0.1, "0", **_text(7, "top") | {"ha": "center"})
@@ -204,7 +205,7 @@ class _Page:
 def _bar(x: float, y: float, length: float, colour: str) -> Any:
     from matplotlib.patches import Rectangle
 
-    return Rectangle((x, y), length, 0.07, facecolor=colour, edgecolor="#2f3640", linewidth=0.6)
+    return Rectangle((x, y), length, 0.07, facecolor=colour, edgecolor=PLAN["ink"], linewidth=0.6)
 
 
 def _dimension(axes: Any, begin: tuple[float, float], end: tuple[float, float], text: str) -> None:
@@ -212,11 +213,11 @@ def _dimension(axes: Any, begin: tuple[float, float], end: tuple[float, float], 
     (x, y), (to_x, to_y) = begin, end
     is_upright = x == to_x
     across = (0.06, 0.0) if is_upright else (0.0, 0.06)
-    axes.plot([x, to_x], [y, to_y], color="#2f3640", linewidth=0.7)
+    axes.plot([x, to_x], [y, to_y], color=PLAN["ink"], linewidth=0.7)
     for px, py in (begin, end):
         ends = [px - across[0], px + across[0]], [py - across[1], py + across[1]]
-        axes.plot(*ends, color="#2f3640", linewidth=0.7)
-        axes.plot([px - 0.04, px + 0.04], [py - 0.04, py + 0.04], color="#2f3640", linewidth=1.1)
+        axes.plot(*ends, color=PLAN["ink"], linewidth=0.7)
+        axes.plot([px - 0.04, px + 0.04], [py - 0.04, py + 0.04], color=PLAN["ink"], linewidth=1.1)
     middle = (
         (x + to_x) / 2 - (0.09 if is_upright else 0),
         (y + to_y) / 2 - (0 if is_upright else 0.09),
@@ -226,7 +227,7 @@ def _dimension(axes: Any, begin: tuple[float, float], end: tuple[float, float], 
 
 
 def _text(size: float, vertical: str, weight: str = "normal") -> dict[str, Any]:
-    return {"fontsize": size, "va": vertical, "fontweight": weight, "color": "#2f3640"}
+    return {"fontsize": size, "va": vertical, "fontweight": weight, "color": PLAN["ink"]}
 
 
 def _metres(length: float) -> str:

@@ -8,38 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
-from warehouse_layout.drawing import plan_shapes as shapes
 from warehouse_layout.file import drawn_floor, station_lanes
 from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.floor import outlines as shapes
+from warehouse_layout.floor.palette import PLAN
 from warehouse_layout.floor.stations import PICK, STEPS, Station, lane_mask
 from warehouse_layout.place import placement
 from warehouse_layout.place.layout import Layout
 
-INK, FAINT, PAPER = "#2f3640", "#8a94a0", "#ffffff"
-COLOURS = {
-    "floor": "#f5f4ef",
-    "grid": "#e6e4dc",
-    "storage": "#d9e2ec",
-    "unit": "#5b7fa6",
-    "parking": "#dcebd7",
-    "charging": "#b4dba6",
-    "bolt": "#2f7d32",
-    "keep_out": "#efece6",
-    "stripe": "#c9c1b4",
-    "wall": "#4a4f57",
-    "belt": "#2d2f33",
-    "belt_edge": "#f0bf2f",
-    "queue": "#fbe8b0",
-    "service": "#f2a93b",
-    "replenish": "#7fb8d8",
-    "exit": "#f7f1d6",
-    "lane": "#a8741a",
-    "arrow": "#8793a0",
-    "robot": "#d8502a",
-    "fault": "#c2182b",
-}
+CHUNK = 1500  # shapes of one path: the rasterizer has a limit
 ARROW_ROOM = 0.19  # [in]: arrows are this far apart, at least
 FINE = 0.06  # [in]: smaller cells have no grid
 LETTER = 0.62  # width of a letter, of its size
@@ -79,8 +60,7 @@ class Subject:
         """Returns the cells of all lanes' "queue", "service" or "exit", (h, w) bool."""
         out = np.zeros(self.file.shape, bool)
         for station in self.stations:
-            parts = np.split(station.cells, [station.service, station.service + 1])
-            out.flat[parts[("queue", "service", "exit").index(part)]] = True
+            out.flat[station.parts[part]] = True
         return out
 
 
@@ -103,7 +83,7 @@ class Layers:
             self._name(station)
 
     def _add(self, outlines: np.ndarray, colour: str, **style: object) -> None:
-        shapes.add(self._axes, outlines, **{"facecolor": COLOURS[colour], **style})
+        add(self._axes, outlines, **{"facecolor": PLAN[colour], **style})
 
     def _floor(self) -> None:
         drawn = self._subject.drawn
@@ -114,13 +94,13 @@ class Layers:
             # Lines between the cells of the floor: those of one row's columns, and of both.
             mesh = [shapes.borders(is_floor & (np.arange(width) % 2 == i)) for i in (0, 1)]
             mesh += [shapes.borders(is_floor & (np.arange(height)[:, None] % 2 == 0))]
-            style = {"colors": COLOURS["grid"], "linewidths": 0.4, "zorder": 0.6}
+            style = {"colors": PLAN["grid"], "linewidths": 0.4, "zorder": 0.6}
             self._axes.add_collection(LineCollection(np.concatenate(mesh), **style))
         keep_out = self._subject.file.floor == lf.KEEP_OUT
         self._add(shapes.boxes(keep_out), "keep_out")
         self._add(shapes.stripes(keep_out), "stripe")
         outline = shapes.borders(is_floor & ~drawn.walls & ~drawn.belts)
-        self._axes.add_collection(LineCollection(outline, colors=FAINT, linewidths=0.6))
+        self._axes.add_collection(LineCollection(outline, colors=PLAN["faint"], linewidths=0.6))
 
     def _places(self) -> None:
         drawn = self._subject.drawn
@@ -134,8 +114,7 @@ class Layers:
     def _solids(self) -> None:
         drawn = self._subject.drawn
         self._add(shapes.boxes(drawn.walls), "wall")
-        self._add(shapes.boxes(drawn.belts), "belt_edge")
-        self._add(shapes.boxes(drawn.belts, 0.1), "belt")
+        self._add(shapes.boxes(drawn.belts), "belt")
 
     def _lanes(self) -> None:
         subject = self._subject
@@ -147,7 +126,7 @@ class Layers:
             at = cells[[station.service]]
             self._add(shapes.placed(shapes.SQUARE, at, 0.46), colour)
             line = max(0.5, min(1.4, self._cell * 5))
-            self._axes.plot(*cells.T, color=COLOURS["lane"], linewidth=line, zorder=1.5)
+            self._axes.plot(*cells.T, color=PLAN["lane"], linewidth=line, zorder=1.5)
             yaw = shapes.heading(cells[-2], cells[-1]) if len(cells) > 1 else 0.0
             end = cells[-1] + 0.25 * np.array([math.cos(yaw), math.sin(yaw)])
             self._add(shapes.placed(shapes.ARROW[2:5], end[None], 0.3, yaw), "lane", zorder=2)
@@ -185,10 +164,10 @@ class Layers:
         layout = self._subject.layout
         if layout and len(layout.robots):
             cells, yaw = self._subject.cells(layout.robots[:, :2]), layout.robots[:, 2]
-            style = {"edgecolor": PAPER, "linewidth": min(0.6, self._cell * 3), "zorder": 3}
+            style = {"edgecolor": PLAN["paper"], "linewidth": min(0.6, self._cell * 3), "zorder": 3}
             self._add(shapes.placed(shapes.DISC, cells, 0.34), "robot", **style)
             tips = shapes.placed(shapes.TIP, cells, 0.3, yaw)
-            shapes.add(self._axes, tips, facecolor=PAPER, zorder=3)
+            self._add(tips, "paper", zorder=3)
 
     def _name(self, station: Station) -> None:
         """Writes a station's name beyond its service cell and belt, off its lane."""
@@ -206,14 +185,26 @@ class Layers:
             rotation=90 if out[1] and is_wide(station.name, self._cell) else 0,
             fontsize=name_size(self._cell),
             fontweight="bold",
-            color=INK,
+            color=PLAN["ink"],
             zorder=5,
-            bbox={"facecolor": PAPER, "alpha": 0.8, "linewidth": 0, "pad": 0.8},
+            bbox={"facecolor": PLAN["paper"], "alpha": 0.8, "linewidth": 0, "pad": 0.8},
         )
 
     def _is_belt(self, cell: np.ndarray) -> bool:
         (x, y), belts = cell, self._subject.drawn.belts
         return 0 <= x < belts.shape[1] and 0 <= y < belts.shape[0] and bool(belts[y, x])
+
+
+def add(axes: Axes, outlines: np.ndarray, **style: object) -> None:
+    """Adds closed outlines (n, corners, 2) to axes."""
+    for begin in range(0, len(outlines), CHUNK):
+        part = outlines[begin : begin + CHUNK]
+        closed = np.concatenate([part, part[:, :1]], axis=1)
+        codes = np.full(closed.shape[:2], Path.LINETO, Path.code_type)
+        codes[:, 0], codes[:, -1] = Path.MOVETO, Path.CLOSEPOLY
+        path = Path(closed.reshape(-1, 2), codes.ravel())
+        # The limits of the axes are known: add_patch() would search all shapes for them.
+        axes.add_artist(PathPatch(path, **{"linewidth": 0, **style}))
 
 
 def _outward(lane: np.ndarray, service: int) -> np.ndarray:

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout.drawing import plan_shapes as shapes
-from warehouse_layout.drawing.plan_layers import COLOURS, PAPER, Subject
+from warehouse_layout.drawing.plan_layers import Subject, add
 from warehouse_layout.file import layout_file as lf
+from warehouse_layout.floor import outlines as shapes
+from warehouse_layout.floor.palette import PLAN
 from warehouse_layout.floor.stations import PICK, lane_mask
 
 SIZE = 0.095  # [in]: half of a symbol
@@ -21,9 +22,9 @@ def _of(*parts: tuple[np.ndarray, float, str]) -> Symbol:
 
     def draw(axes: Any, at: np.ndarray) -> None:
         for outline, size, colour in parts:
-            style = {"edgecolor": COLOURS["stripe"], "linewidth": 0.3 if size == 1 else 0}
+            style = {"edgecolor": PLAN["stripe"], "linewidth": 0.3 if size == 1 else 0}
             outlines = shapes.placed(outline, at, SIZE * size)
-            shapes.add(axes, outlines, facecolor=COLOURS.get(colour, colour), **style)
+            add(axes, outlines, facecolor=PLAN[colour], **style)
 
     return draw
 
@@ -32,7 +33,7 @@ _SQUARE, _ON = shapes.SQUARE, (shapes.SQUARE, 1, "floor")
 _STRIPE = np.array([(-1, -1), (-0.72, -1), (1, 0.72), (1, 1)])
 
 SYMBOLS: dict[str, tuple[Symbol, str]] = {
-    "robot": (_of((shapes.DISC, 0.9, "robot"), (shapes.TIP, 0.75, PAPER)), "robot"),
+    "robot": (_of((shapes.DISC, 0.9, "robot"), (shapes.TIP, 0.75, "paper")), "robot"),
     "unit": (
         _of((_SQUARE, 0.8, "unit"), (_SQUARE, 0.6, "storage"), (_SQUARE, 0.44, "unit")),
         "storage unit",
@@ -47,7 +48,7 @@ SYMBOLS: dict[str, tuple[Symbol, str]] = {
     "replenish": (_of((_SQUARE, 1, "replenish")), "replenishment: service"),
     "queue": (_of((_SQUARE, 1, "queue"), (shapes.DISC, 0.3, "lane")), "queue, from its entry"),
     "exit": (_of((_SQUARE, 1, "exit"), (shapes.ARROW, 0.7, "lane")), "way out of a station"),
-    "belt": (_of((_SQUARE, 1, "belt_edge"), (_SQUARE, 0.8, "belt")), "conveyor belt"),
+    "belt": (_of((_SQUARE, 1, "belt")), "conveyor belt"),
     "wall": (_of((_SQUARE, 1, "wall")), "wall, pillar"),
     "keep_out": (_of((_SQUARE, 1, "keep_out"), (_STRIPE, 0.99, "stripe")), "no robot drives"),
     "fault": (_of((_SQUARE, 1, "fault")), "station without a lane"),

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from warehouse_layout.floor.floor_markings import Rectangle, rectangles
+from warehouse_layout.floor.outlines import Rectangle, rectangles
 
 TURNING = 0.58  # [m]: from the middle of a cell; as far as the corners of a turning unit reach
 

@@ -16,43 +16,37 @@ Thus a world holds its floor plan, be it a file, in a process or sent as message
 moved or turned by quarters mark the cells that lie beneath them then.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from warehouse_layout._core import FloorError
+from warehouse_layout.floor import palette
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.interfaces import Look, Scenery
-from warehouse_layout.floor.stations import PICK, REPLENISH, Station, check_lane, with_lanes
-
-if TYPE_CHECKING:
-    from warehouse_layout.floor.floor_plan import FloorPlan
+from warehouse_layout.floor.outlines import SQUARE, Rectangle, rectangles
+from warehouse_layout.floor.stations import (
+    PICK,
+    QUEUE,
+    REPLENISH,
+    SERVICE,
+    Station,
+    check_lane,
+    with_lanes,
+)
 
 NAME = "floor_markings"
 HEADINGS = ("+x", "+y", "-x", "-y")
-QUEUE, SERVICE, EXIT = "queue", "service", "exit"
 
 _NAMED = re.compile(rf"{NAME}\d*")
-COLOURS = {  # red green blue, each in 0…1
-    "storage": (0.73, 0.76, 0.80),
-    "parking": (0.70, 0.78, 0.74),
-    "charging": (0.55, 0.78, 0.55),
-    "keep_out": (0.74, 0.72, 0.70),
-    "exits": (0.79, 0.79, 0.81),
-    QUEUE: (0.86, 0.79, 0.55),
-    SERVICE: (0.80, 0.62, 0.30),
-    EXIT: (0.84, 0.82, 0.68),
-}
-_GAP = {"exits": 0.0}  # between a marking and the border of its cells, of a cell
+_GAP = {"street": 0.0}  # between a marking and the border of its cells, of a cell
 _THICK = 0.004  # of paint [m]
 MOST_MARKS = 20_000  # in a model: 4 MB of text
 
-Rectangle = tuple[int, int, int, int]  # first x, first y, last x, last y in cells
 Point = Sequence[float]  # x, y [m]
 
 
@@ -74,7 +68,7 @@ class Mark:
 
     @property
     def kind(self) -> str:
-        """One of COLOURS, or any other name."""
+        """A kind of cell in the palette, or any other name."""
         return _kind(self.label)
 
     @property
@@ -88,7 +82,7 @@ Lanes = dict[tuple[str, str], list[tuple[Mark, tuple[slice, slice]]]]
 
 
 def _kind(label: str) -> str:
-    return "exits" if label.startswith("exits") else label.rpartition("/")[2]
+    return "street" if label.startswith("exits") else label.rpartition("/")[2]
 
 
 # --- painting
@@ -142,26 +136,9 @@ def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
         label = "exits" + "".join(h for i, h in enumerate(HEADINGS) if mask >> i & 1)
         yield label, rectangles(ruled & (plan.exits == mask))
     for station in plan.stations:
-        parts = np.split(station.cells, [station.service, station.service + 1])
-        for part, cells in zip((QUEUE, SERVICE, EXIT), parts):
+        for part, cells in station.parts.items():
             y, x = np.divmod(cells, plan.width)
             yield f"{station.kind}/{station.name}/{part}", np.column_stack([x, y, x, y]).tolist()
-
-
-def rectangles(mask: np.ndarray) -> list[Rectangle]:
-    """Returns Rectangles that cover the cells of a mask (h, w)."""
-    left = mask.copy()
-    out: list[Rectangle] = []
-    for y, x in np.argwhere(mask).tolist():
-        if not left[y, x]:
-            continue
-        stop = x + int(np.argmin(np.append(left[y, x:], False)))
-        low = y + 1
-        while low < len(left) and left[low, x:stop].all():
-            low += 1
-        left[y:low, x:stop] = False
-        out.append((x, y, stop - 1, low - 1))
-    return out
 
 
 def _link(label: str, plan: FloorPlan, cells: Iterable[Rectangle]) -> str:
@@ -175,7 +152,7 @@ def _visual(i: int, label: str, plan: FloorPlan, rectangle: Rectangle) -> str:
     x, y = np.array(plan.origin) + plan.spacing * (low + high) / 2
     width, height = plan.spacing * (high - low + 1 - _GAP.get(kind, 0.1))
     z = _THICK / 2
-    colour = "{} {} {} 1".format(*COLOURS[kind])
+    colour = "{:.3g} {:.3g} {:.3g} 1".format(*palette.rgb(kind))
     return (
         f'<visual name="{i}"><pose>{x:.6g} {y:.6g} {z:g} 0 0 0</pose><geometry><box>'
         f"<size>{width:.6g} {height:.6g} {2 * z:g}</size></box></geometry>"
@@ -195,6 +172,25 @@ def of_scenery(scenery: Scenery) -> list[Mark]:
         if is_name(name):
             marks += read(_of_look(scenery.looks[look]), pose, name)
     return marks
+
+
+def readable(scenery: Scenery) -> list[Mark]:
+    """Returns the Marks in a Scenery; none where they can't be read."""
+    try:
+        return of_scenery(scenery)
+    except FloorError:
+        return []
+
+
+def served(marks: Iterable[Mark]) -> list[Mark]:
+    """Returns the Marks at which units are served."""
+    return [m for m in marks if m.kind == SERVICE]
+
+
+def outlines(marks: Iterable[Mark]) -> np.ndarray:
+    """Returns the corners of Marks in `world` [m], (n, 4, 2)."""
+    rows = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 1, 4))
+    return rows[..., :2] + SQUARE * rows[..., 2:] / 2
 
 
 def _of_look(look: Look) -> list[Any]:
@@ -258,7 +254,7 @@ def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point])
             lanes.setdefault(lane, []).append((mark, where))
     # A marked cell is floor, even if an obstacle is there now.
     passable = (blank.passable | marked) & ~keep_out
-    return type(blank).laid_out(
+    return FloorPlan.laid_out(
         origin=blank.origin,
         spacing=blank.spacing,
         passable=passable,

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The floor that a fleet drives on: streets, storage places, stations with lanes, cell by cell.
 
-A FloorPlan is read from a world, never kept beside it: the markings on its floor (see
-floor_markings) and its models tell all of it.
+A FloorPlan is read from a world, never kept beside it: plan_reader.
 
-    plan = FloorPlan.of_world(World.preset("huge"))
+    plan = plan_reader.of_world(World.preset("huge"))
     planner = epibt(plan.floor(), Rules(following=False))
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,18 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from warehouse_layout._core import Floor, FloorError, check_layout
-from warehouse_layout.floor import floor_markings, lane_finder
-from warehouse_layout.floor.floor_markings import Mark
-from warehouse_layout.floor.interfaces import OccupancyGrid, Scenery, World
 from warehouse_layout.floor.stations import PICK, REPLENISH, Station, lane_mask, with_lanes
 
 __all__ = ["PICK", "REPLENISH", "FloorError", "FloorPlan", "Station"]
 
 ALL_EXITS = 0b1111
-CONVEYOR = "conveyor_belt"  # the names of belts begin with it
-UNIT, BELT = 50, 99  # values in the world's map: beneath a storage unit; a conveyor belt
-
-Point = Sequence[float]  # x, y [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,52 +118,6 @@ class FloorPlan:
         return [f"something stands at {points}"] if points else []
 
     @classmethod
-    def of_world(cls, world: World) -> "FloorPlan":
-        """Reads a kiva_plugin_cpp.World. Raises FloorError where markings contradict each other."""
-        marks: list[Mark] = []
-        belts: dict[str, Any] = {}  # x, y [m]
-        for name in world.names:
-            if floor_markings.is_name(name):
-                marks += floor_markings.read(world.visuals(name), world.pose(name), name)
-            elif name.startswith(CONVEYOR):
-                belts[name] = world.pose(name)[:2]
-        x, y, spacing, cells = world.occupancy()
-        return cls.of_parts(x, y, spacing, cells, marks, belts)
-
-    @classmethod
-    def of_messages(cls, grid: OccupancyGrid, scenery: Scenery) -> "FloorPlan":
-        """Reads a nav_msgs/OccupancyGrid (/warehouse/map) and a Scenery.
-
-        Raises FloorError where markings contradict each other.
-        """
-        corner, spacing = grid.info.origin.position, grid.info.resolution
-        poses = np.reshape(scenery.pose, (-1, 7))
-        belts = {n: p[:2] for n, p in zip(scenery.models, poses) if n.startswith(CONVEYOR)}
-        marks = floor_markings.of_scenery(scenery)
-        x, y = corner.x + spacing / 2, corner.y + spacing / 2
-        return cls.of_parts(x, y, spacing, occupancy_of(grid), marks, belts)
-
-    @classmethod
-    def of_parts(
-        cls,
-        x: float,
-        y: float,
-        spacing: float,
-        occupancy: ArrayLike,
-        marks: Sequence[Mark],
-        belts: Mapping[str, Point],
-    ) -> "FloorPlan":
-        """Makes the FloorPlan of a world's map, (h, w) uint8 with cell (0, 0) at (x, y) [m].
-
-        `spacing` is the edge of a cell [m], `marks` are those on the floor, `belts` is
-        {name: (x, y)} [m]. Raises FloorError where markings contradict each other.
-        """
-        blank = _blank(x, y, spacing, np.asarray(occupancy))
-        if marks:
-            return floor_markings.applied(blank, marks, belts)
-        return lane_finder.find(blank, belts, np.asarray(occupancy) == BELT)
-
-    @classmethod
     def laid_out(
         cls,
         *,
@@ -205,29 +151,3 @@ class FloorPlan:
             stations=stations,
             charging=np.flatnonzero(charging & ~storage),
         )
-
-
-def occupancy_of(grid: OccupancyGrid) -> np.ndarray:
-    """Returns the cells of a nav_msgs/OccupancyGrid as World.occupancy() does, (h, w) uint8."""
-    return np.array(grid.data, np.uint8).reshape(grid.info.height, grid.info.width)
-
-
-def is_taken(occupancy: ArrayLike) -> np.ndarray:
-    """Returns the cells of a map that are neither free nor beneath a storage unit, (h, w) bool."""
-    return np.asarray(occupancy) >= BELT
-
-
-def _blank(x: float, y: float, spacing: float, occupancy: np.ndarray) -> FloorPlan:
-    """Returns the FloorPlan without markings: each unit's cell is storage."""
-    free = ~is_taken(occupancy)
-    none = np.zeros_like(free)
-    exits = np.full(free.shape, ALL_EXITS, np.uint8)
-    return FloorPlan.laid_out(
-        origin=(x, y),
-        spacing=spacing,
-        passable=free,
-        storage=occupancy == UNIT,
-        parking=none,
-        exits=exits,
-        stations=(),
-    )

@@ -10,20 +10,15 @@ Before a belt's side or end, seen with the belt to the right (q queue, s service
         x
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from warehouse_layout._core import check_layout
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, STEPS, Station, lane_mask, neighbour
 from warehouse_layout.floor.street_graph import without_dead_ends
-
-if TYPE_CHECKING:
-    from warehouse_layout.floor.floor_plan import FloorPlan
 
 CUTS = "every lane there would cut others off from the streets, or no cell beside it is free"
 QUEUE = 6  # cells, the entry and a corner among them
@@ -70,7 +65,7 @@ def _station(
 
 
 def _with(plan: FloorPlan, stations: Iterable[Station]) -> FloorPlan:
-    return type(plan).laid_out(
+    return FloorPlan.laid_out(
         origin=plan.origin,
         spacing=plan.spacing,
         passable=plan.passable,

@@ -9,6 +9,7 @@ import numpy as np
 from warehouse_layout._core import FloorError
 
 PICK, REPLENISH = "PICK", "REPLENISH"
+QUEUE, SERVICE, EXIT = "queue", "service", "exit"  # the parts of a lane
 STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))  # along x and y, by heading
 
 
@@ -31,6 +32,12 @@ class Station:
     def queue(self) -> np.ndarray:
         """Cells in which units wait, (n,) int32, the entry first; without the service cell."""
         return self.cells[: self.service]
+
+    @property
+    def parts(self) -> dict[str, np.ndarray]:
+        """The cells of each part of the lane."""
+        cells = np.split(self.cells, [self.service, self.service + 1])
+        return dict(zip((QUEUE, SERVICE, EXIT), cells))
 
 
 def lane_mask(stations: Iterable[Station], shape: tuple[int, ...]) -> np.ndarray:

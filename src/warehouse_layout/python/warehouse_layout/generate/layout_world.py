@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from warehouse_layout.file import files
 from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.floor.floor_plan import is_taken
+from warehouse_layout.floor.plan_reader import is_taken
 from warehouse_layout.generate.layout_choice import building_of
 from warehouse_layout.models.world_file import with_values
 from warehouse_layout.place import placement

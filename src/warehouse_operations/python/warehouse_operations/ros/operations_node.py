@@ -41,6 +41,8 @@ from warehouse_operations.store.database import Database
 
 FAREWELL = 1.0  # the last notice is offered to subscribers for this long [s, wall]
 CYCLE = 0.1  # between two steps of the shift [s]
+# Roles of policies that only a shift with its own fleet can follow; here another node drives.
+OF_THE_COORDINATOR = ("storage", "robots", "idle", "charging")
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 
 
@@ -111,6 +113,11 @@ class OperationsNode:
         self._shift.task_numbers.number_from(time_ns() // 10**6)
         self._shift.tasks.remember(reports)
         self._shift.notices.on_change = self._publish_notices
+        idle = ", ".join(role for role in OF_THE_COORDINATOR if role in self._policies.choices)
+        if idle:
+            self._shift.notices.add(
+                f"policies: the coordinator decides {idle} by itself, whatever is chosen"
+            )
         self._publish_notices()
         # It passes on what it does not define itself, which its type does not say.
         changes: Any = ChangeJournal(self._shift.journal)

@@ -132,10 +132,11 @@ def _value_of(kind: str, words: Sequence[str]) -> Any:
     if kind != "picker":
         return " ".join(words)
     station, *rest = words
-    return {"station": station} | dict(zip(PICKER, map(_plain, rest)))
+    return {"station": station} | dict(zip(PICKER, map(plain, rest)))
 
 
-def _plain(text: str) -> Any:
+def plain(text: str) -> Any:
+    """Returns a number where a text is a number, else the text."""
     try:
         return int(text)
     except ValueError:
@@ -214,7 +215,7 @@ class _Reader:
 
     def robots(self, value: Any) -> int:
         """Returns how many robots more, or fewer."""
-        number = _plain(value) if isinstance(value, str) else value
+        number = plain(value) if isinstance(value, str) else value
         whole = isinstance(number, int) and not isinstance(number, bool)
         if not whole or not number or abs(number) > MOST_ROBOTS:
             raise self._fault("robots", f"is {shown(value)}; +4 or -2, for example, was expected")
@@ -285,9 +286,9 @@ _VALUES: dict[str, Callable[[_Reader, Any], Any]] = {
 
 def _share(value: Any) -> float | None:
     if isinstance(value, str) and (match := re.fullmatch(r"([0-9.]+)\s*%", value.strip())):
-        number = _plain(match[1])
+        number = plain(match[1])
         return float(number) / 100 if isinstance(number, (int, float)) else None
-    number = _plain(value) if isinstance(value, str) else value
+    number = plain(value) if isinstance(value, str) else value
     return float(number) if isinstance(number, (int, float)) and number is not True else None
 
 

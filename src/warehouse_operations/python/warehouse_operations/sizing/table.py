@@ -6,6 +6,7 @@ import io
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from warehouse_operations.runs.event_file import plain
 from warehouse_operations.sizing.prices import Pricing
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
@@ -49,24 +50,12 @@ def cells(study: Study, prices: Pricing | None) -> list[list[Any]]:
     named = [text for _, heading, *_ in FIGURES for text in (heading, f"{heading} ±")]
     out: list[list[Any]] = [[*HEAD, *named, "cost a piece"]]
     for verdict, kind in rows(study):
-        row: list[Any] = [_plain(cell) for cell in head_of(verdict, kind)]
+        row: list[Any] = [plain(cell) for cell in head_of(verdict, kind)]
         for name, _, factor, digits in FIGURES:
             estimate = verdict.estimate(name)
             row += [round(factor * value, digits + 2) for value in (estimate.mean, estimate.half)]
-        out.append([*row, _plain(cost_of(study, prices, verdict))])
+        out.append([*row, plain(cost_of(study, prices, verdict))])
     return out
-
-
-def _plain(text: str) -> Any:
-    """Returns a number where a text is one: spreadsheets calculate with it."""
-    try:
-        return int(text)
-    except ValueError:
-        pass
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def to_text(study: Study, prices: Pricing | None) -> str:

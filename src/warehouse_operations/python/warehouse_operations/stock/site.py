@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.place.layout import Layout
 from warehouse_operations.stock.assortment import INITIAL_LEVEL
@@ -55,7 +56,7 @@ class Site:
     @classmethod
     def of_world(cls, world: "World", name: str = "") -> "Site":
         """Returns the site of an in-process kiva_plugin_cpp.World."""
-        plan = FloorPlan.of_world(world)
+        plan = plan_reader.of_world(world)
         fleet, units, fallen = world.fleet, world.storage_units, world.fallen_items
         unit_of = {int(i["item_id"]): int(i["shelf_id"]) for i in world.items}
         unit_of |= {int(i["item_id"]): int(i["shelf_id"]) for i in fallen}

@@ -7,7 +7,7 @@ import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
 
-from warehouse_layout.floor.floor_plan import is_taken, occupancy_of
+from warehouse_layout.floor.plan_reader import is_taken, occupancy_of
 from warehouse_vda5050.grid import Grid
 
 

@@ -13,11 +13,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import ArrayLike
 
 from warehouse_client import tracking
-from warehouse_layout.floor import floor_markings, painted, poses
+from warehouse_layout.floor import floor_markings, palette, poses
 from warehouse_layout.floor.floor_markings import Mark
+from warehouse_layout.floor.outlines import SQUARE, placed
 from warehouse_msgs.msg import FleetState, UnitStates, WarehouseObjects
 from warehouse_viewer.drawing import looks, markers
 from warehouse_viewer.drawing.looks import Part
@@ -73,7 +73,7 @@ class Drawing:
         axes.set_ylim(self.bounds[2:])
         self._floor()
         if moment.scenery:
-            _paint(axes, painted.marks(moment.scenery))
+            _paint(axes, floor_markings.readable(moment.scenery))
             _scenery(axes, moment.scenery)
         _robots(axes, moment)
         _loads(axes, moment)
@@ -130,15 +130,11 @@ def _robots(axes: Axes, moment: Moment) -> None:
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
     colours = markers.COLOURS[activity(moment.fleet)]
     size, _ = _look(moment, "kiva")
-    body = _placed(_rectangle(size), at, yaw)
-    axes.add_collection(
-        PolyCollection(body, facecolors=colours, edgecolors="black", linewidths=0.6)
+    body, tips = (
+        placed(shape * np.asarray(size) / 2, at, yaw=yaw) for shape in (SQUARE, markers.ARROW)
     )
-    axes.add_collection(
-        PolyCollection(
-            _placed(markers.ARROW * np.asarray(size) / 2, at, yaw), facecolors="white", zorder=4
-        )
-    )
+    _add(axes, body, facecolors=colours, edgecolors="black", linewidths=0.6)
+    _add(axes, tips, facecolors="white", zorder=4)
     if len(at) <= MOST_NAMES:
         for (x, y), number in zip(at, fleet.kiva_id):
             axes.text(x, y + 0.44, str(number), ha="center", va="bottom", fontsize=7, zorder=6)
@@ -150,7 +146,9 @@ def _loads(axes: Axes, moment: Moment) -> None:
     items = tracking.items(moment.objects, moment.states)
     for tracked, kind, opacity, layer in ((units, "storage_unit", 0.55, 3), (items, "item", 1, 5)):
         size, colour = _look(moment, kind)
-        outlines = _placed(_rectangle(size), tracked.pose[:, :2], poses.yaw(tracked.pose))
+        outlines = placed(
+            SQUARE * np.asarray(size) / 2, tracked.pose[:, :2], yaw=poses.yaw(tracked.pose)
+        )
         edges = np.where(tracked.carrier[:, None] > 0, (0, 0, 0, 1), markers.EDGE)
         look = {"edgecolors": edges, "linewidths": 0.8} if tracked is units else {}
         _add(axes, outlines, facecolors=[(*colour, opacity)], zorder=layer, **look)
@@ -158,10 +156,9 @@ def _loads(axes: Axes, moment: Moment) -> None:
 
 def _paint(axes: Axes, marks: Sequence[Mark]) -> None:
     """What is painted on the floor, beneath its grid; the names of stations beside their places."""
-    rows = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4))
-    corners = _rectangle((1, 1)) * rows[:, None, 2:] + rows[:, None, :2]
-    _add(axes, corners, facecolors=[markers.paint_of(m) for m in marks], zorder=0.5)
-    served = painted.served(marks)
+    colours = [palette.rgb(m.kind) for m in marks]
+    _add(axes, floor_markings.outlines(marks), facecolors=colours, zorder=0.5)
+    served = floor_markings.served(marks)
     if len(served) <= MOST_NAMES:
         for m in served:
             axes.text(m.x, m.y, m.station, ha="center", va="center", fontsize=6, zorder=6)
@@ -184,8 +181,8 @@ def _stand(axes: Axes, parts: Sequence[Part], pose: np.ndarray) -> None:
     is_flat = at[:, 2] + extents[:, 2] / 2 <= FLAT
     is_floor = is_flat & (extents[:, 0] * extents[:, 1] >= ROOM)
     chosen = [i for i in np.argsort(at[:, 2]) if not is_floor[i]]
-    yaw = poses.yaw(pose[None])
-    outlines = [_placed(_rectangle(extents[i, :2]), at[i : i + 1, :2], yaw)[0] for i in chosen]
+    yaw = poses.yaw(pose[None])[0]
+    outlines = [placed(SQUARE * extents[i, :2] / 2, at[i, :2], yaw=yaw)[0] for i in chosen]
     _add(axes, outlines, facecolors=[parts[i].colour for i in chosen], zorder=2)
 
 
@@ -199,14 +196,3 @@ def _axes_of(pose: np.ndarray) -> np.ndarray:
 
 def _add(axes: Axes, outlines: np.ndarray, **look: Any) -> None:
     axes.add_collection(PolyCollection(outlines, **look))
-
-
-def _rectangle(size: ArrayLike) -> np.ndarray:
-    return np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * np.asarray(size) / 2
-
-
-def _placed(points: np.ndarray, at: ArrayLike, yaw: ArrayLike) -> np.ndarray:
-    """(n, m, 2): points (m, 2) on each of the things at (n, 2), turned by yaw (n,) [rad]."""
-    c, s = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
-    x, y = points.T
-    return np.stack([c * x - s * y, s * x + c * y], axis=2) + np.asarray(at)[:, None]

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from warehouse_layout.floor import floor_markings, poses
+from warehouse_layout.floor import floor_markings, palette, poses
 from warehouse_layout.floor.floor_markings import Mark
-from warehouse_layout.floor.painted import served
+from warehouse_layout.floor.outlines import SQUARE, placed
 from warehouse_msgs.msg import Look, Scenery
 from warehouse_viewer.drawing import looks, shapes
 from warehouse_viewer.drawing.looks import Part
@@ -23,8 +23,7 @@ COLOURS[Activity.WORKING] = (0.25, 0.75, 0.50, 1)
 COLOURS[Activity.WAITING] = (0.95, 0.69, 0.19, 1)
 COLOURS[Activity.NEEDS_HELP] = (0.94, 0.38, 0.35, 1)
 
-FLOOR = (0.82, 0.83, 0.84, 1)
-GRID = (0.70, 0.71, 0.73, 1)
+FLOOR, GRID = (*palette.rgb("floor"), 1), (*palette.rgb("grid"), 1)
 EDGE = (0.36, 0.42, 0.50, 1)  # of storage units seen from above
 WHITE = (0.97, 0.97, 0.97, 1)
 INK = (0.10, 0.10, 0.12, 1)
@@ -104,7 +103,8 @@ def _arrow(look: Look) -> np.ndarray:
 def _top(look: Look) -> np.ndarray:
     """Triangles of the square that a robot is from above."""
     low, high = looks.extent(look)
-    return np.insert((low + high)[:2] / 2 + _QUAD * (high - low)[:2] / 2, 2, high[2], axis=1)
+    top = placed(SQUARE * (high - low)[:2] / 2, (low + high)[:2] / 2)
+    return np.insert(top[0, _TRIANGLES], 2, high[2], axis=1)
 
 
 def _frame() -> np.ndarray:
@@ -156,26 +156,18 @@ def _alike(parts: Iterable[Part]) -> list[list[Part]]:
 
 def paint(marks: Sequence[Mark]) -> list[Any]:
     """Returns what floor_markings.Marks show, and the names of stations."""
-    x, y, wide, deep = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4)).T
-    across, along = wide[:, None] * _QUAD[:, 0] / 2, deep[:, None] * _QUAD[:, 1] / 2
-    corners = np.stack([x[:, None] + across, y[:, None] + along], axis=2)
-    points = np.pad(corners, ((0, 0), (0, 0), (0, 1)), constant_values=PAINT)
-    colours = np.reshape([(*paint_of(m), 1) for m in marks], (-1, 4))
+    points = np.insert(floor_markings.outlines(marks)[:, _TRIANGLES], 2, PAINT, axis=2)
+    colours = np.reshape([(*palette.rgb(m.kind), 1) for m in marks], (-1, 4))
     return [
         _joined("paint", [(points, colours)]),
         *(
             shapes.Text("stations", i, (m.x, m.y, NAME_ABOVE), m.station, NAME_HEIGHT, INK)
-            for i, m in enumerate(served(marks))
+            for i, m in enumerate(floor_markings.served(marks))
         ),
     ]
 
 
-_QUAD = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)])  # two triangles
-
-
-def paint_of(mark: Mark) -> tuple[float, ...]:
-    """Returns a Mark's colour: red, green, blue in 0…1."""
-    return floor_markings.COLOURS.get(mark.kind, FLOOR[:3])
+_TRIANGLES = [0, 1, 2, 0, 2, 3]  # two, of four corners
 
 
 def scenery(message: Scenery) -> list[Shape]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Serves the page on this machine, without ROS."""
+"""The application with the page of the editor alone, without ROS."""
 
 from pathlib import Path
 
@@ -9,12 +9,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from warehouse_viewer.editor.routes import Editor
-from warehouse_viewer.server.access import AccessControl
-from warehouse_viewer.server.connections import listen_near
-from warehouse_viewer.server.http_server import Server, config_of
 from warehouse_viewer.server.site import LAYOUT, Site
-
-HOST = "127.0.0.1"
 
 
 def application(file: Path | None = None) -> Starlette:
@@ -30,16 +25,3 @@ def application(file: Path | None = None) -> Starlette:
 
 async def _to_page(_: Request) -> Response:
     return RedirectResponse(LAYOUT.path)
-
-
-class EditorServer:
-    """Listens at `port` of this machine or one of the next. Raises OSError if none is free."""
-
-    def __init__(self, port: int, file: Path | None = None) -> None:
-        self._listener = listen_near(HOST, port)
-        self.url = f"http://localhost:{self._listener.getsockname()[1]}{LAYOUT.path}"
-        self.server = Server(config_of(AccessControl(application(file)), ws="none"), lambda: None)
-
-    def run(self) -> None:
-        """Serves until it is stopped."""
-        self.server.run(sockets=[self._listener])

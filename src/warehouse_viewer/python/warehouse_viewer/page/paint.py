@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from warehouse_layout.floor import floor_markings, painted
-from warehouse_layout.floor.floor_markings import HEADINGS, QUEUE, Mark
+from warehouse_layout.floor import floor_markings
+from warehouse_layout.floor.floor_markings import HEADINGS, Mark
+from warehouse_layout.floor.stations import EXIT, QUEUE
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import Scenery
@@ -23,7 +24,7 @@ APART = 3  # from one arrow of a street to the next [cells]
 def of_scenery(scenery: Scenery) -> dict[str, Any]:
     """Returns `paint`, the rectangles of each kind as x y and full extents in a row [m]; `arrows`,
     x y yaw in a row [m, rad], along one-way streets and lanes; and `stations`."""
-    marks = painted.marks(scenery)
+    marks = floor_markings.readable(scenery)
     rectangles: dict[str, list[float]] = {}
     for m in marks:
         rectangles.setdefault(m.kind, []).extend(short([m.x, m.y, m.size_x, m.size_y]))
@@ -31,7 +32,7 @@ def of_scenery(scenery: Scenery) -> dict[str, Any]:
     return {
         "paint": rectangles,
         "arrows": short(rows),
-        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in painted.served(marks)],
+        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in floor_markings.served(marks)],
     }
 
 
@@ -56,7 +57,7 @@ def _cells(middle: float, extent: float, cell: float) -> np.ndarray:
 def _along_lanes(marks: Iterable[Mark]) -> Iterator[float]:
     """Yields an arrow between cells of a queue, or of an exit, which come in driving order."""
     for a, b in pairwise(marks):
-        if a.label == b.label and a.model == b.model and a.kind in (QUEUE, floor_markings.EXIT):
+        if a.label == b.label and a.model == b.model and a.kind in (QUEUE, EXIT):
             yield from ((a.x + b.x) / 2, (a.y + b.y) / 2, np.arctan2(b.y - a.y, b.x - a.x))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Serves the floor's page for a recording on this machine, without ROS."""
+"""The application with the floor's page for a recording, without ROS."""
 
 from contextlib import suppress
 
@@ -11,13 +11,9 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.replay.routes import Recording, RecordingRoutes
-from warehouse_viewer.server.access import AccessControl
-from warehouse_viewer.server.connections import listen_near
-from warehouse_viewer.server.http_server import Server, config_of
 from warehouse_viewer.server.site import FLOOR, Site
 from warehouse_viewer.server.sockets import SocketLimit
 
-HOST = "127.0.0.1"
 RECORDED = "this is a recording: it can be watched, and not commanded"
 
 
@@ -47,17 +43,3 @@ async def _wait(socket: WebSocket) -> None:
 
 async def _refuse(_: Request) -> Response:
     return JSONResponse({"detail": RECORDED}, 409)
-
-
-class ReplayServer:
-    """Listens at `port` of this machine or one of the next. Raises OSError if none is free."""
-
-    def __init__(self, recording: Recording, port: int) -> None:
-        self._listener = listen_near(HOST, port)
-        self.url = f"http://localhost:{self._listener.getsockname()[1]}/"
-        access = AccessControl(application(recording))
-        self.server = Server(config_of(access, ws="wsproto"), lambda: None)
-
-    def run(self) -> None:
-        """Serves until it is stopped."""
-        self.server.run(sockets=[self._listener])

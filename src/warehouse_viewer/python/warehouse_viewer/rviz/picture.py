@@ -10,7 +10,7 @@ from visualization_msgs.msg import MarkerArray
 
 from warehouse_client import tracking
 from warehouse_client.latest import LatestMessages, LazyPublisher
-from warehouse_layout.floor import painted, poses
+from warehouse_layout.floor import floor_markings, poses
 from warehouse_msgs.msg import (
     CoordinatorPaths,
     FleetPaths,
@@ -138,7 +138,8 @@ class Picture:
         """Made once, as long as it is the same message."""
         if scenery is not self._scenery:
             self._scenery = scenery
-            self._fixed = [*markers.paint(painted.marks(scenery)), *markers.scenery(scenery)]
+            marks = floor_markings.readable(scenery)
+            self._fixed = [*markers.paint(marks), *markers.scenery(scenery)]
         return self._fixed
 
     def _show(self, made: Sequence[Shape]) -> None:

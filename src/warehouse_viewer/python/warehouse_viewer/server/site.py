@@ -9,6 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount, Route
 
+from warehouse_layout.floor import palette
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server import documentation, font
 from warehouse_viewer.server.static_files import Files, FreshFiles
@@ -50,6 +51,7 @@ class Site:
             *(Route(page.path, self._endpoint(page.file)) for page in self._pages if page.file),
             Route("/pages", self._list),
             Route("/fonts/inter.woff2", font.serve),
+            Route("/web/palette.css", _palette),
             Mount("/web", self._files),
             # Modules of three import this one; the page has the same as a script of half the size.
             Route("/three/build/three.module.js", self._endpoint("js/base/three.js")),
@@ -71,3 +73,8 @@ class Site:
             if page.is_there()
         ]
         return JSONResponse(pages, headers={"cache-control": "no-cache"})
+
+
+async def _palette(_: Request) -> Response:
+    headers = {"cache-control": "no-cache"}
+    return Response(palette.css(), headers=headers, media_type="text/css")

@@ -2,16 +2,11 @@
 // Charts by Chart.js, in the colours and the type of the design. The library comes when the first
 // chart is wanted.
 
-import { make, on, onTheme } from './dom.js';
+import { make, on, onTheme, token } from './dom.js';
 
 const LIBRARY = '/chart/chart.min.js';
 let loading = null;
 const plots = new Set();
-
-/** The value of one of the design's tokens, such as 'moving'. */
-export function token(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-}
 
 /** A token's colour with an opacity of 0 to 1. */
 export function faint(name, opacity) {

@@ -8,6 +8,11 @@ export function on(target, type, handler) {
   target.addEventListener(type, handler);
 }
 
+/** The value of a variable of the style sheets, such as 'moving'. */
+export function token(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
 /** Calls `act` whenever the colours are others: dark or light. */
 export function onTheme(act) {
   new MutationObserver(act).observe(document.documentElement, { attributeFilter: ['data-theme'] });

@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks before something is done.
 
-import { $, on } from './dom.js';
+import { $, make, on } from './dom.js';
+
+const FORM = `<form method="dialog">
+  <h2 id="question-title"></h2><p id="question-text"></p>
+  <div class="answers"><button id="question-no" value="">Cancel</button><button id="question-yes" value="yes" class="danger"></button></div>
+</form>`;
+
+if (globalThis.document) { // tests of a page's sums have none
+  const dialog = make('dialog', { id: 'question', innerHTML: FORM });
+  dialog.setAttribute('aria-labelledby', 'question-title');
+  document.body.append(dialog);
+}
 
 /** Resolves to whether the person said yes. */
 export async function confirmed(title, text, yes, no = 'Cancel') {

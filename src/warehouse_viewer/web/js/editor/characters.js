@@ -4,7 +4,7 @@
 export const NOTHING = ' ', FLOOR = '.', PLACE = 's';
 export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next letter that is free
 
-/** The characters in the order of the palette; `look` names the colour, --cell-…. */
+/** The characters in the order of the palette; `look` names the colour, --cell-… of palette.py. */
 export const CHARACTERS = [
   { char: '.', word: 'floor', hint: 'floor, driven any way', look: 'floor' },
   { char: '>', word: 'one way right', hint: 'one-way street to the right', look: 'street' },
@@ -16,10 +16,10 @@ export const CHARACTERS = [
   { char: 's', word: 'storage place', hint: 'a storage unit can stand here', look: 'storage' },
   { char: 'p', word: 'parking', hint: 'robots without work wait here', look: 'parking' },
   { char: 'c', word: 'charging', hint: 'a charging place, also parking', look: 'charging' },
-  { char: NEXT_STATION, word: 'station', hint: 'where units are served; the next free letter', look: 'station' },
+  { char: NEXT_STATION, word: 'station', hint: 'where units are served; the next free letter', look: 'service' },
   { char: '=', word: 'conveyor belt', hint: 'a conveyor belt, beside a picking station', look: 'belt' },
   { char: '#', word: 'wall', hint: 'a wall or pillar, a metre high', look: 'wall' },
-  { char: 'x', word: 'keep out', hint: 'floor where no robot drives', look: 'keepout' },
+  { char: 'x', word: 'keep out', hint: 'floor where no robot drives', look: 'keep_out' },
   { char: ' ', word: 'no floor', hint: 'erases', look: 'nothing', key: 'space' },
 ];
 
@@ -31,7 +31,7 @@ export const isLetter = (char) => char.length === 1 && char >= 'A' && char <= 'Z
 export const isCharacter = (char) => char in LOOKS || isLetter(char);
 export const isPassable = (char) => !CLOSED.has(char);
 export const isStreet = (char) => !CLOSED.has(char) && !KEPT.has(char);
-export const lookOf = (char) => LOOKS[char] ?? 'station';
+export const lookOf = (char) => LOOKS[char] ?? 'service';
 
 /** Headings [dx, dy] in which an arrow points; none for others. */
 export const POINTS = {

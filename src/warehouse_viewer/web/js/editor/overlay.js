@@ -45,7 +45,7 @@ export class Overlay {
   services(drawing) {
     const { pen } = this, path = new Path2D();
     for (const { key, service } of drawing.stations) if (!isLetter(key)) this.mark(path, service, 1);
-    filled(pen, path, this.colours.station);
+    filled(pen, path, this.colours.service);
   }
 
   /** Queues end and exits begin at the edge of the service cell: its letter stays free. */

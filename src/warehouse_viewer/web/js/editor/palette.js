@@ -22,6 +22,7 @@ export class Palette {
 
   brush({ char, word, hint, look, key = char }) {
     const swatch = make('i', { className: `swatch ${look}`, textContent: SIGNS[char] ?? '' });
+    swatch.style.background = `var(--cell-${look})`;
     const out = make('button', { type: 'button', title: hint, click: () => this.editor.setBrush(char) },
       swatch, make('span', { textContent: word }), make('kbd', { textContent: key }));
     out.dataset.char = char;

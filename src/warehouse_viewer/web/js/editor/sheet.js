@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lower of the two canvases: the cells as they are drawn.
 
+import { token } from '../base/dom.js';
 import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
 
 const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
 const BLANK = new Set(['.', NOTHING, '#', '=']);
 const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
 
-/** Colours by the names of the style sheet's --cell-…, --editor-…. */
-export function coloursOf(root = document.documentElement) {
-  const style = getComputedStyle(root), read = (name) => style.getPropertyValue(name).trim();
-  const out = Object.fromEntries(LOOKS.map((look) => [look, read(`--cell-${look}`)]));
-  for (const name of ['grid', 'sign', 'on-storage', 'on-station', 'queue', 'exit', 'fault', 'select', 'ruler', 'ruler-text', 'robot']) {
-    out[name] = read(`--editor-${name}`);
+/** Colours by the names of --cell-… and --editor-…. */
+export function coloursOf() {
+  const out = Object.fromEntries([...LOOKS, 'grid'].map((look) => [look, token(`cell-${look}`)]));
+  for (const name of ['sign', 'on-storage', 'on-station', 'queue', 'exit', 'fault', 'select', 'ruler', 'ruler-text', 'robot']) {
+    out[name] = token(`editor-${name}`);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small live picture of a floor: storage units, stations and robots, seen from above.
 
+import { token } from '../base/dom.js';
 import { ask } from '../base/request.js';
 
 const MOST = 1000; // rows of an answer
@@ -35,14 +36,13 @@ export function paint(canvas, { robots, units }) {
   const left = (canvas.width - zoom * (east - west)) / 2;
   const top = (canvas.height - zoom * (north - south)) / 2;
   const at = ({ x, y }) => [left + (x - west) * zoom, top + (north - y) * zoom];
-  const colour = (name) => getComputedStyle(canvas).getPropertyValue(name);
-  pen.fillStyle = colour('--edge');
+  pen.fillStyle = token('edge');
   for (const unit of units) {
     const [x, y] = at(unit);
     pen.fillRect(x - 0.4 * zoom, y - 0.4 * zoom, 0.8 * zoom, 0.8 * zoom);
   }
   for (const robot of robots) {
-    pen.fillStyle = colour(robot.isBusy ? '--moving' : '--resting');
+    pen.fillStyle = token(robot.isBusy ? 'moving' : 'resting');
     pen.beginPath();
     pen.arc(...at(robot), Math.max(ROBOT / 2 * zoom, 2 * scale), 0, 2 * Math.PI);
     pen.fill();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the rows of a Gantt that are in sight, in the five colours of activities.
 
-import { font, token } from '../base/charts.js';
+import { font } from '../base/charts.js';
+import { token } from '../base/dom.js';
 import { before } from '../base/time.js';
 import { ACTIVITY_CLASS } from '../base/words.js';
 

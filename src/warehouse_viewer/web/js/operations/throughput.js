@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The throughput of the last hour: what was picked and put in, beside the upper bound that holds.
 
-import { axis, faint, font, Plot, token } from '../base/charts.js';
-import { $ } from '../base/dom.js';
+import { axis, faint, font, Plot } from '../base/charts.js';
+import { $, token } from '../base/dom.js';
 
 const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
 const HOUR = 60; // [min]

@@ -2,16 +2,11 @@
 // What is painted on the floor: storage places, lanes of stations, where no robot drives.
 
 import * as THREE from '/three/build/three.module.js';
+import { token } from '../base/dom.js';
 import { STILL } from './backdrop.js';
 
 const HEIGHT = -0.005; // between the floor and the borders of its cells [m]
 const TIP = 0.16, WING = 0.2, BAR = 0.1; // of an arrowhead [m]
-const COLOURS = {
-  dark: { storage: 0x2c333e, parking: 0x26332f, charging: 0x21402d, keep_out: 0x1c2026, exits: 0x29303a,
-    queue: 0x39352a, service: 0x6b5526, exit: 0x2f2e28, arrows: 0x56616f },
-  light: { storage: 0xd6dce4, parking: 0xd3e2da, charging: 0xb9dfc4, keep_out: 0xd2d5d9, exits: 0xdde2e8,
-    queue: 0xeee4c4, service: 0xe9c67d, exit: 0xe9e6d6, arrows: 0xaab4c0 },
-};
 
 export class Paint {
   constructor(scene) {
@@ -21,12 +16,12 @@ export class Paint {
 
   /** `paint`: by kind, x y and full extents of rectangles in a row [m]; `arrows`: x y yaw in a row
    *  [m, rad]. A mesh a kind. */
-  set({ paint, arrows = [] }, theme) {
+  set({ paint, arrows = [] }) {
     for (const mesh of this.group.children) mesh.geometry.dispose();
     this.group.remove(...this.group.children);
     for (const [kind, rows] of Object.entries(paint)) this.add(kind, quads(rows), 1);
-    if (arrows.length) this.add('arrows', chevrons(arrows), 0);
-    this.setTheme(theme);
+    if (arrows.length) this.add('arrow', chevrons(arrows), 0);
+    this.renew();
   }
 
   add(kind, geometry, depth) {
@@ -36,9 +31,10 @@ export class Paint {
     this.group.add(mesh);
   }
 
-  setTheme(theme) {
+  /** Takes the colours of the theme. */
+  renew() {
     for (const { name, material } of this.group.children) {
-      material.color.set(COLOURS[theme][name] ?? COLOURS[theme].exits);
+      material.color.set(token(`cell-${name}`) || token('cell-street'));
     }
   }
 }

@@ -4,15 +4,12 @@
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
 import { Backdrop, Renewal, STILL } from './backdrop.js';
-import { on } from '../base/dom.js';
+import { on, token } from '../base/dom.js';
 import { Pace } from './pace.js';
 import { Paint, behind } from './paint.js';
 import { drawsInSoftware } from '../base/software.js';
 
-const COLOURS = {
-  dark: { page: 0x0f1216, floor: 0x262c35, grid: 0x2f3640, sky: 0xffffff, ground: 0x565b66 },
-  light: { page: 0xeef1f5, floor: 0xe2e6eb, grid: 0xd3d9e0, sky: 0xffffff, ground: 0x9a9a9a },
-};
+const GROUND = { dark: 0x565b66, light: 0x9a9a9a }; // what the floor reflects
 const MOST_LINES = 600; // of the grid, along each axis
 
 const point = new THREE.Vector3();
@@ -172,19 +169,17 @@ export class Stage {
   }
 
   setTheme(theme) {
-    this.colours = COLOURS[theme];
-    this.scene.background = new THREE.Color(this.colours.page);
-    this.floor.material.color.set(this.colours.floor);
-    this.grid.material.color.set(this.colours.grid);
-    this.paint.setTheme(theme);
-    this.sky.color.set(this.colours.sky);
-    this.sky.groundColor.set(this.colours.ground);
+    this.scene.background = new THREE.Color(token('cell-nothing'));
+    this.floor.material.color.set(token('cell-floor'));
+    this.grid.material.color.set(token('cell-grid'));
+    this.paint.renew();
+    this.sky.groundColor.set(GROUND[theme]);
     this.renew();
   }
 
   /** What is painted on the floor, as a scene {paint, arrows} has it. */
   setPaint(scene) {
-    this.paint.set(scene, document.documentElement.dataset.theme);
+    this.paint.set(scene);
     this.renew();
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bars with their confidence intervals.
 
+import { token } from '../base/dom.js';
+
 const CAP = 7; // half a whisker's cap [px]
 
 /** A unit behind a title: 'an hour' goes on with its words. */
@@ -47,13 +49,11 @@ const whiskers = {
 /** Draws into a canvas, in place of a chart that was there; returns the chart. */
 export function draw(canvas, shown, before) {
   before?.destroy();
-  const style = getComputedStyle(document.documentElement);
-  const colour = (name) => style.getPropertyValue(name).trim();
-  const text = { color: colour('--dim'), font: { family: 'Inter, sans-serif', size: 12 } };
-  const grid = { color: colour('--line'), drawBorder: false };
+  const text = { color: token('dim'), font: { family: 'Inter, sans-serif', size: 12 } };
+  const grid = { color: token('line'), drawBorder: false };
   return new window.Chart(canvas, {
     type: 'bar',
-    data: { labels: shown.labels, datasets: [{ data: shown.means, backgroundColor: shown.means.map((_, i) => colour(i ? '--moving' : '--resting')), maxBarThickness: 90, borderRadius: 4 }] },
+    data: { labels: shown.labels, datasets: [{ data: shown.means, backgroundColor: shown.means.map((_, i) => token(i ? 'moving' : 'resting')), maxBarThickness: 90, borderRadius: 4 }] },
     options: {
       animation: false,
       maintainAspectRatio: false,
@@ -61,7 +61,7 @@ export function draw(canvas, shown, before) {
         x: { ticks: text, grid: { display: false, drawBorder: false } },
         y: { beginAtZero: true, max: topOf(shown), ticks: { ...text, maxTicksLimit: 6, includeBounds: false }, grid, title: { display: true, text: shown.axis, ...text } },
       },
-      plugins: { legend: { display: false }, whiskers: { ranges: shown.ranges, colour: colour('--text') } },
+      plugins: { legend: { display: false }, whiskers: { ranges: shown.ranges, colour: token('text') } },
     },
     plugins: [whiskers],
   });

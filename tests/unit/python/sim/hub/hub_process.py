@@ -1,62 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """A hub in a process of its own, for tests."""
 
-import json
-import os
-import re
 import signal
-import subprocess
-import time
-import urllib.error
-import urllib.request
+import sys
 
-from warehouse_sim.hub.process import descendants
+import paths
 
-PATIENCE = 120.0  # [s, wall]
-PROGRAM = ["rosrun", "warehouse_sim", "hub", "--port", "0"]
+sys.path.append(str(paths.ROOT / "tests" / "assistant"))
 
+from served_hub import PATIENCE, ServedHub, until  # noqa: E402, F401 (for the tests)
 
-def until(condition, what):
-    end = time.monotonic() + PATIENCE
-    while not (result := condition()):
-        assert time.monotonic() < end, what
-        time.sleep(0.1)
-    return result
+from warehouse_sim.hub.process import descendants  # noqa: E402
 
 
-class Hub:
-    def __init__(self, home, *options):
-        self.home = home
-        environment = os.environ | {"ROS_HOME": str(home)}
-        environment.pop("WAREHOUSE_TOKEN", None)
-        self.process = subprocess.Popen(
-            [*PROGRAM, *options], stdout=subprocess.PIPE, text=True, env=environment
-        )
-        lines = iter(self.process.stdout.readline, "")
-        self.url = next(m[0] for line in lines if (m := re.search(r"http://\S+[^/\s]", line)))
-
-    def ask(self, method, path, body=None):
-        """Returns (status, JSON)."""
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.url + path, data, method=method)
-        try:
-            with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-                return answer.status, json.loads(answer.read())
-        except urllib.error.HTTPError as error:
-            return error.code, json.loads(error.read())
-
-    def wait_for(self, name, *states):
-        path = f"/api/v1/simulations/{name}"
-
-        def row():
-            out = self.ask("GET", path)[1]
-            return out if out["state"] in (*states, "FAILED") else None
-
-        return until(row, f"{name} is not {states}")
-
+class Hub(ServedHub):
     def end(self, number=signal.SIGINT):
-        """Ends the hub; returns the processes that it had started."""
+        """Ends the hub; returns the processes that it and they had started."""
         below = descendants(self.process.pid)
-        self.process.send_signal(number)
-        self.process.wait(PATIENCE)
+        super().end(number)
         return below

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from warehouse_layout.floor import painted
+from warehouse_layout.floor import floor_markings
 from warehouse_layout.floor.floor_markings import Mark
 from warehouse_viewer.page import paint
 
@@ -16,7 +16,7 @@ def scene_of(monkeypatch):
     """Returns what a page gets of Marks, on cells of 1 m."""
 
     def of(*marks):
-        monkeypatch.setattr(painted, "marks", lambda _: list(marks))
+        monkeypatch.setattr(floor_markings, "readable", lambda _: list(marks))
         return paint.of_scenery(SimpleNamespace(grid_spacing=1.0))
 
     return of

@@ -2,6 +2,7 @@
 """Files of the page: those that are there, and nothing else."""
 
 import gzip
+import re
 import tempfile
 from pathlib import Path
 
@@ -9,8 +10,12 @@ import brotli
 import pytest
 from asgi import request
 from fastapi import FastAPI
+from starlette.applications import Starlette
 
+from warehouse_layout.floor import palette
+from warehouse_viewer.server.site import Site
 from warehouse_viewer.server.static_files import Files, FreshFiles
+from warehouse_viewer.shared_files import WEB
 
 
 @pytest.mark.parametrize("kind", [Files, FreshFiles])
@@ -77,3 +82,12 @@ def test_what_is_there_for_good_is_kept_by_a_browser(tmp_path):
     answer = request(Files(directory=tmp_path), "/page.bin", headers={"accept-encoding": "gzip"})
     assert "max-age" in answer.headers["cache-control"]
     assert "content-encoding" not in answer.headers
+
+
+def test_the_palette_has_each_cell_that_pages_draw_once_a_theme():
+    css = request(Starlette(routes=Site().routes()), "/web/palette.css").body.decode()
+    looks = re.findall(r"look: '(\w+)'", (WEB / "js/editor/characters.js").read_text())
+    assert looks and set(looks) <= set(palette.CELLS)
+    light = css.partition('[data-theme="light"]')[2]
+    for kind, colours in palette.CELLS.items():
+        assert css.count(f"--cell-{kind}:") == 2 and f"--cell-{kind}:{colours[0]};" in light

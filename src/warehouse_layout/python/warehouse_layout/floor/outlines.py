@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shapes of a drawn plan, many at once, in cells: a cell's centre is (column, row)."""
+"""Outlines on a floor, many at once, in cells: a cell's centre is (column, row)."""
 
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
 
-from warehouse_layout.floor.floor_markings import rectangles
 from warehouse_layout.floor.stations import STEPS
 
-CHUNK = 1500  # shapes of one path: the rasterizer has a limit
+Rectangle = tuple[int, int, int, int]  # first x, first y, last x, last y in cells
 
 # Outlines about (0, 0), towards +x.
 ARROW = np.array([(-1, -0.2), (0.1, -0.2), (0.1, -0.6), (1, 0), (0.1, 0.6), (0.1, 0.2), (-1, 0.2)])
@@ -26,23 +22,27 @@ DISC = np.array([(np.cos(a), np.sin(a)) for a in np.arange(24) * np.pi / 12])
 TIP = np.array([(0.75, 0), (-0.25, 0.5), (-0.05, 0), (-0.25, -0.5)])  # which way a robot looks
 
 
-def add(axes: Axes, outlines: np.ndarray, **style: Any) -> None:
-    """Adds closed outlines (n, corners, 2) to axes."""
-    for begin in range(0, len(outlines), CHUNK):
-        part = outlines[begin : begin + CHUNK]
-        closed = np.concatenate([part, part[:, :1]], axis=1)
-        codes = np.full(closed.shape[:2], Path.LINETO, Path.code_type)
-        codes[:, 0], codes[:, -1] = Path.MOVETO, Path.CLOSEPOLY
-        path = Path(closed.reshape(-1, 2), codes.ravel())
-        # The limits of the axes are known: add_patch() would search all shapes for them.
-        axes.add_artist(PathPatch(path, **{"linewidth": 0, **style}))
-
-
-def placed(outline: np.ndarray, at: np.ndarray, size: float, yaw: Any = 0.0) -> np.ndarray:
+def placed(outline: np.ndarray, at: np.ndarray, size: float = 1.0, yaw: Any = 0.0) -> np.ndarray:
     """Returns an outline at each of the points (n, 2), turned by yaw [rad], (n, corners, 2)."""
     cos, sin = np.cos(yaw), np.sin(yaw)
     turn = np.moveaxis(np.array([[cos, -sin], [sin, cos]]), (0, 1), (-2, -1))
     return np.reshape(at, (-1, 1, 2)) + size * (outline @ np.swapaxes(turn, -1, -2))
+
+
+def rectangles(mask: np.ndarray) -> list[Rectangle]:
+    """Returns Rectangles that cover the cells of a mask (h, w)."""
+    left = mask.copy()
+    out: list[Rectangle] = []
+    for y, x in np.argwhere(mask).tolist():
+        if not left[y, x]:
+            continue
+        stop = x + int(np.argmin(np.append(left[y, x:], False)))
+        low = y + 1
+        while low < len(left) and left[low, x:stop].all():
+            low += 1
+        left[y:low, x:stop] = False
+        out.append((x, y, stop - 1, low - 1))
+    return out
 
 
 def boxes(mask: np.ndarray, inset: float = 0.0) -> np.ndarray:
