@@ -274,9 +274,7 @@ class Shift:
         place = places.get(order.station) if order.state == OrderState.ASSIGNED else None
         visits = place.coming if place else []
         units = [
-            visit.unit
-            for visit in visits
-            if any(pick.line.order is order for pick in visit.picks)
+            visit.unit for visit in visits if any(pick.line.order is order for pick in visit.picks)
         ]
         turnovers = self.tally.turnover_s[-RECENT:]
         if not turnovers:

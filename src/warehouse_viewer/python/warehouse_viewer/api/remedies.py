@@ -29,7 +29,9 @@ async def apply(backend: ApiBackend, action: str, target: str) -> str:
 async def _set_station(backend: ApiBackend, action: str, name: str) -> str:
     message = await backend.call(backend.operations.latest, "stations")
     station = next((row for row in message.stations if row.name == name), None)
-    mode = MODES.index("AUTOMATIC") if action == "STATION_AUTOMATIC" or not station else station.mode
+    mode = (
+        MODES.index("AUTOMATIC") if action == "STATION_AUTOMATIC" or not station else station.mode
+    )
     fields = name, action != "CLOSE", mode
     answer = await backend.call(backend.operations.call, "set_station", srv.SetStation, *fields)
     return str(answer.message)

@@ -56,9 +56,7 @@ def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
     before = dict(zip(coordinator.waiting_kiva, coordinator.waiting_for))
     waits = zip(coordinator.waiting_kiva, coordinator.waiting_since, texts)
     now = coordinator.header.stamp.to_sec()
-    return [
-        robot for robot, since, text in waits if now - since >= _explained(robot, text, before)
-    ]
+    return [robot for robot, since, text in waits if now - since >= _explained(robot, text, before)]
 
 
 def _explained(robot: int, text: str, before: Mapping[int, int]) -> float:

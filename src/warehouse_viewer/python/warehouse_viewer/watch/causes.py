@@ -155,4 +155,3 @@ def _fits(action: str, name: str, mode: str) -> bool:
         "TOW": is_robot,
         "PICK_UP": name.startswith("item"),
     }.get(action, True)
-

@@ -192,7 +192,12 @@ class Reasons:
         """Returns why a robot waits, or what it does."""
         name = f"kiva{robot}"
         unit, station, order = self._errands.get(robot, (0, "", 0))
-        about = {"unit": unit, "station": station, "order": order, "errand": self._errand(robot)}
+        about: dict[str, Any] = {
+            "unit": unit,
+            "station": station,
+            "order": order,
+            "errand": self._errand(robot),
+        }
         ahead, since, why = self._waits.get(robot, (0, self._now, ""))
         fault = self.fault(robot)
         if fault:
@@ -209,7 +214,9 @@ class Reasons:
             text = f"stands at {station} with unit {unit}{of_order}"
             about["errand"] = ""
         if not text:
-            text = f"is {self._doing[robot]}" if self._doing.get(robot) in MOVES else "does its work"
+            text = (
+                f"is {self._doing[robot]}" if self._doing.get(robot) in MOVES else "does its work"
+            )
         return Reason(name, text, self._since(name, text), **about)
 
     def _errand(self, robot: int) -> str:
@@ -249,7 +256,7 @@ class Reasons:
         robot = self._carriers.get(unit, 0)
         if not robot:
             robot = next((r for r, errand in self._errands.items() if errand[0] == unit), 0)
-        about = {"unit": unit, "order": order}
+        about: dict[str, Any] = {"unit": unit, "order": order}
         if not robot:
             return Reason(name, f"waits for unit {unit}; no robot has it yet", since, **about)
         own = self.robot(robot)
