@@ -24,7 +24,7 @@ from gymnasium.vector import AutoresetMode
 
 import warehouse_learning.rware  # noqa: F401  registers the tasks
 from warehouse_learning.marl import policy
-from warehouse_learning.marl.training import ALGORITHMS, TrainingSettings, Training
+from warehouse_learning.marl.training import ALGORITHMS, Training, TrainingSettings
 from warehouse_learning.rware.motion import PHYSICS
 
 

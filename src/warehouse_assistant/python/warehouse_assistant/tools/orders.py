@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_assistant.hub_client import Trouble
 from warehouse_assistant.toolbox import Priority, Simulation, Toolbox
 from warehouse_assistant.tools.overview import order_text
 from warehouse_assistant.words import count, plain

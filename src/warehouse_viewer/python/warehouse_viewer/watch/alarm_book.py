@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The alarms that hold now and those that have ended: since when, and what people did about each."""
+"""The alarms that hold now and those that have ended: since when, and what people did."""
 
 import threading
 from collections import deque
@@ -13,7 +13,8 @@ from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
 KEPT = 500  # alarms that have ended
 MOST_ACTIONS = 50  # of an alarm
 REPAIRED = "ROBOT_BROKEN"  # alarms whose mean duration is the time to repair
-MOVING = ("kiva",)  # subjects with one alarm, whatever kind it has now
+# Kinds of which a robot has one alarm, whichever it is now.
+OF_ROBOT = ("ROBOT_BROKEN", "ROBOT_LOST", "ROBOT_STALLED", "ROBOT_BLOCKED", "COLLISION")
 
 
 class Trouble(NamedTuple):
@@ -40,7 +41,7 @@ class Trouble(NamedTuple):
     @property
     def key(self) -> tuple[str, str]:
         """What stays the same as long as it is the same alarm."""
-        return ("" if self.subject.startswith(MOVING) else self.kind), self.subject
+        return ("" if self.kind in OF_ROBOT else self.kind), self.subject
 
 
 class Action(NamedTuple):

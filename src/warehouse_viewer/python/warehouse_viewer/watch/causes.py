@@ -6,11 +6,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from typing import NamedTuple
 
-from warehouse_viewer.watch.alarm_book import Trouble
+from warehouse_viewer.watch.alarm_book import OF_ROBOT, Trouble
 from warehouse_viewer.watch.alarm_kinds import KINDS
 from warehouse_viewer.watch.reasons import Reasons
 
-OF_ROBOT = ("ROBOT_BROKEN", "ROBOT_LOST", "ROBOT_STALLED", "ROBOT_BLOCKED", "COLLISION")
 SHOWN = 6  # robots that a consequence names
 MINUTE = 60.0  # [s]
 

@@ -125,7 +125,8 @@ def test_an_alarm_that_ends_is_history_with_what_people_did():
     book.update(20, [Trouble("ROBOT_BROKEN", "kiva3", "kiva3 is broken (drive)")])
     assert (book.told()[0]["id"], book.told()[0]["seen_by"]) == (number, "Anna")
     book.note("kiva3", "Anna", "Repair")
-    book.update(70, [])
+    # Its route is not free at once.
+    book.update(70, [Trouble("ROBOT_WAITS", "kiva3", "kiva3 waits until its route is free")])
     (past,) = book.history()
     assert (past["cause"], past["duration"]) == ("kiva3 is broken (drive)", 60)
     assert past["actions"] == [{"time": 20, "by": "Anna", "what": "Repair"}]

@@ -7,6 +7,7 @@ from fastapi import APIRouter, HTTPException, Path, Query
 from fastapi.responses import Response
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.remedies import apply
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.watch import (
@@ -18,7 +19,6 @@ from warehouse_viewer.api.schemas.watch import (
     Seen,
     Why,
 )
-from warehouse_viewer.api.remedies import apply
 from warehouse_viewer.watch.alarm_kinds import KINDS
 
 router = APIRouter()
