@@ -16,10 +16,10 @@ namespace {
 constexpr char kHelp[] = "array_bench [--no-lasers] [--default] [--seconds S] N…\n";
 constexpr double kWheelAcceleration = 1e6;  // [rad/s²], beyond any need: speed changes at once
 
-struct Fleet {
+struct ArrayFleet {
   std::vector<double> x, y, yaw, c, s, left, right, left_wanted, right_wanted;
 
-  explicit Fleet(int robots) {
+  explicit ArrayFleet(int robots) {
     const bench::Lattice lattice(robots);
     for (auto* array : {&x, &y, &yaw, &c, &s, &left, &right, &left_wanted, &right_wanted}) {
       array->assign(robots, 0);
@@ -35,7 +35,7 @@ struct Fleet {
 
   void want(long step) {
     for (int i = 0; i < size(); ++i) {
-      const bench::Twist w = bench::command(i, step);
+      const bench::PlanarTwist w = bench::command(i, step);
       left_wanted[i] = w.speed - w.yaw_rate * bench::kTrack / 2;
       right_wanted[i] = w.speed + w.yaw_rate * bench::kTrack / 2;
     }
@@ -51,7 +51,7 @@ struct Fleet {
       y[i] += v * s[i] * dt;
       const double turn = (right[i] - left[i]) / bench::kTrack * dt;
       yaw[i] += turn;
-      // Of a step's turn, to the fourth order.
+      // Sine and cosine of a step's turn, to the fourth order.
       const double sine = turn * (1 - turn * turn / 6), cosine = 1 - turn * turn / 2;
       const double c_next = c[i] * cosine - s[i] * sine;
       s[i] = s[i] * cosine + c[i] * sine;
@@ -74,10 +74,11 @@ class Grid {
     cells_.resize(columns_ * columns_);
   }
 
-  void fill(const Fleet& fleet) {
+  void fill(const ArrayFleet& fleet) {
     for (auto& cell : cells_) cell.clear();
     for (int i = 0; i < fleet.size(); ++i) {
-      // Into each cell that the body may reach into, so that a ray asks its own cells alone.
+      // Enters a robot into each cell that its body may reach, so that a ray reads its own cells
+      // alone.
       for (int cx = column(fleet.x[i] - kReach); cx <= column(fleet.x[i] + kReach); ++cx) {
         for (int cy = column(fleet.y[i] - kReach); cy <= column(fleet.y[i] + kReach); ++cy) {
           cells_[cy * columns_ + cx].push_back(i);
@@ -86,9 +87,9 @@ class Grid {
     }
   }
 
-  /// The range to the first body but `self`, or to the walls; a walk from cell to cell (Amanatides,
-  /// Woo 1987).
-  double cast(const Fleet& fleet, int self, double x, double y, double dx, double dy) const {
+  /// Returns the range to the first body but `self`, or to the walls, by traversing the cells
+  /// (Amanatides, Woo 1987).
+  double cast(const ArrayFleet& fleet, int self, double x, double y, double dx, double dy) const {
     double best = std::min({bench::kRange, toWall(x, dx), toWall(y, dy)});
     int cx = column(x), cy = column(y);
     const double per_x = kCell / std::abs(dx), per_y = kCell / std::abs(dy);
@@ -110,7 +111,7 @@ class Grid {
 
  private:
   static constexpr double kCell = 1.5;   // [m]
-  static constexpr double kReach = 0.5;  // of a body's corner from its centre [m]
+  static constexpr double kReach = 0.5;  // distance of a body's corner from its centre [m]
 
   /// A cell beyond the wall, since a ray that ends on it may be a rounding away from it.
   double origin() const { return -half_ - kCell; }
@@ -125,7 +126,7 @@ class Grid {
     return (origin() + (cell + (d > 0)) * kCell - at) / d;
   }
 
-  static double toBox(const Fleet& fleet, int i, double x, double y, double dx, double dy) {
+  static double toBox(const ArrayFleet& fleet, int i, double x, double y, double dx, double dy) {
     const double rx = x - fleet.x[i], ry = y - fleet.y[i], c = fleet.c[i], s = fleet.s[i];
     const double at[2] = {c * rx + s * ry, c * ry - s * rx};
     const double d[2] = {c * dx + s * dy, c * dy - s * dx};
@@ -165,7 +166,7 @@ class Lasers {
     ranges_.assign(robots, std::vector<float>(angles.size()));
   }
 
-  void scan(const Fleet& fleet, long step) {
+  void scan(const ArrayFleet& fleet, long step) {
     // A body moves 1 cm in ten steps, which the cells' overlap covers.
     if (step % 10 == 0) grid_.fill(fleet);
     const int first = static_cast<int>((bench::kStepsPerScan - step % bench::kStepsPerScan) %
@@ -174,7 +175,7 @@ class Lasers {
   }
 
  private:
-  void scanOne(const Fleet& fleet, int i) {
+  void scanOne(const ArrayFleet& fleet, int i) {
     const double c = fleet.c[i], s = fleet.s[i];
     const double x = fleet.x[i] + bench::kLaserAhead * c, y = fleet.y[i] + bench::kLaserAhead * s;
     for (std::size_t k = 0; k < c_.size(); ++k) {
@@ -189,7 +190,7 @@ class Lasers {
 };
 
 void run(const bench::Options& options, bool default_robot, int robots) {
-  Fleet fleet(robots);
+  ArrayFleet fleet(robots);
   Lasers lasers(robots, rayAngles(default_robot));
   long step = 0, samples = 0;
   double speed = 0;

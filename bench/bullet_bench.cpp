@@ -19,11 +19,11 @@ constexpr double kChassisMass = 140, kWheelMass = 2.5;  // [kg]
 constexpr double kMotorTorque = 90;                     // [Nm]
 
 /// A world with a floor and walls, and what it owns.
-class Scene {
+class BulletScene {
  public:
-  explicit Scene(double size) : floor_({0, 0, 1}, 0), wall_({0.1, size / 2, 0.5}) {
+  explicit BulletScene(double size) : floor_({0, 0, 1}, 0), wall_({0.1, size / 2, 0.5}) {
     world_.setGravity({0, 0, -9.81});
-    // Only what moved: else each step updates everything in the broadphase.
+    // Updates only what moved; otherwise each step updates everything in the broadphase.
     world_.setForceUpdateAllAabbs(false);
     add(0, &floor_, btTransform::getIdentity())->setFriction(1);
     for (int i = 0; i < 4; ++i) {
@@ -32,7 +32,7 @@ class Scene {
       add(0, &wall_, btTransform(turn, btVector3(i < 2 ? at : 0, i < 2 ? 0 : at, 0.5)));
     }
   }
-  ~Scene() {
+  ~BulletScene() {
     for (auto& hinge : hinges_) world_.removeConstraint(hinge.get());
     for (auto& body : bodies_) world_.removeRigidBody(body.get());
   }
@@ -56,7 +56,7 @@ class Scene {
 
   void step() { world_.stepSimulation(bench::kStep, 0); }
 
-  /// One scan of a robot at that pose; the ranges are added up, so that nothing is left out.
+  /// Returns the sum of the ranges of a scan at that pose, so that no ray is optimised away.
   double scan(const btTransform& pose) const {
     double sum = 0;
     const btVector3 from = pose * btVector3(bench::kLaserAhead, 0, kLaserUp);
@@ -93,7 +93,7 @@ btTransform start(const bench::Lattice& lattice, int i) {
 /// Kinematic bodies: nothing but their poses, integrated here.
 class Kinematic {
  public:
-  Kinematic(Scene& scene, const bench::Lattice& lattice, int robots)
+  Kinematic(BulletScene& scene, const bench::Lattice& lattice, int robots)
       : body_({bench::kLength / 2, bench::kWidth / 2, bench::kHeight / 2}), yaw_(robots, 0) {
     for (int i = 0; i < robots; ++i) {
       chassis_.push_back(scene.add(0, &body_, start(lattice, i)));
@@ -104,7 +104,7 @@ class Kinematic {
 
   void drive(long step) {
     for (int i = 0; i < static_cast<int>(chassis_.size()); ++i) {
-      const bench::Twist w = bench::command(i, step);
+      const bench::PlanarTwist w = bench::command(i, step);
       yaw_[i] += w.yaw_rate * bench::kStep;
       const double way = w.speed * bench::kStep;
       btTransform pose(btQuaternion({0, 0, 1}, yaw_[i]),
@@ -125,7 +125,7 @@ class Kinematic {
 /// Rigid chassis with two casters that slide, and two wheels with velocity motors.
 class Hinged {
  public:
-  Hinged(Scene& scene, const bench::Lattice& lattice, int robots)
+  Hinged(BulletScene& scene, const bench::Lattice& lattice, int robots)
       : box_({bench::kLength / 2, bench::kWidth / 2, bench::kHeight / 2}),
         caster_(0.05),
         wheel_({bench::kWheelRadius, bench::kWheelWidth / 2, bench::kWheelRadius}) {
@@ -139,7 +139,7 @@ class Hinged {
 
   void drive(long step) {
     for (std::size_t i = 0; i < chassis_.size(); ++i) {
-      const bench::Twist w = bench::command(static_cast<int>(i), step);
+      const bench::PlanarTwist w = bench::command(static_cast<int>(i), step);
       for (int side = 0; side < 2; ++side) {
         const double turn = (side ? 1 : -1) * w.yaw_rate * bench::kTrack / 2;
         const double wheel_speed = (w.speed + turn) / bench::kWheelRadius;
@@ -151,7 +151,7 @@ class Hinged {
   const btTransform& pose(int i) const { return chassis_[i]->getWorldTransform(); }
 
  private:
-  void add(Scene& scene, const btTransform& pose) {
+  void add(BulletScene& scene, const btTransform& pose) {
     btRigidBody* chassis = scene.add(kChassisMass, &body_, pose);
     chassis->setFriction(0);
     chassis->setActivationState(DISABLE_DEACTIVATION);
@@ -178,7 +178,7 @@ class Hinged {
 template <typename Robots>
 void run(const char* engine, const bench::Options& options, int robots) {
   const bench::Lattice lattice(robots);
-  Scene scene(lattice.size());
+  BulletScene scene(lattice.size());
   Robots fleet(scene, lattice, robots);
   long step = 0;
   double way = 0, ranges = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every benchmark of this folder shares: chunks of simulated time, measured on the wall clock
-// and on the CPU, and the line of JSON in which a figure is printed.
+// Shared by all benchmarks of this folder: chunks of simulated time, measured on the wall clock and
+// on the CPU, and the line of JSON in which a figure is printed.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Factors {
   double wall = 0, cpu = 0;
 };
 
-/// The medians over kChunks calls of `chunk`, each of which simulates so many seconds.
+/// Returns the medians over kChunks calls of `chunk`, each of which simulates `seconds`.
 template <typename Chunk>
 Factors measure(double seconds, Chunk chunk) {
   std::vector<double> wall, cpu;
@@ -59,11 +59,10 @@ inline void print(const std::string& engine, int robots, bool lasers, const Fact
   std::fflush(stdout);
 }
 
-/// What all workloads take: [--no-lasers] [--seconds S] N…; words that are none of these are left
-/// in `others`.
+/// The options of all workloads: [--no-lasers] [--seconds S] N…; other words are left in `others`.
 struct Options {
   bool lasers = true;
-  double seconds = 2;  ///< Of simulated time a chunk.
+  double seconds = 2;  ///< Simulated time of a chunk.
   std::vector<int> robots;
   std::vector<std::string> others;
 };
@@ -73,7 +72,7 @@ struct Options {
   std::exit(2);
 }
 
-/// Exits with `help` where a number is none, or no number of robots is given.
+/// Parses the options. Exits with `help` for a malformed number, or without a number of robots.
 inline Options parse(int argc, char** argv, const char* help) {
   Options options;
   const auto number = [help](const std::string& word) {

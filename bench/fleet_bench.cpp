@@ -30,7 +30,7 @@ constexpr char kHelp[] =
 
 const std::string kThreads = "--threads=";  // bare numbers are robots
 
-// With which a jointed robot's square takes as long as the workload's.
+// Parameters with which a jointed robot's square takes as long as the workload's.
 const std::pair<const char*, const char*> kJointedChanges[] = {
     {"acceleration", "3.5"}, {"speed", "2.0"}, {"quarter_turn_time", "0.82"}};
 
@@ -65,7 +65,7 @@ std::string with(const std::string& text, const std::string& key, const std::str
   return std::regex_replace(text, element, "<" + key + ">" + value + "</" + key + ">");
 }
 
-/// The bare arrays' workload, by the Kiva's parameters.
+/// Returns the Kiva with the parameters of the bare arrays' workload.
 std::string likeArrays(std::string text, const std::string& robot) {
   const std::pair<const char*, const char*> changes[] = {
       {"drive", robot == "jointed" ? "jointed" : "traction"},
@@ -79,7 +79,7 @@ std::string likeArrays(std::string text, const std::string& robot) {
   };
   for (const auto& [key, value] : changes) text = with(text, key, value);
   if (robot == "at_once") return with(text, "acceleration", "0");
-  // What has a mass can't be at full speed at once: 1.18 s a side, 0.82 s a turn.
+  // A body with mass can't reach full speed at once: 1.18 s a side, 0.82 s a turn.
   for (const auto& [key, value] : kJointedChanges) text = with(text, key, value);
   return text;
 }
@@ -148,7 +148,7 @@ double meanSpeed(const kiva::Fleet& fleet) {
   return sum / fleet.size();
 }
 
-/// A client reads the lasers: every scan that is due is taken.
+/// Takes every scan that is due, as a client that reads the lasers.
 void readLasers(const kiva::World& world, std::vector<std::vector<float>>* ranges) {
   world.scan(world.scansDue(), ranges);
 }

@@ -43,9 +43,9 @@ constexpr char kHelp[] =
     "  --no-listen   to no topic of a single robot\n"
     "  --no-command  robots stand\n"
     "  --seconds     of wall time, once all is connected (30)\n"
-    "  --watch       whose CPU time to tell besides its own\n";
-constexpr double kPatience = 120;  // until all is connected [s]
-constexpr double kSettling = 3;    // until what came while connecting is worked off [s]
+    "  --watch       also print the CPU time of process PID\n";
+constexpr double kPatience = 120;  // time until all is connected [s]
+constexpr double kSettling = 3;  // time until the messages of the connecting phase are handled [s]
 constexpr int kQueue = 100000;
 constexpr auto kLook = std::chrono::milliseconds(50);  // between two at what came
 
@@ -77,7 +77,8 @@ Options parse(int argc, char** argv) {
 
 double now() { return ros::WallTime::now().toSec(); }
 
-/// CPU time of all threads of a process, 0 for this one [s]; 0 if there is no such process.
+/// Returns the CPU time of all threads of a process, 0 for this one [s]; 0 if there is no such
+/// process.
 double cpuTime(int process) {
   const std::string name = process ? std::to_string(process) : "self";
   std::ifstream file("/proc/" + name + "/stat");
@@ -100,7 +101,7 @@ class Times {
  public:
   void add(double seconds) { ms_.push_back(static_cast<float>(1e3 * seconds)); }
   void clear() { ms_.clear(); }
-  /// A percentile [ms] as JSON, null without messages.
+  /// Returns a percentile [ms] as JSON, null without messages.
   std::string percentile(double share) {
     if (ms_.empty()) return "null";
     const auto at = ms_.begin() + static_cast<long>(share * static_cast<double>(ms_.size() - 1));
@@ -122,7 +123,7 @@ class ReceivingThread : public ros::CallbackQueueInterface {
   }
   void removeByID(std::uint64_t) override {}  // nothing waits
 
-  /// What callbacks write is read, and reset, while none is called.
+  /// Calls look() while no callback writes.
   template <typename Look>
   auto pause(Look look) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -158,7 +159,7 @@ class Listener {
     for (long count : counts_) sum += count;
     return sum;
   }
-  /// The count of messages of the topic from which the fewest came.
+  /// Returns the number of messages of the topic with the fewest.
   long fewest() const {
     return counts_.empty() ? 0 : *std::min_element(counts_.begin(), counts_.end());
   }
@@ -274,8 +275,8 @@ class Commander {
 
   bench::RandomCommands random_{1};
   std::map<int, bench::Waiting> places_;
-  std::map<int, double> sent_;  // to whom, when: one command a robot at a time
-  std::map<int, long> counts_;  // of events, by kind
+  std::map<int, double> sent_;  // robot and time of each command, one command a robot at a time
+  std::map<int, long> counts_;  // events by kind
   Times took_;
   ros::Publisher mov_, movx_, movy_, rot_, lift_;
   ros::Subscriber events_;  // last, likewise
@@ -292,8 +293,8 @@ bool waitUntil(double deadline, ReceivingThread& thread, Condition condition) {
 
 void sleepUntil(double deadline) { ros::WallTime::sleepUntil(ros::WallTime(deadline)); }
 
-/// The newest message of a topic that comes by itself. It waits by the wall clock: simulated
-/// seconds may be short.
+/// Returns the newest message of a topic that is published periodically. Waits by the wall clock:
+/// simulated seconds may be short.
 template <typename Message>
 boost::shared_ptr<const Message> first(ros::NodeHandle& node, ReceivingThread& thread,
                                        const std::string& topic) {
@@ -318,7 +319,7 @@ void readUnits(ros::NodeHandle& node, ReceivingThread& thread, Commander& comman
   });
 }
 
-/// What was measured, as a line of JSON. `took`: [s, wall]; `simulated` meanwhile [s].
+/// Prints the measurements as a line of JSON. `took`: [s, wall]; `simulated` meanwhile [s].
 void print(std::size_t robots, double took, double simulated, double cpu, double watched_cpu,
            Listener& listener, Commander& commander) {
   using warehouse_msgs::Event;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What following a released path costs: N robots of worlds/models/kiva as it is drive straight
-// ahead in lanes of their own, by one long command, by a path that is released at once, and by one
-// that is released cell by cell, in time. The three worlds take turns, a second each. Prints the
-// CPU time of a step in each, commands and releases included, and what the paths cost over the
-// command.
+// The cost of following a released path: N robots of worlds/models/kiva drive straight ahead in
+// lanes of their own, by one long command, by a path that is released at once, and by one that is
+// released cell by cell, in time. The three worlds take turns, a second each. Prints the CPU time
+// of a step in each, commands and releases included, and the cost of the paths over the command.
 //
 //   follow_bench N…
 #include <cmath>
@@ -22,7 +21,7 @@
 namespace {
 
 constexpr int kColumns = 25;
-constexpr int kCells = 33;            // that each drives
+constexpr int kCells = 33;            // cells that each drives
 constexpr double kPitch[] = {36, 3};  // between robots along x and y [m]
 constexpr int kSeconds = 20;          // simulated, while all are on their way
 constexpr std::uint32_t kAhead = 3;   // points released beyond those reached: it never has to brake
@@ -30,9 +29,9 @@ constexpr std::uint32_t kAhead = 3;   // points released beyond those reached: i
 enum class By { kCommand, kPath, kReleases };
 constexpr const char* kNames[] = {"command", "path", "releases"};
 
-class Lanes {
+class FollowLanes {
  public:
-  Lanes(int robots, By by) : by_(by), released_(robots, kCells + 1) {
+  FollowLanes(int robots, By by) : by_(by), released_(robots, kCells + 1) {
     kiva::WorldDescription empty =
         kiva::loadWorld(std::string(WORLDS_DIR) + "/empty.sdf", {WORLDS_DIR "/models"});
     for (auto& model : empty.models) growFloor(&model, robots);
@@ -130,9 +129,9 @@ class Lanes {
 };
 
 void run(int robots) {
-  std::vector<std::unique_ptr<Lanes>> worlds;
+  std::vector<std::unique_ptr<FollowLanes>> worlds;
   for (By by : {By::kCommand, By::kPath, By::kReleases}) {
-    worlds.push_back(std::make_unique<Lanes>(robots, by));
+    worlds.push_back(std::make_unique<FollowLanes>(robots, by));
   }
   std::vector<std::vector<double>> took(worlds.size()), over(worlds.size());
   for (int second = 0; second < kSeconds; ++second) {

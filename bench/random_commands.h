@@ -19,16 +19,16 @@ namespace bench {
 struct Waiting {
   int kiva_id = 0;
   double x = 0, y = 0;  ///< In world [m].
-  int shelf_id = 0;     ///< What it carries, 0 = nothing.
+  int shelf_id = 0;     ///< The carried unit, 0 = none.
 };
 
 class RandomCommands {
  public:
   explicit RandomCommands(std::uint64_t seed) : random_(seed) {}
 
-  /// A storage unit stands there, in world [m]; also when a robot put it down.
+  /// Notes that a storage unit stands there, in world [m], also after a robot put it down.
   void standsAt(int shelf_id, double x, double y) { units_[cell(x, y)] = shelf_id; }
-  /// A robot lifted what stood there.
+  /// Notes that a robot lifted the unit there.
   void liftedAt(double x, double y) { units_.erase(cell(x, y)); }
 
   kiva::Command next(const Waiting& robot) {

@@ -13,13 +13,14 @@ constexpr double kLattice = 3.0;  // [m]
 constexpr double kStep = 0.001;   // [s]
 
 constexpr int kRays = 20;
-constexpr double kRange = 5.0;       // [m]
-constexpr int kStepsPerScan = 100;   // 10 Hz
-constexpr double kLaserAhead = 0.4;  // of the robot's centre, just beyond its body [m]
+constexpr double kRange = 5.0;      // [m]
+constexpr int kStepsPerScan = 100;  // 10 Hz
+constexpr double kLaserAhead =
+    0.4;  // distance ahead of the robot's centre, just beyond its body [m]
 constexpr double kLaserHeight = 0.2;
 
-constexpr double kLength = 0.76, kWidth = 0.64, kHeight = 0.33;          // of the body [m]
-constexpr double kBodyHeight = 0.195;                                    // of its centre [m]
+constexpr double kLength = 0.76, kWidth = 0.64, kHeight = 0.33;          // size of the body [m]
+constexpr double kBodyHeight = 0.195;                                    // height of its centre [m]
 constexpr double kWheelRadius = 0.1, kWheelWidth = 0.05, kTrack = 0.52;  // [m]
 
 /// Where robot `i` of `robots` starts, and the floor it drives on.
@@ -33,21 +34,21 @@ struct Lattice {
   int columns;
 };
 
-struct Twist {
+struct PlanarTwist {
   double speed = 0;     ///< [m/s]
   double yaw_rate = 0;  ///< [rad/s]
 };
 
-/// The command of a robot at a step. Robots take turns, so that all chunks cost the same.
-inline Twist command(int robot, long step) {
+/// Returns the command of a robot at a step. Robots take turns, so that all chunks cost the same.
+inline PlanarTwist command(int robot, long step) {
   constexpr long kSide = 1000, kStagger = 137;  // steps
   const bool straight = (step + robot * kStagger) / kSide % 2 == 0;
-  return straight ? Twist{1, 0} : Twist{0, M_PI / 2};
+  return straight ? PlanarTwist{1, 0} : PlanarTwist{0, M_PI / 2};
 }
 
 inline bool scanDue(int robot, long step) { return (step + robot) % kStepsPerScan == 0; }
 
-/// The angle of ray k to the robot's heading [rad].
+/// Returns the angle of ray k to the robot's heading [rad].
 inline double rayAngle(int k) { return -M_PI / 2 + M_PI * k / (kRays - 1); }
 
 }  // namespace bench

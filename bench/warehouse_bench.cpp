@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast a whole warehouse is, in-process: every robot under random commands, lifts included.
+// The speed of a whole warehouse, in-process: every robot under random commands, lifts included.
 //
 //   bench/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] [--chunks N] huge.sdf
 #include <cstdio>
@@ -69,7 +69,7 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
-/// Tells every idle robot what to do next, as a client does: by what the events say.
+/// Commands every idle robot, as a client does: by the events.
 class Dispatcher {
  public:
   explicit Dispatcher(const kiva::World& world) : commands_(1) {
@@ -119,8 +119,8 @@ class Dispatcher {
   std::map<kiva::Event::Kind, long> counts_;
 };
 
-/// How many robots of a hundred do something, and are stepped by Bullet; and how many storage units
-/// Bullet holds, has awake, and have fallen over.
+/// Shares of robots in a hundred that have a command, and that Bullet steps; and the number of
+/// storage units in Bullet, awake, and fallen over.
 class Shares {
  public:
   void add(const kiva::World& world) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Restores damaged checkpoints. Each must be refused with a reason, the world as it was, or go on.
+// Restores damaged checkpoints. Each must be refused with a reason and the world unchanged, or be a
+// valid world.
 //
-//   checkpoint_fuzz COUNT SEED SECONDS KEPT    stops after COUNT of them or SECONDS of wall time
-//
-// The one that it is at is written to KEPT first, so that it is there when the process dies of it.
+//   checkpoint_fuzz COUNT SEED SECONDS KEPT    stops after COUNT checkpoints or SECONDS of wall
+//   time
+// The present one is written to KEPT first, so that it survives a crash of the process.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -35,7 +36,7 @@ void command(kiva::World& world, kiva::test::CheckpointDamager& random) {
   world.post(command);
 }
 
-/// Of every world that stands under that folder, at a few moments of its life.
+/// Adds checkpoints of every world in a folder, at a few moments of its run.
 void addSeeds(const char* folder, std::vector<std::string>* seeds) {
   kiva::test::CheckpointDamager random(1);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -51,7 +52,7 @@ void addSeeds(const char* folder, std::vector<std::string>* seeds) {
         seeds->push_back(world.checkpoint());
       }
     } catch (const kiva::DescriptionError&) {
-      // One that is there to be refused.
+      // One checkpoint that must be refused.
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checkpoints that were tampered with: a few bytes are others, and the seal is made good again,
-// so that it is the content that has to be refused.
+// Damaged checkpoints: a few bytes are changed, and the seal is renewed, so that the content must
+// be refused.
 #pragma once
 
 #include <cstring>
@@ -16,7 +16,7 @@ namespace kiva::test {
 
 constexpr std::size_t kVersionAt = 8, kSizeAt = 12, kHashAt = 20, kContentAt = 28;
 
-/// With the size and the hash of what is in it.
+/// Returns a checkpoint with the size and the hash of its present content.
 inline std::string resealed(std::string bytes) {
   std::uint32_t version = 0;
   std::memcpy(&version, &bytes[kVersionAt], sizeof version);
@@ -75,8 +75,8 @@ class CheckpointDamager {
   std::mt19937_64 random_;
 };
 
-/// Whether the world took it and went on. Throws std::logic_error if it was refused otherwise than
-/// with a reason and nothing changed.
+/// Returns whether the world accepted it and could be stepped. Throws std::logic_error unless a
+/// refusal has a reason and changes nothing.
 inline bool restores(World& world, const std::string& bytes, int steps) {
   const std::uint64_t before = world.stateHash();
   const auto refused = [&](const std::string& why) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Feeds damaged SDF and URDF to the entrance that worlds and spawn requests come by, and builds
-// what still passes. Each must end in a world or in a DescriptionError that says why.
+// Feeds damaged SDF and URDF to the parsers of worlds and spawn requests, and builds what passes.
+// Each must end in a world or in a DescriptionError with a reason.
 //
 //   world_file_fuzz COUNT SEED SECONDS KEPT    stops after COUNT files or SECONDS of wall time
-//
-// The file that it is at is written to KEPT first, so that it is there when the process dies of it.
+// The present file is written to KEPT first, so that it survives a crash of the process.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,7 +26,7 @@ namespace fs = std::filesystem;
 const std::string kTests = TESTS_DIR;
 const kiva::ModelPaths kPaths{std::string(WORLDS_DIR) + "/models", kTests + "/worlds/models",
                               kTests + "/worlds"};
-constexpr std::size_t kLongest = 20000;  // of a seed; longer ones take the time of many
+constexpr std::size_t kLongest = 20000;  // length of a seed; longer ones take the time of many
 constexpr int kSteps = 3;
 
 std::string textOf(const fs::path& path) {
@@ -43,7 +42,7 @@ std::vector<std::string> readSeeds() {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string ending = entry.path().extension();
       if (ending != ".sdf" && ending != ".world" && ending != ".urdf") continue;
-      // What is refused from the start leads nowhere.
+      // Files that are refused from the start lead nowhere.
       if (entry.path().filename().string().rfind("invalid_", 0) == 0) continue;
       const std::string text = textOf(entry.path());
       if (!text.empty() && text.size() < kLongest) seeds.push_back(text);
@@ -187,7 +186,7 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-/// Whether it came to a world.
+/// Returns whether a world resulted.
 bool tryWorld(const std::string& text) {
   std::vector<std::string> warnings;
   kiva::World world(kiva::parseWorld(text, kPaths, "fuzz.sdf", &warnings));
@@ -204,8 +203,8 @@ bool tryModels(const std::string& text) {
   return true;
 }
 
-/// Reads the text as the model of a folder, which a world includes by itself, in a model that takes
-/// its parts over, and in one that nests it.
+/// Reads the text as the model of a folder, which a world includes directly, merged into a model,
+/// and nested in one.
 bool tryInclude(const std::string& text, const fs::path& library) {
   const fs::path folder = library / "damaged";
   fs::create_directories(folder);

@@ -32,11 +32,7 @@ def write_instance(
         for x in range(start + 1, start + 1 + BLOCK):
             for y in street_y[:-1]:
                 storage |= {(x, y + 1), (x, y + 2)}
-    for x, y in storage:
-        for other in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
-            join((x, y), other)
-            if other not in storage:
-                join(other, (x, y))
+    _join_storage(join, storage)
     for k in range(picking):
         y = _height(street_y, k, picking)
         there = [(street_x[-1] + 1 + i, y) for i in range(LANE)]
@@ -79,11 +75,7 @@ def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
     for x, y in itertools.product(range(street_x[0], street_x[-1]), range(rows)):
         if x not in street_x and y % 3:
             storage.add((x, y))
-    for x, y in storage:
-        for other in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
-            join((x, y), other)
-            if other not in storage:
-                join(other, (x, y))
+    _join_storage(join, storage)
     for y in range(rows):
         for begin in (street_x[-1], first - BUFFER - 1):
             way = [(x, y) for x in range(begin, begin + BUFFER + 2)]
@@ -114,6 +106,14 @@ def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
     starts = [free[i] for i in np.random.default_rng(4).permutation(len(free))[:bots]]
     kind = {"MaxAcceleration": "0.5", "MaxDeceleration": "0.5", "PodTransferTime": "3"}
     return _write(path, edges, storage, queues, lanes, starts, 1.0, filled, False, kind)
+
+
+def _join_storage(join, storage):
+    for x, y in storage:
+        for other in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+            join((x, y), other)
+            if other not in storage:
+                join(other, (x, y))
 
 
 def _graph():

@@ -23,7 +23,8 @@ namespace {
 
 class Patrol : public kiva::Plugin {
  public:
-  // Once, when the model stands. A key that is never asked for here is an error of the SDF.
+  // Reads the parameters when the model stands. A key that is never read here is an error of the
+  // SDF.
   void load(kiva::World& world, const std::string& model,
             const kiva::Parameters& parameters) override {
     if (world.kind(model) != kiva::ModelKind::kRobot) {
@@ -37,7 +38,7 @@ class Patrol : public kiva::Plugin {
     pause_ = parameters.number("pause", 1.0, 0.1, 3600);
   }
 
-  // Before every step of `dt` seconds: the place to command.
+  // Commands the next place before every step of `dt` seconds.
   void beforeStep(kiva::World& world, double dt) override {
     // Ids stay with a robot; its index changes when another one is deleted.
     const int robot = world.fleet().find(id_);
@@ -45,7 +46,8 @@ class Patrol : public kiva::Plugin {
     waited_ = idle ? waited_ + dt : 0;
     if (waited_ < pause_) return;
     waited_ = 0;
-    // Only what was reached is turned back from; what was blocked or refused is tried again.
+    // The robot turns back only from a place that it reached; a blocked or refused drive is tried
+    // again.
     const kiva::Pose at = world.basePose(robot);
     if (std::hypot(at.X() - goal_.x, at.Y() - goal_.y) < 0.01) std::swap(goal_, other_end_);
     kiva::Command command;
@@ -56,7 +58,7 @@ class Patrol : public kiva::Plugin {
     world.post(command);
   }
 
-  // For checkpoints: what it remembers from step to step. The rest comes from load.
+  // Returns the state that a checkpoint needs. The rest comes from load.
   std::string save() const override {
     std::ostringstream out;
     out.precision(17);
@@ -81,5 +83,5 @@ class Patrol : public kiva::Plugin {
 
 }  // namespace
 
-// By this line the library tells what it holds.
+// Registers the class, so that a program can load it by name.
 WAREHOUSE_ADD_PLUGIN(Patrol, kiva::Plugin)

@@ -19,8 +19,8 @@ struct Command {
     kRotate,
     kLift,
     kCancel,  ///< End the command at the next grid point; a lift is completed first.
-    kStop,    ///< Stand at once, wheels and lift, and stay; kiva_id 0: every robot.
-    kGoOn,    ///< Go on with the command that kStop interrupted; kiva_id 0: every robot.
+    kStop,    ///< Stand at once with wheels and lift held; kiva_id 0: every robot.
+    kGoOn,    ///< Resume the command that kStop interrupted; kiva_id 0: every robot.
     kFollow   ///< Stands for a FollowPath among the commands; not to be posted.
   };
   Kind kind = Kind::kMoveTo;
@@ -39,16 +39,16 @@ struct Command {
 struct FollowPath {
   std::int32_t kiva_id = 0;
   std::uint32_t path_id = 0;   ///< The sender's choice, not 0.
-  std::uint32_t first = 0;     ///< Number of the point that x[0], y[0] is; 0 in a new path.
+  std::uint32_t first = 0;     ///< Number of the path's point at x[0], y[0]; 0 in a new path.
   std::vector<double> x, y;    ///< Grid points in world [m]; neighbours differ along one axis.
                                ///< Point 0 is where the robot stands.
-  std::uint32_t released = 0;  ///< How many points of the whole path it may come to, at least 1.
+  std::uint32_t released = 0;  ///< Count of points of the whole path that are released, at least 1.
   std::string fault;           ///< If not empty, the path is refused for this reason.
 };
 
 /// How two bodies met.
 struct Impact {
-  Vector3 point;       ///< In world [m].
+  Vector3 point;       ///< Position in world [m].
   Vector3 normal;      ///< Unit vector in world, from `other` towards `model`.
   double speed = 0;    ///< Speed of approach along the normal [m/s].
   double impulse = 0;  ///< Impulse along the normal until the approach ends [Ns].
@@ -62,9 +62,9 @@ struct Event {
   Kind kind = Kind::kAccepted;
   std::string model;
   std::string other;
-  std::string text;           ///< For a person.
+  std::string text;           ///< Text for a person.
   std::uint32_t command = 0;  ///< Number of its command, counted from 1; 0 = none.
-  Impact impact{};            ///< Of a collision.
+  Impact impact{};            ///< The impact of a collision.
 };
 
 }  // namespace kiva

@@ -18,7 +18,7 @@ namespace kiva {
 
 // Limits of a world.
 constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
-constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
+constexpr double kMostGravity = 1000;                              ///< Largest magnitude [m/s²].
 constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
 constexpr double kLeastGridSpacing = 0.1, kMostGridSpacing = 100;  ///< [m]
 
@@ -38,8 +38,8 @@ struct Shape {
   double length = 1.0;      ///< Cylinder; capsule without its caps [m].
   Vector3 normal{0, 0, 1};  ///< Plane: unit normal in its own frame.
   double plane_size[2] = {100, 100};  ///< Plane: extent along x and y of its own frame [m].
-  /// Mesh: of a static model touched as it is, of another by its convex hull. Scale and unit are
-  /// applied. Null in a visual at whose link something touches: pictures show that.
+  /// Mesh: static models are touched as the mesh is, others by its convex hull. Scale and unit are
+  /// applied. Null in a visual whose link has a collision: pictures show the collision.
   std::shared_ptr<const Mesh> mesh;
   std::string mesh_file;        ///< Mesh: the path it was read from; empty: extruded.
   Vector3 mesh_scale{1, 1, 1};  ///< Mesh: what the file's lengths were multiplied by.
@@ -50,11 +50,12 @@ struct Collision {
   std::string name;
   Pose pose_in_link;
   Shape shape;
-  double friction = 1.0;     ///< Coulomb coefficient; in a contact the smaller one of both counts.
-  double restitution = 0.0;  ///< 0 = no bounce, 1 = all of it; the smaller one of both counts too.
+  double friction = 1.0;  ///< Coulomb coefficient; the smaller one of two surfaces counts.
+  double restitution =
+      0.0;  ///< 0 = no bounce, 1 = elastic; the smaller one of two surfaces counts.
 };
 
-/// A shape that is only seen.
+/// A shape that is visible and touches nothing.
 struct Visual {
   std::string name;
   Pose pose_in_link;
@@ -65,11 +66,12 @@ struct Visual {
 struct Link {
   std::string name;  ///< Links of a nested model are named `nested::link`.
   Pose pose_in_model;
-  double mass = 1.0;                   ///< [kg], > 0.
-  Pose inertial_pose_in_link;          ///< Centre of mass, turned to the principal axes.
-  Vector3 principal_moments{1, 1, 1};  ///< About that centre, along those axes [kg m²].
+  double mass = 1.0;           ///< [kg], > 0.
+  Pose inertial_pose_in_link;  ///< Pose of the centre of mass, turned to the principal axes.
+  Vector3 principal_moments{1, 1, 1};  ///< Moments about that centre, along those axes [kg m²].
   bool gravity = true;
-  bool self_collide = false;  ///< Touches other links of its model, but those it is joined to.
+  bool self_collide =
+      false;  ///< Whether it touches other links of its model that no joint connects to it.
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
 };
@@ -80,7 +82,7 @@ struct Joint {
   Kind kind = Kind::kFixed;
   std::string parent;  ///< A link's name, or "world".
   std::string child;
-  Vector3 anchor_in_model;         ///< Where the joint sits with all joints at zero.
+  Vector3 anchor_in_model;         ///< Position of the joint with all joints at zero.
   Vector3 axis_in_model{0, 0, 1};  ///< Unit vector with all joints at zero.
   double lower = -1e16;            ///< [rad] or [m].
   double upper = 1e16;             ///< [rad] or [m].
@@ -88,7 +90,7 @@ struct Joint {
   double max_velocity = -1;        ///< [rad/s] or [m/s]; negative = unlimited.
   double damping = 0;              ///< [Nm s/rad] or [N s/m].
   double friction = 0;             ///< Dry friction [Nm] or [N].
-  double stiffness = 0;            ///< Of its spring [Nm/rad] or [N/m]; 0 = none.
+  double stiffness = 0;            ///< Spring constant [Nm/rad] or [N/m]; 0 = no spring.
   double spring_reference = 0;     ///< Position at which the spring is relaxed [rad] or [m].
 
   /// Returns whether the joint turns or slides along an axis, with a position and a rate.
@@ -105,7 +107,7 @@ struct PluginDescription {
 /// A `<sensor>` of a link, as the plugins in it need it.
 struct SensorDescription {
   std::string name;
-  std::string type;  ///< As SDF has it: ray, imu, contact, …
+  std::string type;  ///< Type in SDF: ray, imu, contact, …
   std::string link;
   Pose pose_in_link;
   double update_rate = 0;  ///< [Hz] of simulated time, 0 = every step.
@@ -157,7 +159,7 @@ struct ModelInstance {
   Pose pose;  ///< In world.
   std::shared_ptr<const ModelDescription> description;
   std::string
-      robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
+      robot_namespace{};       ///< Passed to its plugins as `robotNamespace`, unless they have one.
   std::optional<Walk> walk{};  ///< The walk of an `<actor>`, which is a person.
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What clients do to a world from outside, as plain structs: forces for a while, lights, settings.
-// They are part of the world's state. A reset ends forces that still act or are still to come.
+// External inputs of a world, as plain structs: temporary forces, lights and settings. They are
+// part of the world's state. A reset ends present and future forces.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace kiva {
 
-/// When a force acts [s, simulated]: at least for one step, and forever if `end` is infinite.
+/// The time in which a force acts [s, simulated]: one step at least; forever if `end` is infinite.
 struct Period {
   double start = 0;
   double end = 0;
@@ -23,8 +23,8 @@ struct Period {
 struct Wrench {
   std::string model;
   std::string link;
-  Vector3 force;   ///< On the centre of mass, in world [N].
-  Vector3 torque;  ///< In world [Nm].
+  Vector3 force;   ///< Force on the centre of mass, in world [N].
+  Vector3 torque;  ///< Torque in world [Nm].
   Period period;
 };
 
@@ -53,7 +53,7 @@ struct OdeSettings {
 struct ExternalInputs {
   std::vector<Wrench> wrenches;
   std::vector<Effort> efforts;
-  std::map<std::string, Light> lights;  ///< By name.
+  std::map<std::string, Light> lights;  ///< Lights by name.
   OdeSettings ode;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What breaks in a robot, by order or by chance, and how long until it is repaired.
+// Failures of robots, ordered or random, and their repair times.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ constexpr std::uint8_t bitOf(Failure failure) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(failure));
 }
 
-/// In Fleet::failures, beside those bits: the battery is empty, and the robot stands.
+/// The bit of Fleet::failures for an empty battery, with which the robot stands.
 constexpr std::uint8_t kEmptyBattery = 1;
 
 }  // namespace kiva

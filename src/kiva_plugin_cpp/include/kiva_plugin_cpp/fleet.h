@@ -22,23 +22,25 @@ enum class Drive : std::uint8_t {
   kJointed    ///< Wheel joints, casters, rigid contacts with the floor; the chassis pitches.
 };
 
-// Each struct of parameters lists its numbers once, in fields(): name, value, least, most. From
-// that list they are read, and checked and saved in checkpoints.
+// Each struct of parameters lists its numbers once, in fields(): name, value, least, most. This
+// list serves for reading, checking and checkpoints.
 
 struct DriveParameters {
   Drive drive = Drive::kTraction;
-  double speed = 1.5;                   ///< [m/s], > 0.
-  double acceleration = 1.0;            ///< [m/s²]; 0 = speed changes at once, motors unlimited,
-                                        ///< and grip too but for jointed robots, whose wheels slip.
-  double emergency_deceleration = 2.5;  ///< [m/s²], when a normal stop would come too late.
-  double wheel_radius = 0.1;            ///< [m]
-  double wheel_separation = 0.52;       ///< Between the wheels' centres [m].
-  double wheel_inertia = 0.03;          ///< Of one wheel with its motor, about its axle [kg m²].
-  double motor_torque = 90.0;           ///< Limit of one motor at its wheel [Nm].
-  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor; where the
-                                        ///< tyre's own or the floor's is smaller, that one counts.
+  double speed = 1.5;  ///< [m/s], > 0.
+  double acceleration =
+      1.0;  ///< [m/s²]; 0 = speed changes at once: motors have no limit, and grip has none either,
+            ///< except that of jointed robots, whose wheels slip.
+  double emergency_deceleration =
+      2.5;                         ///< Deceleration where a normal stop would be too late [m/s²].
+  double wheel_radius = 0.1;       ///< [m]
+  double wheel_separation = 0.52;  ///< Distance between the wheels' centres [m].
+  double wheel_inertia = 0.03;     ///< Inertia of a wheel with its motor, about its axle [kg m²].
+  double motor_torque = 90.0;      ///< Limit of one motor at its wheel [Nm].
+  double friction = 0.8;  ///< Coulomb coefficient between wheel and floor, unless the tyre's or the
+                          ///< floor's own is smaller.
   double drive_wheel_load = 0.8;  ///< Share of the weight on the driven wheels; casters: the rest.
-  double quarter_turn_time = 0.625;  ///< For 90° from rest to rest [s]; 0 = at once.
+  double quarter_turn_time = 0.625;  ///< Time of a turn by 90°, from rest to rest [s]; 0 = at once.
 
   /// The numbers that the plugin `motion` takes.
   template <typename Self, typename Field>
@@ -68,10 +70,11 @@ struct DriveParameters {
 struct LiftParameters {
   bool fitted = false;
   double height = 0.10;     ///< Stroke of the tower [m].
-  double time = 2.2;        ///< For the whole stroke [s]; 0 = at once.
+  double time = 2.2;        ///< Time for the whole stroke [s]; 0 = at once.
   double max_load = 450.0;  ///< [kg]
-  double max_force = 5500;  ///< The lift stalls at this weight of the load and what holds it [N].
-  double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
+  double max_force =
+      5500;  ///< Largest force of the lift [N]; it stalls where the load resists with more.
+  double proximity = 0.1;  ///< Largest distance between the centres of robot and unit [m].
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -91,10 +94,10 @@ struct LaserParameters {
   double min_range = 0.01;                 ///< [m]
   double max_range = 5.0;                  ///< [m]
   double rate = 10.0;                      ///< [Hz] of simulated time.
-  double x = 0.38;                         ///< Of the sensor, in the chassis frame [m].
-  double z = 0.2;                          ///< Above the floor [m].
+  double x = 0.38;                         ///< Position of the sensor, in the chassis frame [m].
+  double z = 0.2;                          ///< Height above the floor [m].
 
-  /// The least of an upper limit is the lower one, which is read before it.
+  /// The lower limit of max_range and max_angle is min_range and min_angle, which are read first.
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("rays", s.rays, 1, 10000);
@@ -112,9 +115,9 @@ struct LaserParameters {
 struct Robot {
   std::string name;
   int id = 0;
-  int model = -1;             ///< Index in the world's models.
-  double mass = 145;          ///< Without load [kg].
-  double inertia = 12;        ///< About z through the robot's origin, without load [kg m²].
+  int model = -1;       ///< Index in the world's models.
+  double mass = 145;    ///< Mass without load [kg].
+  double inertia = 12;  ///< Inertia about z through the robot's origin, without load [kg m²].
   double centre[2] = {0, 0};  ///< Centre of mass without load, in the chassis frame [m].
   /// Coulomb coefficients of the tyres: left, right.
   double tyre_friction[2] = {1e16, 1e16};
@@ -168,8 +171,8 @@ struct RobotReport {
 /// The report of a robot that is elsewhere, whose shadow stands in the world.
 struct ShadowReport {
   RobotReport report;         ///< The velocities are not used.
-  std::uint8_t failures = 0;  ///< As in Fleet.
-  float charge = 1;           ///< As in Fleet.
+  std::uint8_t failures = 0;  ///< Set of failures, as Fleet::failures.
+  float charge = 1;           ///< Charge of the battery, as Fleet::charge.
 };
 
 /// One value a robot. Others may hold its memory and read it without a copy.
@@ -190,12 +193,12 @@ struct Fleet {
   /// End of the last command: kDone or kBlocked of Event::Kind, 0 = none yet. It stays until the
   /// next command is accepted.
   Column<std::uint8_t> last_end;
-  /// The path of the last command; 0, as are the two below, if that was no path.
+  /// Id of the last command's path; 0 if that command was no path, and so are the next two.
   Column<std::uint32_t> path_id;
-  /// Count of leading points of the path that the robot's centre has reached, within a millimetre:
-  /// 1 at the beginning, since the robot stands on point 0, and all of them at the end.
+  /// Count of leading points of the path that the robot's centre has reached, within a millimetre.
+  /// It is 1 at the beginning, since the robot stands on point 0, and the whole count at the end.
   Column<std::uint32_t> reached;
-  /// Count of cells of leading points that the robot and its load have left wholly. A cell is a
+  /// Count of leading points whose cells the robot and its load have left completely. A cell is a
   /// square of the grid's spacing around its point. Extents are those of straight driving: the
   /// corners of a load that turns reach some centimetres out of its cell.
   Column<std::uint32_t> left;

@@ -13,7 +13,7 @@
 
 namespace kiva {
 
-/// Lengths up to here count as zero where something is divided by them, and a sum of squares too.
+/// Smallest length, and smallest sum of squares, that is not treated as zero in a division.
 constexpr double kNegligible = 1e-6;
 
 class Vector3 {
@@ -44,7 +44,7 @@ class Vector3 {
   constexpr Vector3 operator-(const Vector3& v) const {
     return {X() - v.X(), Y() - v.Y(), Z() - v.Z()};
   }
-  /// Component by component.
+  /// Multiplies component by component.
   constexpr Vector3 operator*(const Vector3& v) const {
     return {X() * v.X(), Y() * v.Y(), Z() * v.Z()};
   }
@@ -66,7 +66,7 @@ class Vector3 {
   constexpr double SquaredLength() const { return Dot(*this); }
   double Length() const { return std::sqrt(SquaredLength()); }
   double Distance(const Vector3& v) const { return (*this - v).Length(); }
-  /// Makes its length 1, unless it is negligible; returns itself.
+  /// Makes its length 1, unless that is negligible; returns itself.
   Vector3& Normalize() {
     const double length = Length();
     return length <= kNegligible ? *this : *this /= length;
@@ -74,10 +74,10 @@ class Vector3 {
   Vector3 Normalized() const { return Vector3(*this).Normalize(); }
 
   Vector3 Abs() const { return {std::abs(X()), std::abs(Y()), std::abs(Z())}; }
-  /// The largest and the smallest component.
+  /// Returns the largest component.
   constexpr double Max() const { return std::max(std::max(X(), Y()), Z()); }
   constexpr double Min() const { return std::min(std::min(X(), Y()), Z()); }
-  /// Raises, or lowers, each component to that of `v`.
+  /// Raises each component to at least that of `v`; Min() lowers it to at most that.
   constexpr void Max(const Vector3& v) {
     Set(std::max(X(), v.X()), std::max(Y(), v.Y()), std::max(Z(), v.Z()));
   }
@@ -86,12 +86,12 @@ class Vector3 {
   }
   constexpr double Sum() const { return X() + Y() + Z(); }
   bool IsFinite() const { return std::isfinite(X()) && std::isfinite(Y()) && std::isfinite(Z()); }
-  /// Exactly.
+  /// Compares exactly.
   constexpr bool operator==(const Vector3& v) const {
     return X() == v.X() && Y() == v.Y() && Z() == v.Z();
   }
   constexpr bool operator!=(const Vector3& v) const { return !(*this == v); }
-  /// Whether no component differs by more than `tolerance`.
+  /// Returns whether no component differs by more than `tolerance`.
   bool Equal(const Vector3& v, double tolerance) const {
     return std::abs(X() - v.X()) <= tolerance && std::abs(Y() - v.Y()) <= tolerance &&
            std::abs(Z() - v.Z()) <= tolerance;
@@ -114,7 +114,7 @@ class Quaternion {
 
   constexpr Quaternion() = default;
   constexpr Quaternion(double w, double x, double y, double z) : w_(w), x_(x), y_(y), z_(z) {}
-  /// About fixed axes: roll about x, then pitch about y, then yaw about z.
+  /// A rotation about fixed axes: roll about x, then pitch about y, then yaw about z.
   Quaternion(double roll, double pitch, double yaw) {
     const double cr = std::cos(roll / 2), sr = std::sin(roll / 2);
     const double cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
@@ -123,7 +123,7 @@ class Quaternion {
                        cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy);
     Normalize();
   }
-  /// By `angle` about `axis` of any length; none if that is negligible.
+  /// A rotation by `angle` about `axis`, which has any length; the identity if that is negligible.
   Quaternion(const Vector3& axis, double angle) {
     const double squared = axis.SquaredLength();
     if (!(squared <= kNegligible)) {
@@ -152,13 +152,13 @@ class Quaternion {
             w_ * q.y_ - x_ * q.z_ + y_ * q.w_ + z_ * q.x_,
             w_ * q.z_ + x_ * q.y_ - y_ * q.x_ + z_ * q.w_};
   }
-  /// `v` turned, if the length is 1: the quicker way, rounded otherwise than RotateVector.
+  /// Returns `v` rotated, if the length is 1. It is faster than RotateVector, with other rounding.
   Vector3 operator*(const Vector3& v) const {
     const Vector3 axis(x_, y_, z_);
     const Vector3 once = axis.Cross(v);
     return v + once * (2.0 * w_) + axis.Cross(once) * 2.0;
   }
-  /// `v` turned, or turned back, whatever the length.
+  /// Returns `v` rotated, whatever the quaternion's length; RotateVectorReverse rotates it back.
   Vector3 RotateVector(const Vector3& v) const {
     return (*this * (Quaternion(0, v.X(), v.Y(), v.Z()) * Inverse())).vector();
   }
@@ -166,12 +166,12 @@ class Quaternion {
     return (Inverse() * (Quaternion(0, v.X(), v.Y(), v.Z()) * *this)).vector();
   }
 
-  /// Exactly, component by component.
+  /// Compares exactly, component by component.
   constexpr bool operator==(const Quaternion& q) const {
     return w_ == q.w_ && x_ == q.x_ && y_ == q.y_ && z_ == q.z_;
   }
   constexpr bool operator!=(const Quaternion& q) const { return !(*this == q); }
-  /// The rotation back; the identity if the length is negligible.
+  /// Returns the inverse rotation; the identity if the length is negligible.
   Quaternion Inverse() const {
     const double s = Dot(*this);
     if (s <= kNegligible) return Quaternion();
@@ -192,7 +192,7 @@ class Quaternion {
     return std::isfinite(w_) && std::isfinite(x_) && std::isfinite(y_) && std::isfinite(z_);
   }
 
-  /// Roll, pitch and yaw; pitch in -pi/2 to pi/2, yaw 0 where it is either of these.
+  /// Returns roll, pitch and yaw. Pitch is in -pi/2 to pi/2; yaw is 0 at either end of it.
   Vector3 Euler() const {
     const Quaternion q = Normalized();
     const double ww = q.w_ * q.w_, xx = q.x_ * q.x_, yy = q.y_ * q.y_, zz = q.z_ * q.z_;
@@ -210,7 +210,7 @@ class Quaternion {
   double Pitch() const { return Euler().Y(); }
   double Yaw() const { return Euler().Z(); }
 
-  /// Where the turned frame's axes point, if the length is 1.
+  /// Returns the x axis of the rotated frame, if the length is 1; YAxis and ZAxis likewise.
   Vector3 XAxis() const {
     const double y2 = 2 * y_, z2 = 2 * z_;
     return {1 - (y2 * y_ + z2 * z_), y2 * x_ + z2 * w_, z2 * x_ - y2 * w_};
@@ -232,10 +232,10 @@ class Quaternion {
 
 inline constexpr Quaternion Quaternion::Identity{};
 
-/// Where a frame stands in another. `a_in_world * b_in_a` is b in world.
+/// The pose of a frame in another one. `a_in_world * b_in_a` is b in world.
 class Pose {
  public:
-  static const Pose Zero;  ///< That other frame itself.
+  static const Pose Zero;  ///< The pose of a frame in itself.
 
   constexpr Pose() = default;
   constexpr Pose(const Vector3& position, const Quaternion& rotation)
@@ -257,14 +257,14 @@ class Pose {
   double Yaw() const { return q_.Yaw(); }
   bool IsFinite() const { return p_.IsFinite() && q_.IsFinite(); }
 
-  /// Exactly.
+  /// Compares exactly.
   constexpr bool operator==(const Pose& pose) const { return p_ == pose.p_ && q_ == pose.q_; }
   constexpr bool operator!=(const Pose& pose) const { return !(*this == pose); }
 
   Pose operator*(const Pose& inner) const { return {CoordPositionAdd(inner.p_), q_ * inner.q_}; }
-  /// A point of this frame, in the other one.
+  /// Returns a point of this frame in the other frame.
   Vector3 CoordPositionAdd(const Vector3& point) const { return p_ + q_.RotateVector(point); }
-  /// The other frame in this one.
+  /// Returns the pose of the other frame in this one.
   Pose Inverse() const {
     const Quaternion back = q_.Inverse();
     return {back * (p_ * -1), back};
@@ -277,7 +277,7 @@ class Pose {
 
 inline constexpr Pose Pose::Zero{};
 
-/// For people: x, y and z; a pose with roll, pitch and yaw behind them.
+/// Prints x, y and z for a person; a pose also prints roll, pitch and yaw.
 inline std::ostream& operator<<(std::ostream& out, const Vector3& v) {
   return out << v.X() << ' ' << v.Y() << ' ' << v.Z();
 }

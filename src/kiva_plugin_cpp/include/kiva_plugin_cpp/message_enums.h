@@ -22,7 +22,7 @@ enum class State : std::uint8_t {
   kRotating = 3,
   kLifting = 4,
   kBlocked = 5,
-  /// At the last released point of its path.
+  /// Stands at the last released point of its path.
   kWaiting = 6,
 };
 
@@ -58,7 +58,7 @@ enum class Failure : std::uint8_t {
   kLift = 2,
   /// No scans, and the robot stands, since it does not see people.
   kLaser = 3,
-  /// It hears no command and reports nothing; what it has been told it does.
+  /// It receives no commands and reports nothing; it completes the commands that it has.
   kRadio = 4,
   /// Less grip: it turns and brakes as that allows.
   kWheelSlip = 5,

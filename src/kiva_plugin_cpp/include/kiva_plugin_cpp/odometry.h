@@ -14,7 +14,7 @@ struct Odometry {
   std::array<double, 9> pose_covariance{};   ///< Covariance of x, y, yaw, row by row.
   double speed = 0;                          ///< Ahead [m/s].
   double turn_rate = 0;                      ///< [rad/s]
-  std::array<double, 4> twist_covariance{};  ///< Of speed and turn rate, row by row.
+  std::array<double, 4> twist_covariance{};  ///< Covariance of speed and turn rate, row by row.
 };
 
 }  // namespace kiva

@@ -15,13 +15,12 @@ class DescriptionError : public std::runtime_error {
 };
 
 /// The parameters of one plugin: the text of each child element of its SDF `<plugin>`.
-///
-/// Nested elements are reached by a path, `pose/x`. A getter checks type and range at once; what
-/// was not read is found by `rejectUnread`, so that a misspelt parameter is an error.
+/// Nested elements are reached by a path, `pose/x`. A getter checks type and range at once. A
+/// misspelt parameter is an error, since `rejectUnread` finds what no getter has read.
 class Parameters {
  public:
   Parameters() = default;
-  /// `where` is put before every error, as `model 'kiva', plugin 'motion'`.
+  /// `where` is the prefix of every error, such as `model 'kiva', plugin 'motion'`.
   explicit Parameters(std::string where) : where_(std::move(where)) {}
 
   void set(const std::string& key, const std::string& text) { values_[key] = text; }
@@ -29,26 +28,27 @@ class Parameters {
   const std::map<std::string, std::string>& values() const { return values_; }
   const std::string& where() const { return where_; }
 
-  /// The number at `key`, or `fallback`. Throws DescriptionError unless lower <= it <= upper.
+  /// Returns the number at `key`, or `fallback`. Throws DescriptionError unless lower <= it <=
+  /// upper.
   double number(const std::string& key, double fallback, double lower, double upper) const;
-  /// The same for a whole number.
+  /// Returns the whole number at `key`, likewise.
   int whole(const std::string& key, int fallback, int lower, int upper) const;
   std::string text(const std::string& key, const std::string& fallback) const;
 
-  /// Returns what a struct's fields() calls to have each number read from `prefix` + its name; one
-  /// that is not given keeps its value. Throws as number() and whole() do.
+  /// Returns a function for a struct's fields(): it reads each number from `prefix` + its name. A
+  /// missing number keeps its value. Throws as number() and whole() do.
   auto reader(const std::string& prefix = "") const {
     return [this, prefix](const char* name, auto& value, double least, double most) {
       read(prefix + name, &value, least, most);
     };
   }
 
-  /// `true`, `false`, 1 or 0 at `key`, or `fallback`.
+  /// Returns `true`, `false`, 1 or 0 at `key`, or `fallback`.
   bool flag(const std::string& key, bool fallback) const;
-  /// That many numbers with blanks between them at `key`, or `fallback`; all finite.
+  /// Returns `count` finite numbers at `key`, separated by blanks, or `fallback`.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback) const;
 
-  /// Returns the keys that were not read, but for `robotNamespace`, which every plugin gets.
+  /// Returns the keys that were not read, except `robotNamespace`, which every plugin gets.
   std::vector<std::string> unread() const;
   /// Throws DescriptionError, with a list of the known keys, if there is an unread one.
   void rejectUnread() const;

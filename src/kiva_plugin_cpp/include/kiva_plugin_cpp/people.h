@@ -8,20 +8,20 @@
 
 namespace kiva {
 
-/// The walking speed of people by ISO 13855, and the highest one here [m/s].
+/// Walking speed of people by ISO 13855, the highest that is allowed here [m/s].
 constexpr double kMostWalkingSpeed = 1.6;
 
 /// A place on a person's way.
 struct Waypoint {
-  double x = 0, y = 0;  ///< In world [m].
-  double speed = 1.2;   ///< Of walking there [m/s]; above 0, up to kMostWalkingSpeed.
-  double pause = 0;     ///< How long the person stays there [s].
+  double x = 0, y = 0;  ///< Position in world [m].
+  double speed = 1.2;   ///< Walking speed towards it [m/s]; above 0, up to kMostWalkingSpeed.
+  double pause = 0;     ///< Duration of the stay there [s].
 };
 
-/// Where a person goes, from one waypoint straight to the next.
+/// The walk of a person: straight from each waypoint to the next.
 struct Walk {
-  std::vector<Waypoint> waypoints;  ///< None: the person stays there.
-  bool loops = false;               ///< The first waypoint follows the last.
+  std::vector<Waypoint> waypoints;  ///< Empty: the person stays.
+  bool loops = false;               ///< Whether the first waypoint follows the last.
 };
 
 /// A person now, in world.
@@ -33,7 +33,7 @@ struct Person {
                                     ///< that waits, the place after walking on.
 };
 
-/// How far ahead Person::ahead_x looks [s].
+/// Time by which Person::ahead_x looks ahead [s].
 constexpr double kForesight = 3;
 
 /// A rectangle along the axes of `world` [m]: while a person is inside, all robots inside stand.

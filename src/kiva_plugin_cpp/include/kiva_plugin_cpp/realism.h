@@ -19,13 +19,14 @@ namespace kiva {
 /// Deviations are standard deviations of a normal distribution.
 struct LocalisationRealism {
   bool enabled = false;
-  double wheel_radius_error = 0.001;      ///< Of each wheel, as a share of its radius.
-  double wheel_separation_error = 0.002;  ///< As a share of it.
-  double slip = 0.0003;  ///< Of a wheel's way over 1 m [m]; grows with the root of the way.
-  double code_position_noise = 0.0005;  ///< Of a reading, along each axis [m].
-  double code_angle_noise = 0.001;      ///< Of a reading [rad].
-  double missed_codes = 0.002;          ///< Share of codes that are passed without being read.
-  double lost_after = 3.5;              ///< [m] without a code, after which a robot is lost.
+  double wheel_radius_error = 0.001;      ///< Error of each wheel, as a share of its radius.
+  double wheel_separation_error = 0.002;  ///< Error as a share of the separation.
+  double slip =
+      0.0003;  ///< Error of a wheel's distance over 1 m [m]; grows with the root of the distance.
+  double code_position_noise = 0.0005;  ///< Noise of a reading along each axis [m].
+  double code_angle_noise = 0.001;      ///< Noise of a reading [rad].
+  double missed_codes = 0.002;  ///< Share of codes that a robot passes without reading them.
+  double lost_after = 3.5;      ///< Distance without a code after which a robot is lost [m].
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -52,10 +53,10 @@ struct LaserRealism {
   }
 };
 
-/// How motors and tyres differ from robot to robot, and how late motors do what they are told.
+/// Spread of motors and tyres from robot to robot, and the lag of motors behind commands.
 struct ActuationRealism {
   bool enabled = false;
-  double motor_lag = 0;           ///< [s] time constant with which speeds follow their commands.
+  double motor_lag = 0;           ///< Time constant with which speeds follow their commands [s].
   double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
   double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
 
@@ -89,7 +90,7 @@ struct LoadRealism {
   double tipping_share = 0.7;
   double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
   double item_friction_most = 0.5;   ///< distributed between these.
-  double pick_up_after = 300;        ///< Until an item is picked up off the floor [s]; 0: never.
+  double pick_up_after = 300;  ///< Time until an item is picked up off the floor [s]; 0: never.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -101,14 +102,14 @@ struct LoadRealism {
 };
 
 /// Delay and loss of commands on their way to robots, and of reports on their way back. Each robot
-/// gets its commands in the order in which they were given. A latency is its `least` plus an
-/// exponentially distributed rest; its mean is `mean`.
+/// gets its commands in the order of posting. A latency is `least` plus an exponentially
+/// distributed rest; its mean is `mean`.
 struct RadioRealism {
   bool enabled = false;
   double latency_least = 0.005;     ///< [s]
   double latency_mean = 0.03;       ///< [s]
   double lost = 0.001;              ///< Share of commands that are lost.
-  double repeated = 0.001;          ///< Share of commands that come twice.
+  double repeated = 0.001;          ///< Share of commands that arrive twice.
   double status_latency_least = 0;  ///< [s]
   double status_latency_mean = 0;   ///< [s]
   double status_lost = 0;           ///< Share of reports that are lost.
@@ -130,20 +131,20 @@ struct RadioRealism {
   }
 };
 
-/// Batteries: what robots use, and what charging places on the floor give them.
+/// Batteries: consumption of robots, and supply of charging places on the floor.
 struct EnergyRealism {
   bool enabled = false;
-  double capacity = 960;              ///< Of a new battery [Wh].
-  double health = 1;                  ///< Share of the capacity that age has left.
+  double capacity = 960;              ///< Capacity of a new battery [Wh].
+  double health = 1;                  ///< Share of the capacity that is left with age.
   double initial_least = 0.6;         ///< State of charge at the beginning, evenly distributed
   double initial_most = 1;            ///< between these, 0…1.
-  double electronics = 80;            ///< Used at all times [W].
-  double rolling_resistance = 0.015;  ///< Force over weight.
-  double drive_efficiency = 0.75;     ///< From the battery to the wheels.
-  double regeneration = 0.3;          ///< Share of the energy of motion that braking gives back.
-  double lift_efficiency = 0.4;       ///< From the battery to the load.
-  double charge_power = 1500;         ///< [W], into the battery,
-  double charge_taper = 0.8;          ///< up to this state of charge; beyond it falls evenly.
+  double electronics = 80;            ///< Constant consumption [W].
+  double rolling_resistance = 0.015;  ///< Rolling resistance force over weight.
+  double drive_efficiency = 0.75;     ///< Efficiency from the battery to the wheels.
+  double regeneration = 0.3;          ///< Share of kinetic energy that braking recovers.
+  double lift_efficiency = 0.4;       ///< Efficiency from the battery to the load.
+  double charge_power = 1500;         ///< Power into the battery [W],
+  double charge_taper = 0.8;          ///< up to this state of charge; it falls linearly beyond.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -161,18 +162,18 @@ struct EnergyRealism {
   }
 };
 
-/// How often robots fail, and how long a repair takes. Times between failures and times to a repair
-/// are exponentially distributed.
+/// Rates of failures, and durations of repairs. Times between failures and times to repair are
+/// exponentially distributed.
 struct FailureRealism {
   bool enabled = false;
   double per_robot_hour = 0.01;  ///< Failures an hour and robot.
   double repair_time = 300;      ///< Mean time to a repair [s].
-  double motor = 0.3;  ///< Weight of this kind of failure among the kinds; likewise below.
+  double motor = 0.3;  ///< Weight of this kind among all kinds of failures; likewise below.
   double lift_stuck = 0.15;
   double laser_blind = 0.15;
   double radio_lost = 0.25;
   double wheel_slips = 0.15;
-  double slipping_grip = 0.3;  ///< Share of its friction that a wheel which slips has left.
+  double slipping_grip = 0.3;  ///< Share of its friction that is left to a slipping wheel.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -221,7 +222,7 @@ void forEachSection(R& realism, Call call) {
 }
 
 /// Reads `prefix` + `section/name` for every number. A section is on if any of its numbers is
-/// given, or if the section itself is `true`; `false` switches it off. Other numbers keep their
+/// there, or if the section itself is `true`; `false` switches it off. Other numbers keep their
 /// defaults. Throws DescriptionError for a text that is not a number, and a number out of range.
 /// Unknown keys are left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");

@@ -7,10 +7,10 @@
 
 namespace kiva {
 
-/// Memory that lives until its last holder releases it. Any thread.
+/// Memory with shared ownership: the last holder frees it. Any thread may call.
 class ViewableMemory {
  public:
-  /// Aligned to a cache line, with one holder.
+  /// Returns memory aligned to a cache line, with one holder.
   static void* allocate(std::size_t bytes) {
     void* block = ::operator new(kHeader + bytes, std::align_val_t(kHeader));
     new (block) std::atomic<long>(1);
@@ -30,8 +30,8 @@ class ViewableMemory {
   }
 };
 
-/// For containers whose elements other code reads without a copy: a reader that holds the memory
-/// can read its last values, whatever becomes of the container.
+/// The allocator of containers whose elements other code reads without a copy. A reader that holds
+/// the memory still sees the last values after the container has gone.
 template <typename T>
 struct ViewableAllocator {
   using value_type = T;

@@ -30,7 +30,7 @@ namespace kiva {
 class Plugin;
 struct WorldState;
 
-/// What a model is to the warehouse. Its name tells (`kiva1`, `storage_unit1`, `item1`,
+/// The role of a model in the warehouse. Its name decides (`kiva1`, `storage_unit1`, `item1`,
 /// `conveyor_belt1`); a robot also has the motion plugin.
 enum class ModelKind : std::uint8_t { kRobot, kStorageUnit, kItem, kBelt, kFloor, kOther };
 
@@ -49,11 +49,11 @@ struct StorageUnit {
   std::string name;
   int id = 0;
   int model = -1;
-  double mass = 0;       ///< With its items [kg].
+  double mass = 0;       ///< Mass with its items [kg].
   int carrier = -1;      ///< Index of the robot that carries it, -1 = none.
   int claimed_by = -1;   ///< Index of the robot that is about to lift it, -1 = none.
   Pose pose_on_carrier;  ///< In the carrier's tower frame, while it is carried.
-  double raised = 0;     ///< How far it was raised when it was spawned, to stand on the floor [m].
+  double raised = 0;     ///< Height by which it was raised at spawning, to stand on the floor [m].
 };
 
 /// An item. It is fixed to its storage unit, or a free body if no unit was there at its spawning.
@@ -63,7 +63,7 @@ struct Item {
   int model = -1;
   int unit = -1;  ///< Index of its storage unit, -1 = none.
   Pose pose_in_unit;
-  Pose spawn_pose_in_unit;  ///< Where a reset puts the item.
+  Pose spawn_pose_in_unit;  ///< Pose to which a reset puts the item.
   double mass = 0;          ///< [kg]
 };
 
@@ -94,9 +94,10 @@ struct Occupancy {
 
   // Values of cells, like the percentages of a nav_msgs/OccupancyGrid.
   static constexpr std::uint8_t kFree = 0;
-  static constexpr std::uint8_t kStorageUnit = 50;  ///< Robots without a load drive beneath.
-  static constexpr std::uint8_t kBelt = 99;         ///< Removed with its warehouse.
-  static constexpr std::uint8_t kTaken = 100;       ///< Building, no floor, or too near.
+  static constexpr std::uint8_t kStorageUnit =
+      50;  ///< A storage unit; robots without a load drive beneath.
+  static constexpr std::uint8_t kBelt = 99;    ///< A conveyor belt; removed with its warehouse.
+  static constexpr std::uint8_t kTaken = 100;  ///< Building, no floor, or too close to either.
 };
 
 /// One robot's status at the moment when it changed.
@@ -114,14 +115,14 @@ class CheckpointError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The properties of a joint, and what its motor is to do.
+/// Properties and motor command of a joint.
 struct JointSettings {
   double damping = 0;       ///< [Nm s/rad] or [N s/m], >= 0.
   double friction = 0;      ///< Dry friction [Nm] or [N], >= 0; without effect under a motor.
   double lower = -1e16;     ///< [rad] or [m].
   double upper = 1e16;      ///< [rad] or [m].
   double motor_speed = 0;   ///< [rad/s] or [m/s].
-  double motor_effort = 0;  ///< The most that the motor may use [Nm] or [N]; 0 = no motor.
+  double motor_effort = 0;  ///< Largest effort of the motor [Nm] or [N]; 0 = no motor.
 };
 
 /// The present state of a joint.
@@ -154,23 +155,23 @@ using PluginFactory = std::function<std::shared_ptr<Plugin>(const std::string& f
 struct WorldOptions {
   std::uint64_t seed = 1;      ///< Seed of everything random.
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
-  /// Every robot is a Bullet body at all times. It is slow: the reference to test the arrays by.
+  /// Whether every robot is a Bullet body at all times: slow, a reference to test the arrays by.
   bool always_in_bullet = false;
-  /// Threads that step robots, look ahead and scan, 1 to kMostThreads. The result is the same for
-  /// every number. Steps take more than one only where a trial, now and then, shows them to be
-  /// quicker by it. A checkpoint does not keep it.
+  /// Number of threads that step robots, look ahead and scan, 1 to kMostThreads. The result is the
+  /// same for every number. Steps use several threads only where periodic trials show that these
+  /// are faster. A checkpoint does not keep the number.
   int threads = 1;
   /// Realism of all robots, in place of `<realism>` in their files. Without both, all is ideal.
   std::optional<Realism> realism;
-  PluginFactory plugins;  ///< Asked before libraries are looked for.
+  PluginFactory plugins;  ///< Asked before libraries are searched.
 };
 
 constexpr int kMostThreads = 256;
 
 /// A running world. Its members are implemented in src/core by subject: `world.cpp` has the step,
-/// `world_warehouse.cpp` what robots, units and sensors show, `world_robots.cpp` what robots and
-/// people are asked for, `world_models.cpp` models and links, `world_mechanics.cpp` joints and what
-/// clients apply, `world_history.cpp` checkpoints and events.
+/// `world_warehouse.cpp` reads robots, units and sensors, `world_robots.cpp` posts to robots and
+/// people, `world_models.cpp` has models and links, `world_mechanics.cpp` joints and external
+/// inputs, `world_history.cpp` checkpoints and events.
 class World {
  public:
   /// Builds every model and plugin. Throws DescriptionError.
@@ -184,7 +185,8 @@ class World {
   double time() const;          ///< Simulated time [s] since the last reset of time.
   std::uint64_t steps() const;  ///< Steps since the last reset of time.
   double stepSize() const;      ///< [s]
-  /// Sets the step size from the next step on. Throws std::invalid_argument unless it is 1e-6 to 1.
+  /// Sets the step size from the next step on. Throws std::invalid_argument unless it is 1e-6 to 1
+  /// [s].
   void setStepSize(double seconds);
   const Vector3& gravity() const;  ///< [m/s²]
   /// Throws std::invalid_argument if gravity is not finite, or above 1000 m/s².
@@ -203,15 +205,15 @@ class World {
   Pose storageUnitPose(int unit) const;  ///< In world.
   Pose itemPose(int item) const;         ///< In world.
   /// Returns the points at which the robot is still to turn or to stop. On a path, the last
-  /// released point is among them, and points that are not released yet follow it.
+  /// released point is among them, followed by the points that are not released yet.
   std::vector<PathPoint> pathAhead(int robot) const;
-  /// Returns where the robot believes to be: (x, y, yaw) in world [m, rad], yaw unwrapped. Robots
-  /// drive by this pose. It is the true pose unless localisation is realistic.
+  /// Returns the pose that the robot believes to have: (x, y, yaw) in world [m, rad], yaw
+  /// unwrapped. Robots drive by this pose. It is the true pose unless localisation is realistic.
   Vector3 believedPose(int robot) const;
-  /// Returns that pose and the motion by the wheels, with covariances.
+  /// Returns the believed pose and the motion by the wheels, with covariances.
   Odometry odometry(int robot) const;
-  /// Returns the acceleration below which the robot stays so that its load does not tip [m/s²]. It
-  /// is +inf without a load, and if loads are ideal.
+  /// Returns the largest acceleration at which the robot's load does not tip [m/s²]. It is +inf
+  /// without a load, and if loads are ideal.
   double loadLimit(int robot) const;
   Pose basePose(int robot) const;  ///< Pose of the chassis, on the floor, in world.
   /// Returns a number that grows whenever a storage unit, or an item that lies on no unit, moves or
@@ -224,16 +226,15 @@ class World {
   // --- commands
   /// Queues a command; an ACCEPTED or REFUSED event answers it at the next step.
   void post(const Command& command);
-  /// Queues a path among the commands. A change of the path under way is answered only if it is
-  /// refused.
+  /// Queues a path. A change of the path under way is answered only if it is refused.
   void post(FollowPath path);
 
   // --- what happened since the last call
   std::vector<Event> takeEvents();
   std::vector<StatusChange> takeStatusChanges();
-  /// Returns warnings, each once: what was left out, such as an unknown plugin.
+  /// Returns warnings, each once, about parts that were left out, such as an unknown plugin.
   std::vector<std::string> takeWarnings();
-  /// Adds a warning; for plugins.
+  /// Adds a warning of a plugin.
   void warn(const std::string& warning);
 
   // --- sensing
@@ -245,15 +246,16 @@ class World {
   /// Returns the robots whose scan is due at this step, in the fleet's order. Scans are staggered
   /// over the fleet. Valid until the next step, or until a robot is removed.
   const std::vector<int>& scansDue() const;
-  /// Returns the distance [m] from a point in world, level, in the direction `yaw`, to the first
-  /// body that stands on the floor; +inf without one within `range`. The ray passes the model
-  /// `but`.
+  /// Returns the distance [m] from a point in world to the first body that stands on the floor,
+  /// along a horizontal ray in the direction `yaw`; +inf without one within `range`. The ray passes
+  /// through the model `but`.
   double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
   /// Writes distances [m] from a point in world along unit vectors to the first collision, the
-  /// floor's included; +inf without one within `range`. On the world's threads; about 1 µs a ray.
+  /// floor's included; +inf without one within `range`. Uses the world's threads; takes about 1 µs
+  /// a ray.
   void rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
                const std::string& but, std::vector<double>* ranges) const;
-  /// Returns where a model touches others now. The model is the first of each pair.
+  /// Returns the present contacts of a model, which is the first of each pair.
   std::vector<ContactPoint> contacts(const std::string& model) const;
 
   // --- models
@@ -276,10 +278,10 @@ class World {
   std::optional<EntityState> state(const std::string& model, const std::string& link = "") const;
   std::shared_ptr<const ModelDescription> description(const std::string& model) const;
   /// Moves a model, with everything fixed to it, and sets its velocity. Returns false if there is
-  /// no such model. Throws DescriptionError if the state is not finite, or too far away.
+  /// no such model. Throws DescriptionError if the state is not finite or out of bounds.
   bool setState(const std::string& model, const EntityState& state);
-  /// Sets the velocity of a model of free bodies; its joints go on turning as they do. Returns
-  /// false if there is no such model. Throws DescriptionError if the velocity is not finite.
+  /// Sets the velocity of a model of free bodies; the rates of its joints stay. Returns false if
+  /// there is no such model. Throws DescriptionError if the velocity is not finite.
   bool setVelocity(const std::string& model, const Twist& twist);
   /// Moves a link, with everything that joints hold to it, and sets the link's velocity. Returns
   /// false if there is no such link. Throws as setState().
@@ -301,8 +303,9 @@ class World {
   /// Returns false if there is no such joint. Throws std::invalid_argument for a number out of
   /// range, and for the joints of a robot, which its plugins drive.
   bool setJoint(const std::string& model, const std::string& joint, const JointSettings& settings);
-  /// Sets positions of joints [rad] or [m], at rest; what hangs on the joints moves along. Throws
-  /// std::invalid_argument, with nothing changed, that names the joint that can't be there.
+  /// Sets positions of joints [rad] or [m], at rest; all that hangs on the joints moves along.
+  /// Throws std::invalid_argument, with nothing changed; the message names the joint that can't
+  /// take its position.
   void setJointPositions(const std::string& model, const std::map<std::string, double>& positions);
 
   // --- what clients apply
@@ -330,16 +333,16 @@ class World {
   /// the bytes are damaged or of another version, and DescriptionError if a plugin of a model can't
   /// be loaded.
   void restore(const std::string& checkpoint);
-  /// Returns a hash of all that decides what happens next, without commands that are not answered
-  /// yet. Equal worlds have equal hashes.
+  /// Returns a hash of all that determines the future, without unanswered commands. Equal worlds
+  /// have equal hashes.
   std::uint64_t stateHash() const;
 
   // --- people
   /// Makes a person walk along waypoints from now on. The person is an actor, or a static model no
-  /// larger than a person; robots keep away from it. Without waypoints the person stays there.
-  /// People stop before obstacles, and walk around them where they can. Throws
-  /// std::invalid_argument, with nothing changed, if there is no such model, if it can't be a
-  /// person, or if a waypoint is not finite, off the floor, or to be reached too fast.
+  /// larger than a person; robots keep away from it. Without waypoints the person stays. People
+  /// stop before obstacles, and walk around them where they can. Throws std::invalid_argument, with
+  /// nothing changed, if there is no such model, if it can't be a person, or if a waypoint is not
+  /// finite, off the floor, or asks for too high a speed.
   void walk(const std::string& person, const Walk& walk);
   /// Returns all people, in the order in which they were added.
   std::vector<Person> people() const;
@@ -358,15 +361,15 @@ class World {
   void pickUp(const std::string& item);
 
   // --- failures
-  /// Breaks something in a robot now: FAILED. It is repaired after `repair_after` [s], or by
-  /// repair() if that is 0. If it is broken already, only the time of its repair changes. Throws
-  /// std::invalid_argument for an unknown robot, and a time that is negative or not finite.
+  /// Makes a robot fail now: FAILED. The failure is repaired after `repair_after` [s], or by
+  /// repair() if that is 0. A failure that the robot has already only gets a new time of repair.
+  /// Throws std::invalid_argument for an unknown robot, and a time that is negative or not finite.
   void fail(int kiva_id, Failure failure, double repair_after);
-  /// Repairs all that is broken in a robot now: REPAIRED for each failure. An empty battery is
-  /// exchanged for a full one. Throws as fail().
+  /// Repairs all failures of a robot now: REPAIRED for each. An empty battery is exchanged for a
+  /// full one. Throws as fail().
   void repair(int kiva_id);
   /// Returns the last report of a robot whose radio is lost, and of every robot if reports go by
-  /// radio. Returns nothing for a robot that is heard at once.
+  /// radio. Returns nothing for a robot that reports without delay.
   std::optional<RobotReport> lastHeard(int robot) const;
 
   // --- modes of robots, stored for a coordinator
@@ -375,9 +378,9 @@ class World {
   void keepMode(int kiva_id, int mode);
 
   // --- shadows of robots that are elsewhere
-  /// Makes a robot the shadow of one that is elsewhere, as in a hall behind a broker, and puts it
-  /// where that one is. A shadow takes no commands. Lasers see it, its load goes with it, and its
-  /// state is the one reported. It stays a shadow until it is removed. Throws
+  /// Makes a robot the shadow of a robot elsewhere, such as one in a hall behind a broker, and
+  /// moves it to the reported pose. A shadow takes no commands. Lasers see it, its load goes with
+  /// it, and its state is the reported one. It stays a shadow until it is removed. Throws
   /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, if
   /// another robot carries the unit, or if a number is not finite.
   void shadow(int kiva_id, const ShadowReport& report);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SDF (1.0 to 1.11) and URDF to description, checked whole before anything is built from it. Any
-// thread may call.
+// Reads SDF (1.0 to 1.11) and URDF into descriptions. A document is checked whole before anything
+// is built from it. Any thread may call.
 #pragma once
 
 #include <string>
@@ -11,19 +11,21 @@
 
 namespace kiva {
 
-/// Folders in which a world's names are looked up, `model://name` for one: folders that hold
-/// `name/model.config` or the path of a mesh, first match wins.
+/// Folders that are searched for names such as `model://name`. They hold `name/model.config` or the
+/// path of a mesh; the first match wins.
 using ModelPaths = std::vector<std::string>;
 
-/// The folders of models that packages of ROS export to Gazebo, `<gazebo_ros gazebo_model_path=…/>`
-/// in their package.xml: of all packages below the folders of `a:b`, as ROS_PACKAGE_PATH has them.
+/// Returns the folders of models that ROS packages export to Gazebo by `<gazebo_ros
+/// gazebo_model_path=…/>` in their package.xml. Searches all packages below the folders of `a:b`,
+/// the format of ROS_PACKAGE_PATH.
 ModelPaths exportedModelPaths(const std::string& ros_package_path);
 
-/// All that the environment names: GAZEBO_MODEL_PATH, what packages on ROS_PACKAGE_PATH export, and
-/// the folders of GAZEBO_RESOURCE_PATH with their `models`.
+/// Returns all folders that the environment names: GAZEBO_MODEL_PATH, exports of packages on
+/// ROS_PACKAGE_PATH, and the folders of GAZEBO_RESOURCE_PATH with their `models`.
 ModelPaths environmentModelPaths();
 
-/// The folder of a world file and the two above it, each with its `models`: as packages have them.
+/// Returns the folder of a world file and the two above it, each with its `models`: the usual
+/// places in a package.
 ModelPaths modelPathsAround(const std::string& world_file);
 
 /// Returns the world in the file at `path`.

@@ -41,7 +41,7 @@ const WorldOptions& checked(const WorldOptions& options) {
                               std::to_string(kMostThreads) + " was expected");
 }
 
-/// A faulty part of a world costs that part and a warning.
+/// Adds a part of the world. A faulty part is left out with a warning.
 template <typename Add>
 void addOrLeaveOut(WorldState& world, Add add) {
   try {
@@ -51,7 +51,7 @@ void addOrLeaveOut(WorldState& world, Add add) {
   }
 }
 
-/// `<min>` and `<max>`: x and y of two corners [m].
+/// Reads `<min>` and `<max>`: x and y of two corners [m].
 void addLightCurtain(WorldState& world, const PluginDescription& plugin) {
   const Parameters& p = plugin.parameters;
   const std::vector<double> min = p.numbers("min", {0, 0}), max = p.numbers("max", {0, 0});
@@ -79,7 +79,7 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
   }
 }
 
-/// Calls every user's plugin. It may add and remove models, its own among them.
+/// Calls every user's plugin, which may add and remove models, even its own.
 template <typename Call>
 void forEachUserPlugin(WorldState& world, Call call) {
   for (auto& plugin : world.plugins.world) call(*plugin);
@@ -120,7 +120,7 @@ void sense(RobotView& world, const FailureState& failures, Scans& scans) {
   lookAhead(world, scans);
 }
 
-/// Discards what robots know of their ways ahead.
+/// Discards the clearances of robots.
 void discardForesight(WorldState& world) {
   invalidateClearance(world.fleet);
   for (int i = 0; i < world.fleet.size(); ++i) {
@@ -182,8 +182,8 @@ void World::setStepSize(double seconds) {
   if (seconds == state_->clock.dt) return;
   state_->clock.setStepSize(seconds);
   state_->fleet.applyRealism(state_->settings.realism, seconds);
-  state_->scans.rounds_revision = ~0ull;  // those were counted in the old steps, as was
-  discardForesight(*state_);              // when to look around again
+  state_->scans.rounds_revision = ~0ull;  // these were counted in old steps, as was
+  discardForesight(*state_);              // the next test of each robot's way
 }
 
 void World::setGravity(const Vector3& gravity) {

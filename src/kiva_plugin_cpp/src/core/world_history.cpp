@@ -39,7 +39,7 @@ void World::restore(const std::string& checkpoint) {
 std::vector<Event> World::takeEvents() {
   std::vector<Event> out;
   out.swap(state_->log.events);
-  state_->log.events.reserve(out.size());  // as many may follow
+  state_->log.events.reserve(out.size());  // room for as many again
   return out;
 }
 

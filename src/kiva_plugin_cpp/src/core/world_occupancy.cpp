@@ -9,7 +9,7 @@ namespace kiva {
 namespace {
 
 constexpr double kHigh = 2.5;       // [m]: a robot with a load passes beneath
-constexpr double kTurning = 0.57;   // [m]: as far as a loaded robot's corners reach as it turns
+constexpr double kTurning = 0.57;   // [m], reach of a loaded robot's corners as it turns
 constexpr double kRounding = 1e-6;  // [m]
 constexpr int kMostCells = 2000;    // a side
 
@@ -30,7 +30,8 @@ bool isInTheWay(const FloorExtent& floor, const Footprint& other) {
   return !isLow(floor, other.z_max) && other.z_min < floor.z + kHigh;
 }
 
-/// Without a floor: all that stands there, on which nothing can drive.
+/// Returns the extent of a world without a floor: that of all its models, which robots can't drive
+/// on.
 FloorExtent withoutFloor(const Scene& world) {
   FloorExtent all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
@@ -48,7 +49,7 @@ FloorExtent withoutFloor(const Scene& world) {
 }
 
 /// Returns whether a footprint reaches into the cell. Near a building a loaded robot needs room to
-/// turn; belts and storage units were placed so that it has it.
+/// turn; belts and storage units are placed so that it has it.
 bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, double spacing) {
   Footprint cell;
   cell.x = x;
@@ -60,8 +61,8 @@ bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, do
   return gap(cell, other) < 0 || (as == Occupancy::kTaken && gap(turn, other) < 0);
 }
 
-/// Returns where a footprint may reach within a strip along x: of a triangle, much less than its
-/// box.
+/// Returns the range of a footprint within a strip along x; that of a triangle is much less than
+/// its box.
 std::pair<double, double> extentWithin(const Footprint& f, double min_y, double max_y) {
   if (f.kind != Footprint::Kind::kTriangle) return {f.x - radiusOf(f), f.x + radiusOf(f)};
   std::pair<double, double> extent{1e300, -1e300};

@@ -8,7 +8,7 @@
 namespace kiva {
 namespace {
 
-constexpr float kPlain[4] = {0.7F, 0.7F, 0.7F, 1};  // of what has a shape but no look
+constexpr float kPlain[4] = {0.7F, 0.7F, 0.7F, 1};  // colour of shapes without a material
 
 Look::Kind kindOf(Shape::Kind kind) {
   switch (kind) {
@@ -64,7 +64,7 @@ void addPart(int link, Look::Kind kind, const Pose& pose, const Vector3& extent,
   }
 }
 
-/// Adds a mesh as the boxes that it is from above.
+/// Adds a mesh as boxes: its outline from above.
 template <typename Colour>
 void addShape(int index, const Link& link, const Pose& pose, const Shape& shape,
               const Colour& colour, Look* out) {
@@ -78,8 +78,8 @@ void addShape(int index, const Link& link, const Pose& pose, const Shape& shape,
   }
 }
 
-/// Adds what is seen of a link. A mesh that is only seen was not read: the link's collisions, which
-/// are about as large, take its place.
+/// Adds the visible shapes of a link. Meshes of visuals are not read: the link's collisions, which
+/// are about as large, take their place.
 void addVisuals(int index, const Link& link, Look* out) {
   bool has_touching = false;
   for (const Visual& visual : link.visuals) {

@@ -12,9 +12,10 @@ struct OutlineBox {
   Vector3 centre, size;
 };
 
-/// A mesh at that pose as boxes upright beside each other, of 2 cm at least and a 128th of its
-/// longer side: where it is, seen from above, and from where to where it reaches in height there.
-/// What is higher than a robot with its load is left out, unless that is all: a roof hides nothing.
+/// Returns the boxes that a mesh at `pose` covers, seen from above, each with the range of heights
+/// there. The boxes stand upright beside each other and measure at least 2 cm, or a 128th of the
+/// mesh's longer side. Parts higher than a robot with its load are left out, so that a roof hides
+/// nothing, unless the mesh has no other part.
 std::vector<OutlineBox> outlineOf(const Mesh& mesh, const Pose& pose);
 
 }  // namespace kiva

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// After M. J. Kronenburg, "A method for fast diagonalization of a 2x2 or 3x3 real symmetric
-// matrix", arXiv:1306.6291v4. Its angles phi1, phi2 and phi3, its vectors f and g and its equations
-// are meant below.
+// Method of M. J. Kronenburg, "A method for fast diagonalization of a 2x2 or 3x3 real symmetric
+// matrix", arXiv:1306.6291v4. Equations and the names phi1, phi2, phi3, f and g are those of the
+// paper.
 #include "kiva_plugin_cpp/principal_inertia.h"
 
 #include <array>
@@ -11,30 +11,32 @@
 namespace kiva {
 namespace {
 
-struct Vector2 {
+struct PlaneVector {
   double x = 0, y = 0;
 };
 
 double square(double x) { return x * x; }
-double squaredLength(const Vector2& v) { return v.x * v.x + v.y * v.y; }
+double squaredLength(const PlaneVector& v) { return v.x * v.x + v.y * v.y; }
 double clampedRoot(double x) { return x <= 0 ? 0 : std::sqrt(x); }
 double angleOfCosine(double squared) {
   return std::acos(std::clamp(clampedRoot(squared), -1.0, 1.0));
 }
 double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
 
-bool isSmall(const Vector2& v, double tolerance) { return squaredLength(v) < square(tolerance); }
+bool isSmall(const PlaneVector& v, double tolerance) {
+  return squaredLength(v) < square(tolerance);
+}
 
-double angleOf(const Vector2& v, double tolerance) {
+double angleOf(const PlaneVector& v, double tolerance) {
   return isSmall(v, tolerance) ? 0 : std::atan2(v.y, v.x);
 }
 
-/// How far two directions are apart: squared chord.
+/// Returns the squared chord between two directions.
 double chord(double a, double b) {
   return square(std::sin(a) - std::sin(b)) + square(std::cos(a) - std::cos(b));
 }
 
-/// What rounding may make of the moments of a body that is possible.
+/// Returns the largest error by which rounding may change the moments of a possible body.
 double roundingOf(const Vector3& moments) {
   constexpr double kUlps = 10;
   return kUlps * std::numeric_limits<double>::epsilon() * (0.5 * std::abs(moments.Sum()));
@@ -65,10 +67,10 @@ class AxisSearch {
 
  private:
   bool areEqual(double a, double b) const { return std::abs(a - b) <= std::abs(tolerance_); }
-  double angleOf1(const Vector2& g1) const {  // eqs. 5.11, 5.13
+  double angleOf1(const PlaneVector& g1) const {  // eqs. 5.11, 5.13
     return wrapped(angleOf(g1, tolerance_) - angleOf(f1_, tolerance_));
   }
-  double angleOf2(const Vector2& g2) const {  // eqs. 5.12, 5.14
+  double angleOf2(const PlaneVector& g2) const {  // eqs. 5.12, 5.14
     return wrapped(0.5 * (angleOf(g2, tolerance_) - angleOf(f2_, tolerance_)));
   }
 
@@ -94,18 +96,20 @@ class AxisSearch {
     const double w =
         v < std::abs(tolerance_) ? 1 : (first_ - m2 + (m2 - m1) * v) / ((m0 - m1) * v);  // eq. 5.2
     const double phi2 = angleOfCosine(v), phi3 = angleOfCosine(w);                       // eq. 5.3
-    const Vector2 g1{0.5 * (m0 - m1) * clampedRoot(v) * std::sin(2 * phi3),
-                     0.5 * ((m0 - m1) * w + m1 - m2) * std::sin(2 * phi2)};  // eq. 5.7
-    const Vector2 g2{(m0 - m1) * (1 + (v - 2) * w) + (m1 - m2) * v,
-                     (m0 - m1) * std::sin(phi2) * std::sin(2 * phi3)};  // eq. 5.8
+    const PlaneVector g1{0.5 * (m0 - m1) * clampedRoot(v) * std::sin(2 * phi3),
+                         0.5 * ((m0 - m1) * w + m1 - m2) * std::sin(2 * phi2)};  // eq. 5.7
+    const PlaneVector g2{(m0 - m1) * (1 + (v - 2) * w) + (m1 - m2) * v,
+                         (m0 - m1) * std::sin(phi2) * std::sin(2 * phi3)};  // eq. 5.8
     const bool is_small1 = isSmall(f1_, tolerance_), is_small2 = isSmall(f2_, tolerance_);
     if (is_small1) return turnBack(is_small2 ? 0 : angleOf2(g2), phi2, phi3);
     if (is_small2) return turnBack(angleOf1(g1), phi2, phi3);
     return withBestSigns(g1, g2, phi2, phi3);
   }
 
-  /// phi2 and phi3 are known but for their signs: those hold for which both ways to phi1 agree.
-  Quaternion withBestSigns(const Vector2& g1, const Vector2& g2, double phi2, double phi3) const {
+  /// phi2 and phi3 are known up to their signs. The right signs are those with which both formulas
+  /// for phi1 agree.
+  Quaternion withBestSigns(const PlaneVector& g1, const PlaneVector& g2, double phi2,
+                           double phi3) const {
     struct Signs {
       double of_phi2, of_phi3;
     };
@@ -113,8 +117,8 @@ class AxisSearch {
     double phi1 = 0, least = std::numeric_limits<double>::infinity();
     Signs best = kSigns.front();
     for (const Signs& sign : kSigns) {
-      const Vector2 turned1{sign.of_phi3 * g1.x, sign.of_phi2 * g1.y};
-      const Vector2 turned2{g2.x, sign.of_phi2 * sign.of_phi3 * g2.y};
+      const PlaneVector turned1{sign.of_phi3 * g1.x, sign.of_phi2 * g1.y};
+      const PlaneVector turned2{g2.x, sign.of_phi2 * sign.of_phi3 * g2.y};
       const double first_angle = angleOf1(turned1), second_angle = angleOf2(turned2);
       if (!(chord(first_angle, second_angle) < least)) continue;
       least = chord(first_angle, second_angle);
@@ -127,7 +131,7 @@ class AxisSearch {
   const double first_;  // Ixx
   const Vector3 moments_, products_;
   const double tolerance_;
-  const Vector2 f1_, f2_;  // eqs. 5.5, 5.6
+  const PlaneVector f1_, f2_;  // eqs. 5.5, 5.6
 };
 
 }  // namespace
@@ -235,8 +239,8 @@ Vector3 InertiaTensor::principalMoments(double tolerance) const {
 
 Quaternion InertiaTensor::principalAxes() const {
   const double tolerance = kNegligible * moments.Max();
-  // Where a relative tolerance is asked for, this is an absolute one, as in ignition-math and so in
-  // Gazebo: models keep the axes that they have there.
+  // ignition-math, and so Gazebo, treats this relative tolerance as an absolute one. Doing the same
+  // keeps the axes that models have there.
   const Vector3 principal = principalMoments(tolerance);
   const double spare = std::abs(tolerance);
   const bool are_equal = std::abs(principal.X() - principal.Y()) <= spare &&

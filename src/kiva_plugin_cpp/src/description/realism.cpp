@@ -11,7 +11,7 @@ bool hasBelow(const Parameters& parameters, const std::string& key) {
   return at != parameters.values().end() && at->first.compare(0, key.size(), key) == 0;
 }
 
-/// Returns every number by its name, and `section` itself for whether it is on.
+/// Returns every number by its name; `section` itself is whether the section is on.
 std::map<std::string, double> numbersOf(const Realism& realism) {
   std::map<std::string, double> out;
   forEachSection(realism, [&](const std::string& name, const auto& section) {

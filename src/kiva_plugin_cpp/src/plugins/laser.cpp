@@ -13,20 +13,21 @@
 namespace kiva {
 namespace {
 
-constexpr double kClearance = 0.05;   // [m] kept to an obstacle on a way off the grid
-constexpr double kTopApproach = 3.0;  // [m/s]; what comes faster is another thing come into view
-constexpr double kSoon = 1e-3;        // [m]
+constexpr double kClearance = 0.05;  // [m] to an obstacle on a segment off the grid
+constexpr double kTopApproach =
+    3.0;                        // [m/s]; a faster approach is another obstacle that came into view
+constexpr double kSoon = 1e-3;  // [m]
 
-/// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown. Of what
-/// comes into view from the side, one look may meet a corner far back, and the next its face.
+/// Returns the obstacle's own speed of approach [m/s], from two scans; 0 if unknown. An obstacle
+/// that comes into view from the side may show a far corner in one scan, and its face in the next.
 double approachSpeed(const Sighting& before, const Sighting& now, double between) {
   if (!now.faces || !before.faces || before.model != now.model) return 0;
   const double speed = (before.distance - now.distance - (now.along - before.along)) / between;
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
-/// Returns how far along the segment the robot may go: a grid point before the cell of what is
-/// ahead, or, off the grid, a little before it.
+/// Returns the farthest distance along the segment that the robot may drive: a grid point before
+/// the obstacle's cell, or, off the grid, a clearance before the obstacle.
 double farthestStop(const Scene& world, int robot, double obstacle) {
   if (!world.fleet.tasks[robot].segments.front().on_grid) {
     return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
@@ -35,7 +36,8 @@ double farthestStop(const Scene& world, int robot, double obstacle) {
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
-/// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
+/// Plans a stop at `stop`, with more than the usual deceleration if need be, or as early as
+/// possible.
 void planStop(RobotView& world, int i, double stop) {
   FleetState& f = world.fleet;
   const double speed = std::abs(f.command(i).speed), here = f.command(i).position;
@@ -51,14 +53,14 @@ void planStop(RobotView& world, int i, double stop) {
   f.reference_end[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
-/// What one look tells: places along the segment [m], speeds [m/s].
+/// The result of one scan: positions along the segment [m], speeds [m/s].
 struct Ahead {
-  double reference;      // where this robot is commanded to be now
-  double reference_end;  // where it is to stop so far
-  double obstacle;       // where it is now
-  double approach;       // how fast it comes by itself
-  double speed;          // of this robot
-  double scan_time;      // until the next look [s]
+  double reference;      // the robot's commanded position
+  double reference_end;  // its present stop
+  double obstacle;       // the obstacle's position
+  double approach;       // the obstacle's own speed of approach
+  double speed;          // the robot's speed
+  double scan_time;      // time until the next scan [s]
 };
 
 Ahead viewOf(const Scene& world, int i) {
@@ -74,38 +76,38 @@ Ahead viewOf(const Scene& world, int i) {
   return view;
 }
 
-/// [m/s²]
+/// Returns the deceleration of a normal stop [m/s²].
 double usualBraking(const Scene& world, int i) {
   const double usual = plannedAcceleration(world, i);
   return usual > 0 ? usual : 1e9;
 }
 
-/// Returns where the obstacle is to be met: the other one comes on until it has seen this robot
-/// too, then brakes as this one does, with `braking` [m/s²].
+/// Returns the position at which the robot will meet the obstacle, if that is a robot: it comes on
+/// until it has seen this one, too, then brakes with the same deceleration `braking` [m/s²].
 double expectedObstacle(const Ahead& view, double braking) {
   return view.obstacle - 2 * view.approach * view.scan_time -
          view.approach * view.approach / (2 * braking);
 }
 
-/// Returns where the robot has to plan its stop now, if it has to; else its goal.
+/// Returns the stop that the robot has to plan now; its goal if it needs none.
 double firstStop(const Scene& world, int robot, const Ahead& view) {
   const auto isBehindGoal = [&](double stop) { return stop >= view.reference_end - kSoon; };
-  // Most looks end here: how it can brake is worked out for the others alone.
+  // Most scans end here. Only the others need the braking distance.
   if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
     return view.reference_end;
   }
   const double usual = usualBraking(world, robot);
   const double expected = expectedObstacle(view, usual);
   const double stop = farthestStop(world, robot, expected);
-  if (isBehindGoal(stop)) return view.reference_end;  // its way ends before, anyway
+  if (isBehindGoal(stop)) return view.reference_end;  // its goal comes first
   const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
   const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.reference_end
-                                                 : stop;  // while there is time
+                                                 : stop;  // no need to brake yet
 }
 
-/// Returns the same for a robot that is stopping already: it keeps to its plan unless the place is
-/// taken by now, or even two hard stops would hardly do.
+/// Returns the stop of a robot that is stopping already. It keeps its plan unless the place is
+/// taken by now, or even two hard stops would hardly suffice.
 double revisedStop(const Scene& world, int robot, const Ahead& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
@@ -117,7 +119,7 @@ double revisedStop(const Scene& world, int robot, const Ahead& view) {
   return std::min(view.reference_end, farthestStop(world, robot, view.obstacle));
 }
 
-/// Returns whether a robot that brakes or stands on its path can go farther than to where it does.
+/// Returns whether a robot that brakes or stands on its path can go beyond its present stop.
 bool mayResume(const Scene& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const Ahead view = viewOf(world, i);
@@ -140,7 +142,7 @@ void brake(TaskView& world, int i) {
   const std::string& name = world.models[task.sighting.model]->name;
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);
-  if (task.follows() && !brakes) {  // its path goes on: this is not told again at its end
+  if (task.follows() && !brakes) {  // its path goes on; the end will not report this again
     reportCommand(world, world.log, Event::Kind::kBlocked, i, name, task.blocked_reason);
   }
 }

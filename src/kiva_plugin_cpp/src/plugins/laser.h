@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// Brakes a robot before what its laser sees in its way.
+/// Brakes a robot before obstacles that its laser sees.
 class LaserPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_laser.so"; }

@@ -17,11 +17,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kStalled = 0.5;      // [s] at its largest force, then the lift gives up
-constexpr double kSpareForce = 1.25;  // times the weight of the largest load, unless it is told
-constexpr double kBeside = 0.001;     // [m] by which outlines may overlap of what is beside
+constexpr double kStalled = 0.5;  // [s] at the largest force before the lift gives up
+constexpr double kSpareForce =
+    1.25;  // force as a multiple of the largest load's weight, unless the robot's file has one
+constexpr double kBeside = 0.001;  // [m] of overlap up to which outlines count as side by side
 
-/// What a load that rises will meet next.
+/// The next obstacle above a load that rises.
 struct Above {
   double clearance = 1e9;  // [m]
   int model = -1;
@@ -51,8 +52,8 @@ Above findAbove(const Scene& world, int i) {
   return above;
 }
 
-/// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
-/// wheels stay on the floor.
+/// Returns the force with which a model resists being lifted [N]: its weight, unless it is fixed or
+/// a robot, whose wheels stay on the floor.
 double resistance(const Scene& world, const Model& model) {
   if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
   double mass = 0;
@@ -60,14 +61,14 @@ double resistance(const Scene& world, const Model& model) {
   return mass * world.settings.gravityDown();
 }
 
-void setTower(MotionView& world, int i, double height) {
-  raiseLoad(world, i, height - world.fleet.tower[i]);
+void setTower(TaskView& world, Obstacles& obstacles, int i, double height) {
+  raiseLoad(world.fleet, obstacles, world.storage, i, height - world.fleet.tower[i]);
   world.fleet.tower[i] = height;
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
-/// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(MotionView& world, int i, double height) {
+/// lift.time: 4·height/time² in its first half, minus that in its second.
+void moveTower(TaskView& world, Obstacles& obstacles, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
@@ -75,7 +76,7 @@ void moveTower(MotionView& world, int i, double height) {
   Profile profile = world.fleet.profile(i);
   profile.advance(height, top, acceleration, acceleration, world.clock.dt);
   world.fleet.setProfile(i, profile);
-  setTower(world, i, profile.position);
+  setTower(world, obstacles, i, profile.position);
 }
 
 void begin(RobotView& world, int i) {
@@ -87,7 +88,7 @@ void giveUp(TaskView& world, int i, const std::string& by, const std::string& re
   stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
-/// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
+/// Gives the lift up if the unit is not, or no longer, at the place of the lift.
 void checkUnit(TaskView& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
@@ -112,17 +113,17 @@ void putDownOnFloor(ContactView& world, int i, int unit) {
                 "dropped " + world.storage.units[unit].name);
 }
 
-/// The tower comes down, a unit that it has stands on the floor again, then the command ends in
-/// BLOCKED.
+/// Lowers the tower, puts a carried unit on the floor, then ends the command in BLOCKED.
 void abandon(ContactView& world, int i, int unit) {
-  moveTower(world, i, 0);
+  moveTower(world, world.obstacles, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
 }
 
-/// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
-/// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
-void stall(MotionView& world, int i, double before, const Above& above) {
+/// Holds the tower where its force does not suffice: beneath an obstacle that it can't lift, or
+/// under a load that is too heavy. Gives up after kStalled. `above` is the obstacle as seen from
+/// the height `before` [m].
+void stall(TaskView& world, Obstacles& obstacles, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
@@ -135,7 +136,7 @@ void stall(MotionView& world, int i, double before, const Above& above) {
   }
   const double height = meets ? before + above.clearance : before;
   f.setProfile(i, {height, 0});
-  setTower(world, i, height);
+  setTower(world, obstacles, i, height);
   overdue += world.clock.dt;
   if (overdue < kStalled) return;
   const std::string other = meets ? world.models[above.model]->name : "";
@@ -150,39 +151,39 @@ void raiseSegment(ContactView& world, int i, int unit) {
   const double before = world.fleet.tower[i];
   const bool is_loaded = world.fleet.unit[i] >= 0;
   const Above above = is_loaded ? findAbove(world, i) : Above();
-  moveTower(world, i, r.lift.height);
-  if (is_loaded) stall(world, i, before, above);
+  moveTower(world, world.obstacles, i, r.lift.height);
+  if (is_loaded) stall(world, world.obstacles, i, before, above);
   if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
     takeUp(world, i, unit);
   }
   if (world.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(world, world.models.of(
-                         world.fleet.robots[i]));  // its load is higher than when it was taken up
+  rebuildBody(world,
+              world.models.of(world.fleet.robots[i]));  // its load is higher than at its taking up
   reportCommand(world, world.log, Event::Kind::kLifted, i, world.storage.units[unit].name,
                 "lifted " + world.storage.units[unit].name);
   finishSegment(world, i);
 }
 
 void lowerSegment(ContactView& world, int i, int unit) {
-  moveTower(world, i, 0);
+  moveTower(world, world.obstacles, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
-/// Stops the tower, and keeps it there.
-void holdTower(MotionView& world, int i) {
+/// Stops the tower and holds it.
+void holdTower(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
   profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt, &f.tasks[i].stop_at);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
-  setTower(world, i, profile.position);
+  setTower(world, obstacles, i, profile.position);
 }
 
 void liftSegment(ContactView& world, int i) {
   const Task& task = world.fleet.tasks[i];
-  if (isHeld(world.fleet, i)) return holdTower(world, i);
+  if (isHeld(world.fleet, i)) return holdTower(world, world.obstacles, i);
   const MotionSegment segment = task.segments.front();
   if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
@@ -191,17 +192,17 @@ void liftSegment(ContactView& world, int i) {
   if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
 
-/// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(MotionView& world, int i) {
+/// Lowers a tower whose unit was deleted.
+void lowerEmptyTower(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
-  moveTower(world, i, 0);
+  moveTower(world, obstacles, i, 0);
 }
 
-/// Has the tasks of robots that follow at place `k` of a list brought into the cache: those of a
-/// large fleet lie apart, and waiting for them took most of this loop's time.
+/// Prefetches the tasks of the robots that follow at place `k` of a list. Tasks of a large fleet
+/// lie apart, and cache misses took most of this loop's time.
 void fetchAhead(const FleetState& f, const std::vector<int>& robots, std::size_t k) {
-  constexpr std::size_t kTask = 12, kSegment = 6;  // as many robots ahead
+  constexpr std::size_t kTask = 12, kSegment = 6;  // distance in robots
   if (k + kTask < robots.size()) __builtin_prefetch(&f.tasks[robots[k + kTask]].segments);
   if (k + kSegment >= robots.size()) return;
   const Task& soon = f.tasks[robots[k + kSegment]];
@@ -225,7 +226,7 @@ void LiftPlugin::control(ContactView& world) const {
     const int i = robots[k];
     const Task& task = f.tasks[i];
     const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;
-    if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, i);
+    if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, world.obstacles, i);
     if (task.lifts()) liftSegment(world, i);
   }
 }

@@ -62,7 +62,7 @@ bool arrived(const FleetState& f, int i, const OnLine& at) {
          std::abs(at.along - f.reference_end[i]) < kThereDistance && stands(f, i);
 }
 
-/// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
+/// Ends a segment that the wheels can't drive, such as one into a wall that no laser saw.
 bool giveUp(TaskView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
@@ -73,7 +73,7 @@ bool giveUp(TaskView& world, int i, const OnLine& at) {
   return true;
 }
 
-/// Returns what it may drive for the sake of people now, on its way down to what is allowed.
+/// Returns the speed limit near people now, on the way down to the allowed speed [m/s].
 double allowedSpeed(const Scene& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
@@ -81,22 +81,22 @@ double allowedSpeed(const Scene& world, int i) {
   return std::max(allowed, speed - plannedBraking(world, i) * world.clock.dt);
 }
 
-/// Returns the heading error to correct. At its goal a robot leaves the error that the last code
-/// showed to the next drive or turn: to correct it would take half a second of each stop.
+/// Returns the heading error to correct. A robot at its goal leaves the error that the last code
+/// showed to the next drive or turn: correcting it would take half a second a stop.
 double headingToMend(const FleetState& f, int i, double heading) {
   const bool is_there = f.localises && f.reference[i] == f.reference_end[i];
   return is_there && std::abs(heading) < kSquare ? 0 : heading;
 }
 
-/// The wheels that follow a reference at that speed, of which the robot lags behind, and steer back
-/// onto the line.
+/// Drives the wheels at the reference's speed, corrects the lag behind it, and steers back onto the
+/// line.
 void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed) {
   setWheels(f, i, speed + kAlongGain * lag,
             -kHeadingGain * headingToMend(f, i, at.heading) - kLineGain * at.speed * at.across);
 }
 
-/// Lets the reference of a robot that slips on a floor with slippery places go on from where the
-/// robot is, and asks half as much of its wheels from there on.
+/// Restarts the reference of a robot that slips, on a floor with slippery places, at the robot's
+/// position, and halves the acceleration from there on.
 void feelSlip(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (std::abs(f.reference[i] - at.along) < kSlid || f.acceleration[i] <= kLeastPlanned) return;
@@ -105,15 +105,15 @@ void feelSlip(RobotView& world, int i, const OnLine& at) {
   f.setProfile(i, {at.along, at.speed});
 }
 
-/// Returns whether the robot is past its goal and slides on.
+/// Returns whether the robot is past its goal and still slides.
 bool overshoots(const Scene& world, int i, const MotionSegment& segment, const OnLine& at) {
   const double sign = segment.reverse ? -1 : 1;
   return sign * (at.along - world.fleet.reference_end[i]) > kSlid && sign * at.speed > kStill &&
          isPatchy(world);
 }
 
-/// Ends a drive whose robot has slid past its goal and has no room to come back. Returns false
-/// while it has.
+/// Ends a drive whose robot has slid past its goal and has no room to come back. Returns whether it
+/// did.
 bool isCutOff(TaskView& world, int i, double past) {
   const FleetState& f = world.fleet;
   if (isWayFree(world, i, f.believed(i), -past, kMargin)) return false;
@@ -123,7 +123,7 @@ bool isCutOff(TaskView& world, int i, double past) {
   return true;
 }
 
-/// Stops where it can, and stays there, or where it slides to.
+/// Stops where it can, and stays where it came to rest.
 void holdDrive(RobotView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
@@ -143,7 +143,7 @@ void holdDrive(RobotView& world, int i, const OnLine& at) {
   if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
 }
 
-void driveSegment(MotionView& world, int i) {
+void driveSegment(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
@@ -161,7 +161,7 @@ void driveSegment(MotionView& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
-  if (overshoots(world, i, segment, at)) {  // its motors hold it, and no place behind it
+  if (overshoots(world, i, segment, at)) {  // its motors hold it, wherever it stops
     f.setProfile(i, {at.along, 0});
     return setWheels(f, i, 0, 0);
   }
@@ -177,13 +177,13 @@ void driveSegment(MotionView& world, int i) {
   const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
                                  : isExact(lag) && isExact(at.heading) && isExact(at.across);
   if (exact && !segment.reverse && !backs &&
-      tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
+      tryCruise(world, obstacles, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
   Profile command = f.command(i);
   command.advance(f.reference_end[i], top, f.acceleration[i], f.deceleration[i], world.clock.dt);
   f.follow(i, command);
-  followLine(f, i, at, lag, f.reference_speed[i]);  // behind the reference as it was
+  followLine(f, i, at, lag, f.reference_speed[i]);  // the reference before this step
 }
 
 }  // namespace
@@ -203,7 +203,8 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void MotionPlugin::control(ContactView& world) const {
   for (int i : world.schedule.stepped_singly) {
-    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive))
+      driveSegment(world, world.obstacles, i);
   }
 }
 
@@ -226,7 +227,7 @@ bool halting(TaskView& world, int i) {
   Task& task = f.tasks[i];
   const bool drives = task.isAt(MotionSegment::Kind::kDrive) && !task.segment()->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
-    Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
+    Profile command = f.command(i);  // without scans it relies on its wheels, which must not slide
     command.brake(plannedBraking(world, i), world.clock.dt, &task.stop_at);
     f.follow(i, command);
     setWheels(f, i, f.reference_speed[i], 0);

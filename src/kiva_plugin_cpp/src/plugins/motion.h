@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// Drives straight segments: a trapezoid of speed along the line, the wheels steering back onto it.
+/// Drives straight segments: a trapezoidal speed profile along the line, steered by the wheels.
 class MotionPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_motion.so"; }
@@ -16,16 +16,16 @@ class MotionPlugin : public FleetPlugin {
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
 void setWheels(FleetState& fleet, int i, double speed, double yaw_rate);
 
-/// How near is there.
+/// Tolerances of a goal.
 constexpr double kThereDistance = 1e-5;  // [m]
 constexpr double kThereAngle = 1e-6;     // [rad]
 bool stands(const Fleet& fleet, int i);
 
-/// How long a robot may be at a segment's end without having come to it.
+/// Longest time that a robot may take to reach a segment's end after its reference has.
 constexpr double kOverdue = 2.0;  // [s]
 
-/// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
-/// it is.
+/// Locks the wheels of a robot that is to halt, and ends the command once it stands. Returns
+/// whether the robot is to halt.
 bool halting(TaskView& world, int i);
 
 }  // namespace kiva

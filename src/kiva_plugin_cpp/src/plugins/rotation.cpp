@@ -17,14 +17,15 @@
 namespace kiva {
 namespace {
 
-constexpr double kGain = 20;         // [1/s] yaw rate for angle lagged
-constexpr double kStuckAngle = 0.3;  // [rad] behind the profile
-constexpr double kSpins = 0.2;       // [rad/s] between a profile and the gyro
-constexpr double kLeast = 0.1;       // [rad/s²] that it turns with where nothing grips
-constexpr double kReserve = 0.9;     // of the motors' torque, so that errors can be mended
+constexpr double kGain = 20;         // yaw rate per angle of lag [1/s]
+constexpr double kStuckAngle = 0.3;  // lag behind the profile of a robot that is stuck [rad]
+constexpr double kSpins = 0.2;       // difference of profile and gyro that proves slip [rad/s]
+constexpr double kLeast = 0.1;       // smallest acceleration, where nothing grips [rad/s²]
+constexpr double kReserve = 0.9;     // share of the motors' torque, the rest corrects errors
 
-/// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
-/// motors and floor can. 0 = at once, where they are without limit.
+/// Returns the acceleration of a turn [rad/s²]. A turn by 90° from rest to rest takes T: 4·90°/T²
+/// in its first half, minus that in its second, within the limits of motors and floor. T = 0: at
+/// once, where motors and floor have no limit.
 double turnAcceleration(const Scene& world, int i, double angle) {
   const double time =
       world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
@@ -39,7 +40,7 @@ double turnSpeed(const Robot& robot, double dt) {
   return time == 0 ? 2 * M_PI / dt : M_PI / time;
 }
 
-/// Stops turning as hard as it would at the turn's end, and stays so.
+/// Stops a turn with its final deceleration, and stays.
 void holdTurn(RobotView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
@@ -53,8 +54,8 @@ void holdTurn(RobotView& world, int i) {
   setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
 
-/// On a floor that is slippery in places a gyro tells that wheels spin, before odometry is misled:
-/// from there on it turns half as hard.
+/// Halves the acceleration of a turn where the gyro shows that wheels spin, before odometry is
+/// misled. Only floors with slippery places need it.
 void feelGrip(RobotView& world, int i) {
   FleetState& f = world.fleet;
   const bool spins = std::abs(f.reference_speed[i] - f.yaw_rate[i]) > kSpins;
@@ -63,7 +64,8 @@ void feelGrip(RobotView& world, int i) {
   f.setProfile(i, {f.believed(i).yaw, f.yaw_rate[i]});
 }
 
-/// Ends a turn that would tear at the legs of a storage unit that stands askew, before it begins.
+/// Ends a turn before it begins if it would hit the legs of a storage unit that stands askew.
+/// Returns whether there is room.
 bool hasRoom(TaskView& world, int i) {
   const FleetState& f = world.fleet;
   const double goal = f.yaw[i] + f.tasks[i].segments.front().yaw - f.believed(i).yaw;
@@ -74,7 +76,7 @@ bool hasRoom(TaskView& world, int i) {
   return false;
 }
 
-void turnSegment(MotionView& world, int i) {
+void turnSegment(TaskView& world, Obstacles& obstacles, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
@@ -102,7 +104,7 @@ void turnSegment(MotionView& world, int i) {
   }
   const double top = turnSpeed(r, world.clock.dt), acceleration = f.deceleration[i];
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
-  if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
+  if (exact && tryCruise(world, obstacles, i, {0, 0, 1, top, acceleration})) return;
   Profile command = f.command(i);
   command.advance(f.reference_end[i], top, acceleration, acceleration, world.clock.dt);
   f.follow(i, command);
@@ -118,7 +120,8 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void RotationPlugin::control(ContactView& world) const {
   for (int i : world.schedule.stepped_singly) {
-    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn)) turnSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn))
+      turnSegment(world, world.obstacles, i);
   }
 }
 

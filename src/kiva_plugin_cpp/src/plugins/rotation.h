@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// Turns in place: a triangle of yaw rate, no steeper than motors and floor can hold.
+/// Turns in place: a triangular yaw rate profile within the limits of motors and floor.
 class RotationPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_rotation.so"; }

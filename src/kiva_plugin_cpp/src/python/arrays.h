@@ -17,15 +17,15 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// An argument that numpy makes an array of; signatures name it so.
+/// An argument that numpy converts to an array; signatures name it so.
 class ArrayLike : public py::object {
  public:
   PYBIND11_OBJECT_DEFAULT(ArrayLike, py::object, isAny)
   static bool isAny(PyObject* /*object*/) { return true; }
 };
 
-/// Returns a read-only array over memory of the world, without a copy. The array holds the memory:
-/// whatever becomes of the world, its last values can still be read.
+/// Returns a read-only array over memory of the world, without a copy. The array holds the memory,
+/// so that the last values outlive the world.
 template <typename Out, typename T>
 py::array_t<Out> view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
   static_assert(sizeof(Out) == sizeof(T));

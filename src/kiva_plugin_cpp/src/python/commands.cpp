@@ -65,7 +65,7 @@ void post(Host& host, const py::array& commands) {
   postAll(host, rows.data(), static_cast<std::size_t>(rows.size()));
 }
 
-/// Returns how many commands the columns make: the one length that is not 1.
+/// Returns the number of commands in the columns: the one length that is not 1.
 template <typename... Columns>
 std::size_t lengthOf(const Columns&... columns) {
   py::ssize_t length = 1;
@@ -146,7 +146,7 @@ void stop(Host& host, const ArrayLike& kiva_id, bool stop) {
               Ids("kiva_id", kiva_id));
 }
 
-/// Breaks what `kind` says in a robot; kind 0 repairs it.
+/// Makes a robot fail with `kind`; kind 0 repairs it.
 void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   const auto lock = host.use();
   if (kind == 0) return host.world.repair(kiva_id);
@@ -155,7 +155,8 @@ void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
 }
 
-/// Posts a path a row, or none if one is wrong; row i has the next `points[i]` entries of x and y.
+/// Posts a path for each row, or none if one is wrong. Row i has the next `points[i]` entries of x
+/// and y.
 void follow(Host& host, const ArrayLike& kiva_id, const ArrayLike& path_id, const ArrayLike& first,
             const ArrayLike& points, const ArrayLike& x, const ArrayLike& y,
             const ArrayLike& released) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robots of one world as arrays, and what their lasers and radios tell.
+// The robots of one world as arrays, with laser scans and radio reports.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::vector<int> robotsOf(const Host& host, const ArrayLike& kiva_id) {
   return robots;
 }
 
-/// Scans into host.ranges: one row a robot, filled up with NaN.
+/// Writes scans into host.ranges: one row a robot, padded with NaN.
 void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
   std::vector<int> fitted;
   for (int robot : robots) {

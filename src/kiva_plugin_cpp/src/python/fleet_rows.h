@@ -16,7 +16,7 @@ struct FleetRows {
   Column<double> x, y, yaw, vx, vy, yaw_rate, left_wheel_speed, right_wheel_speed, tower;
   Column<std::uint8_t> status, state, last_end;
   Column<std::int32_t> shelf_id;
-  Column<std::uint32_t> counts;  ///< of events: Event::kKinds a robot
+  Column<std::uint32_t> counts;  ///< counts of events: Event::kKinds a robot
 
   /// Makes room for `size` robots.
   explicit FleetRows(std::size_t size);

@@ -21,7 +21,7 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// Steps made at a time; between them Python is asked whether Ctrl-C was pressed.
+/// Number of steps between checks for Ctrl-C.
 constexpr std::int64_t kStepsBetweenSignals = 256;
 
 /// A row of World.storage_units.
@@ -45,7 +45,7 @@ class Host {
 
   World world;
   ModelPaths model_paths;
-  Column<float> ranges;  // of the last scans()
+  Column<float> ranges;  // result of the last scans()
 
  private:
   std::mutex mutex_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models of one world: how they come and go, where they are, what they look like.
+// Models of one world: coming and going, poses, looks.
 #include <pybind11/stl.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One world: how it is made, stepped, saved and restored.
+// One world: construction, steps, checkpoints.
 #include <pybind11/stl.h>
 
 #include <algorithm>

@@ -39,7 +39,8 @@ class Worlds {
   std::size_t size() const { return hosts_.size(); }
   unsigned threads() const { return workers_.threads(); }
 
-  /// Returns how many steps each world made: all, or, if `until_idle`, as many as it took.
+  /// Returns the number of steps that each world made: all, or, if `until_idle`, those until it was
+  /// idle.
   py::array_t<std::int64_t> step(std::int64_t steps, bool until_idle);
   /// Posts commands, each to the world of that index; all or none.
   void post(const ArrayLike& which, const py::array& commands);
@@ -99,8 +100,8 @@ class Worlds {
   Workers workers_;
   int robots_;
   FleetRows rows_;
-  std::vector<std::vector<Event>> events_;  ///< of the last step()
-  Column<float> ranges_;                    ///< of the last scans()
+  std::vector<std::vector<Event>> events_;  ///< events of the last step()
+  Column<float> ranges_;                    ///< result of the last scans()
 };
 
 }  // namespace kiva::python

@@ -51,15 +51,15 @@ namespace {
 
 using namespace kiva_ros;
 
-constexpr int kCallbackThreads = 4;  // each may wait for the step thread
+constexpr int kCallbackThreads = 4;  // each may block on the step thread
 
-// For all threads: what one makes another deletes, and with a heap for each memory grew by four
-// fifths while a large warehouse was created again and again.
+// Number of heaps for all threads. What one thread allocates another one frees: with a heap for
+// each thread, memory grew by four fifths while a large warehouse was created again and again.
 constexpr int kHeaps = 1;
 
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 
-/// Handles signals: roscpp handles SIGINT alone, and closes its connections without notice.
+/// Handles signals. roscpp handles SIGINT alone, and closes its connections abruptly.
 void onSignal(int) {
   asked_to_stop = 1;
   if (!serving) ros::requestShutdown();
@@ -128,7 +128,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   ModeService mode_service(node, simulation);
   PeopleServices people_services(root, simulation, settings.model_paths);
   PickUpService pick_up_service(root, simulation);
-  // A replay takes the checkpoints that were taken when it was recorded, and no others.
+  // A replay repeats the checkpoints of its recording, and takes no others.
   CheckpointServices checkpoints(
       saving.node(), simulation,
       {!replayer, settings.autosave, settings.checkpoint_folder, settings.checkpoint_limit});
@@ -153,7 +153,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
       recorder->onInput([topic](rosbag::Bag& bag, const ros::Time& t) { topic->write(bag, t); });
     });
   }
-  simulation.add(shadows);  // after the recorder, whose keyframes are of the world before
+  simulation.add(shadows);  // follows the recorder, whose keyframes precede its changes
 
   announce(world, settings, rtf);
   simulation.start();
@@ -166,7 +166,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   if (recorder) recorder->finish(world);
   broadcaster.stop();
   if (ros::ok()) unadvertiseTopics();
-  // Last, since a large document may keep them.
+  // The last to stop, since they may hold a large document.
   for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->stop();
   ros::shutdown();
   return simulation.failed() ? 1 : 0;
@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // so that a log file gets each line at once
   if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   std::vector<char*> arguments = {argv, argv + argc};
-  // roscpp's own name is absolute; in a namespace the clock is that of this world.
+  // roscpp's default name is absolute; a world in a namespace has a clock of its own.
   std::string clock = "/clock:=clock";
   arguments.push_back(clock.data());
   argc = static_cast<int>(arguments.size());

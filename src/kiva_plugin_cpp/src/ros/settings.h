@@ -47,8 +47,8 @@ namespace kiva_ros {
 ///   ~fleet_rate              [Hz] of simulated time, of /warehouse/fleet; default 10, at most 100
 struct Settings {
   std::string world_file;
-  kiva::ModelPaths model_paths;        ///< For spawn requests: a preset is made of our models.
-  kiva::ModelPaths world_model_paths;  ///< For the world file: its author's come first.
+  kiva::ModelPaths model_paths;        ///< For spawn requests; ours come first.
+  kiva::ModelPaths world_model_paths;  ///< For the world file; its author's come first.
   std::optional<double> rtf;
   kiva::WorldOptions world;
   bool lockstep = false;

@@ -56,7 +56,7 @@ LibraryModel read(const std::string& folder, const ModelPaths& model_paths) {
 std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
                                                  const ModelPaths& model_paths) {
   static BoundedCache<LibraryModel> cache(256);
-  // Models inside may be found elsewhere with other paths.
+  // The same text may include other models if the paths differ.
   std::string key = folder;
   for (const std::string& path : model_paths) key += '\n' + path;
   auto model = cache.find(key);

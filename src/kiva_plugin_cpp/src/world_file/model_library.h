@@ -12,19 +12,19 @@
 
 namespace kiva {
 
-/// A model of its own file.
+/// A model read from a file of its own.
 struct LibraryModel {
   std::string name;
-  Pose pose;       ///< Pose in world by its file.
+  Pose pose;       ///< Pose in world, as the file has it.
   Pose placement;  ///< Pose of the model in its placement frame, to which an include's pose refers.
   std::shared_ptr<const ModelDescription> description;  ///< Null: the file holds no model,
-  std::optional<Light> light;                           ///< but a light, say.
+  std::optional<Light> light;                           ///< but perhaps a light.
   std::vector<std::string> warnings;
   FileStamps stamps;
 };
 
-/// The model at `folder`, read once and shared for as long as its files stay as they are.
-/// Throws DescriptionError.
+/// Returns the model at `folder`, read once and shared while its files do not change. Throws
+/// DescriptionError.
 std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
                                                  const ModelPaths& model_paths);
 

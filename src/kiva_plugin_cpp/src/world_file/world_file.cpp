@@ -24,7 +24,7 @@
 namespace kiva {
 namespace {
 
-/// What a text came to, apart from its includes.
+/// The result of parsing a text without its includes.
 struct ParsedText {
   bool is_world = false;
   WorldDescription world;
@@ -44,7 +44,7 @@ void addModel(const XmlElement& model, const Origin& origin, std::vector<ModelIn
   });
 }
 
-/// The one that is marked as the default, else the first.
+/// Returns the <physics> that is marked as the default, else the first.
 const XmlElement* physicsOf(const XmlElement& world) {
   const XmlElement* physics_element = nullptr;
   forEach(world, "physics", [&](const XmlElement& physics) {
@@ -68,7 +68,7 @@ void setPhysics(const XmlElement& from, WorldDescription* world) {
 }
 
 void setGravity(const XmlElement& from, WorldDescription* world) {
-  constexpr double kUsual = -9.8;  // [m/s²], in SDF
+  constexpr double kUsual = -9.8;  // SDF's default [m/s²]
   const Vector3 gravity = vectorIn(from, "gravity", Vector3(0, 0, kUsual));
   if (!(gravity.Length() <= kMostGravity)) {
     failAt(*from.FirstChildElement("gravity"), "expected a gravity of 1000 m/s² at most");
@@ -119,8 +119,8 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
   return parsed;
 }
 
-/// A thousand requests for the same model, or for models of a library by an include each, differ in
-/// nothing but that.
+/// Returns the parsed text from a cache: a thousand requests for one model differ only in its
+/// includes, names and poses.
 std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
                                              const ModelPaths& model_paths) {
   static BoundedCache<ParsedText> cache(256);
@@ -133,14 +133,14 @@ std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
   return parsed;
 }
 
-/// One reading of one text: knows what the text is called and collects its warnings, each once.
+/// The reading of one text: knows the text's name and collects its warnings, each once.
 class Reading {
  public:
   Reading(const ModelPaths& model_paths, const std::string& where,
           std::vector<std::string>* warnings)
       : model_paths_(model_paths), where_(where), warnings_(warnings) {}
 
-  /// `parse` is given the text without its includes. Throws DescriptionError.
+  /// `parse` receives the text without its includes. Throws DescriptionError.
   template <typename Parse>
   ParsedText read(const std::string& xml, Parse parse) {
     try {
@@ -161,9 +161,9 @@ class Reading {
     }
   }
 
-  /// What is most likely why a text holds nothing that can stand.
+  /// Returns the first warning, the most likely reason why nothing is left of a text.
   const std::string& firstWarning() const { return first_warning_; }
-  /// How many models stand in for others.
+  /// Returns the number of models that stand in for others.
   std::size_t standIns() const { return stand_ins_; }
 
  private:
@@ -172,7 +172,7 @@ class Reading {
     if (warnings_ && warned_.insert(text).second) warnings_->push_back(text);
   }
 
-  /// In the order of the text.
+  /// Returns the models in the order of the text.
   std::vector<ModelInstance> merge(const PreparedText& split, std::vector<ModelInstance> rest) {
     if (split.includes.empty()) return rest;
     std::map<std::string, ModelInstance> originals;
@@ -243,7 +243,8 @@ class Reading {
          "' is taken; expected every <model> in <world> to have a name of its own");
   }
 
-  /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
+  /// Returns the model at a uri, searched for once a reading: five thousand shelves share one
+  /// model. Null if there is none.
   const LibraryModel* library(const std::string& uri) {
     auto [entry, is_new] = models_.try_emplace(uri);
     if (!is_new) return entry->second.get();
@@ -283,7 +284,7 @@ class Reading {
   std::size_t stand_ins_ = 0;
   std::set<std::string> warned_;
   std::set<std::string> names_;
-  std::vector<Light> lights_;  ///< Of includes.
+  std::vector<Light> lights_;  ///< Lights of includes.
   std::map<std::string, std::shared_ptr<const LibraryModel>> models_;
 };
 

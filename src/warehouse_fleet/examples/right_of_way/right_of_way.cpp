@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A planner to learn from: each robot in turn drives along x, then along y, and gives way to all
-// who came before it in the list. It is safe, but robots that meet head on stay there for ever:
-// compare it with the one of the house. Named in a YAML file,
+// An example of a planner: each robot in turn drives along x, then along y, and gives way to all
+// robots before it in the list. It is safe, but robots that meet head on stand for ever: compare it
+// with the built-in planner. A YAML file names it by
 //
 //   planner: /path/to/libright_of_way.so:RightOfWay
 #include <unordered_set>
@@ -21,13 +21,13 @@ class RightOfWay : public fleet::Planner {
 
   void plan(const fleet::Fleet& fleet, const fleet::Budget& /*budget*/,
             fleet::Plan& plan) override {
-    // No cell is entered that another robot is in or goes to: none swap, follow or meet.
+    // No robot enters a cell that another robot is in or goes to: none swap, follow or meet.
     std::unordered_set<fleet::Cell> taken(fleet.cell.begin(), fleet.cell.end());
     taken.insert(fleet.closed.begin(), fleet.closed.end());
     plan.horizon = 1;
     plan.actions.assign(fleet.size(), fleet::Action::kWait);
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      const fleet::Action action = wanted(fleet, robot);
+      const fleet::Action action = preferredAction(fleet, robot);
       if (action == fleet::Action::kForward) {
         const fleet::Cell next =
             floor_->next(fleet.deck(robot), fleet.cell[robot], fleet.heading[robot]);
@@ -38,7 +38,7 @@ class RightOfWay : public fleet::Planner {
   }
 
  private:
-  fleet::Action wanted(const fleet::Fleet& fleet, int robot) const {
+  fleet::Action preferredAction(const fleet::Fleet& fleet, int robot) const {
     const fleet::Cell goal = fleet.goal[robot], cell = fleet.cell[robot];
     if (goal == fleet::kNowhere || goal == cell || fleet.isStopped(robot)) {
       return fleet::Action::kWait;
@@ -56,5 +56,5 @@ class RightOfWay : public fleet::Planner {
 
 }  // namespace
 
-// By this line the library tells what it holds.
+// Registers the class, so that a program can load it by name.
 WAREHOUSE_ADD_PLUGIN(RightOfWay, fleet::Planner)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which robot holds which cell, and which cells are closed. At most one robot holds a cell, from
-// before it may enter until it and its load have left.
+// The robot that holds each cell, and the closed cells. At most one robot holds a cell, from before
+// it may enter until it and its load have left.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class CellHolders {
   void hold(Cell cell, int robot) { holder_[cell] = robot; }
   /// Frees a cell if that robot holds it.
   void free(Cell cell, int robot);
-  /// Returns the robot that holds a cell; kNobody.
+  /// Returns the robot that holds a cell, or kNobody.
   int holder(Cell cell) const { return holder_[cell]; }
   bool isFreeFor(Cell cell, int robot) const {
     return holder_[cell] == kNobody || holder_[cell] == robot;
@@ -34,14 +34,14 @@ class CellHolders {
   bool isClosed(Cell cell, double now) const { return closed_until_[cell] > now; }
   /// Returns whether a cell is closed by close().
   bool isClosing(double now) const;
-  /// Closes cells where people are or are about to be, in place of the former zone. A robot inside
-  /// drives on along its released cells, and out.
+  /// Closes cells where people are or are about to be, in place of the previous zone. A robot
+  /// inside drives on along its released cells, and out.
   void setZone(std::vector<Cell> cells);
   bool isInZone(Cell cell) const { return is_in_zone_[cell] != 0; }
-  /// Returns the cells of the zone, and those closed by close(), in no order.
+  /// Returns the cells of the zone and those closed by close(), unordered.
   std::vector<Cell> closed(double now) const;
 
-  /// Sets the cells of the aisles in which units stand: loaded robots can't pass.
+  /// Sets the aisle cells that units occupy: loaded robots can't pass.
   void setUnits(std::vector<Cell> cells) { units_ = std::move(cells); }
   const std::vector<Cell>& units() const { return units_; }
 
@@ -49,7 +49,7 @@ class CellHolders {
   const Floor& floor_;
   std::vector<int> holder_;           ///< by cell
   std::vector<double> closed_until_;  ///< by cell [s]
-  std::vector<Cell> closing_;         ///< cells that are closed, or were
+  std::vector<Cell> closing_;         ///< cells that are or were closed by close()
   std::vector<Cell> zone_;
   std::vector<std::uint8_t> is_in_zone_;  ///< by cell
   std::vector<Cell> units_;

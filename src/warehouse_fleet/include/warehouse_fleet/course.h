@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A course: one robot's path, what the robot holds of it, and how far it has come.
+// A course: the path of one robot, the cells that it holds, and its progress.
 #pragma once
 
 #include <cstdint>
@@ -18,87 +18,88 @@ namespace fleet {
 ///   kStanding           send: a path is released to it          kSent
 ///   kSent               refuse: the robot refuses the path      kRefused
 ///   kSent, kRefused     accept: the robot reports the path      kDriving
-///   kDriving            withdraw: told to stop                  kWithdrawn
+///   kDriving            withdraw: commanded to stop             kWithdrawn
 ///   all but kObstacle   finish: its path is over                kStanding
 ///   all                 a new Course: it left the fleet         kObstacle
-enum class Phase : std::uint8_t {
+enum class CoursePhase : std::uint8_t {
   kObstacle,   ///< Commanded by others, or pushed off the floor.
   kStanding,   ///< A member of the fleet without a path.
   kSent,       ///< The path was sent, and not reported yet.
   kRefused,    ///< The robot refused the path. It may still accept a duplicate of the release.
   kDriving,    ///< The robot has reported the path.
-  kWithdrawn,  ///< Told to stop before an obstacle.
+  kWithdrawn,  ///< Commanded to stop before an obstacle.
 };
 
-/// A robot's way to its goal as it was driven, to be compared with the plan.
+/// The drive of a robot to its goal, for comparison with the plan.
 struct Journey {
   double driven = 0;  ///< time since the robot left [s]
-  double alone = 0;   ///< time that the same way takes a robot without others [s]
-  /// `alone`, and waiting by the plan: by itself, or behind a robot that stood [s].
+  double alone = 0;   ///< time of the same drive without other robots [s]
+  /// Time of `alone`, and of waiting as planned: with a free way, or behind a standing robot [s].
   double planned = 0;
   int cells = 0;
 };
 
-/// What keeps a robot from the next cell of its plan.
+/// The cause that keeps a robot from the next cell of its plan.
 enum class Hindrance : std::uint8_t {
   kNone,    ///< nothing, or it has no plan
   kHolder,  ///< the robot ahead, which has not left the cell
-  kOrder,   ///< a robot that passes the cell before it by the plan, and has not come yet
+  kOrder,   ///< a robot that precedes it by the plan and has not come yet
   kTurn,    ///< a robot beside it, while one of them turns
 };
 
-/// A cell that a plan passes, and the tick at which it is entered.
+/// A cell of a plan, and the tick at which the robot enters it.
 struct Step {
   Cell cell;
   int tick;
 };
 
-/// How a robot that was pushed comes back to the middle of a cell.
+/// The recovery of a robot that was pushed off the middle of its cell.
 struct Recovery {
-  double since = -1;          ///< [s]; -1: there is nothing to come back from
-  double ended = -1e9;        ///< when an attempt ended that the robot had accepted [s]
-  std::vector<Cell> refused;  ///< where it can't begin a path
+  double since = -1;          ///< when it was pushed [s]; -1: nothing to recover from
+  double ended = -1e9;        ///< when the last accepted attempt ended [s]
+  std::vector<Cell> refused;  ///< cells where it can't begin a path
 };
 
 struct Course {
-  std::uint32_t id = 0;  ///< of the path; the last one if it is over
-  int refusals = 0;      ///< of paths, one after the other
-  double sent = 0;       ///< when a release was sent last [s]
+  std::uint32_t id = 0;  ///< id of the path, or of the last one
+  int refusals = 0;      ///< consecutive refusals of paths
+  double sent = 0;       ///< time of the last release [s]
 
   // The path: points 0 to released - 1; the cell where the robot stands if there is no path.
   std::vector<Cell> cells;
   int reached = 1, left = 0;
-  bool is_short = false;    ///< stands short of the middle of the last cell that it reached
-  Cell at = kNowhere;       ///< where it stands, or was last
-  Cell turning = kNowhere;  ///< where it has been released around a corner
+  bool is_short = false;    ///< stands before the middle of the last cell that it reached
+  Cell at = kNowhere;       ///< present or last cell
+  Cell turning = kNowhere;  ///< cell of the corner that it has been released around
 
-  // The plan beyond.
+  // The plan beyond the released cells.
   std::deque<Step> plan;
   int committed = 0;           ///< cells ahead when the plan was requested
   std::vector<Cell> granted;   ///< cells released since then
-  bool plan_is_stale = false;  ///< the robot has left the way that was planned for
-  bool travels = false;        ///< has a goal elsewhere
+  bool plan_is_stale = false;  ///< the robot has left the planned way
+  bool travels = false;        ///< has a goal in another cell
   bool waits_by_plan = false;
-  int waits_for = -1;  ///< a robot
+  int waits_for = -1;  ///< index of a robot, or kNobody
   Hindrance hindrance = Hindrance::kNone;
 
-  // Off the grid.
-  bool is_astray = false;      ///< was pushed off the middle of its cell
-  std::vector<Cell> occupied;  ///< cells beyond `cells` that it stands on: an obstacle, or astray
+  // The state of a robot off the grid.
+  bool is_astray = false;  ///< was pushed off the middle of its cell
+  std::vector<Cell>
+      occupied;  ///< cells beyond `cells` that an obstacle or an astray robot stands on
   Recovery recovery;
 
   double still_since = 0, blocked_since = -1;
-  double moved = 0;  ///< when it moved last, or had nothing before it [s]
+  double moved = 0;  ///< when it last moved or had nothing ahead [s]
   Journey journey;
   int run = 0, run_heading = 0;  ///< cells driven straight on, and their heading
 
-  Phase phase() const { return phase_; }
-  bool isMember() const { return phase_ != Phase::kObstacle; }
-  /// Whether a path is under way, or sent and not yet accepted.
-  bool isActive() const { return phase_ > Phase::kStanding; }
-  bool isAccepted() const { return phase_ >= Phase::kDriving; }
-  bool isRefused() const { return phase_ == Phase::kRefused; }
-  bool isWithdrawn() const { return phase_ == Phase::kWithdrawn; }
+  CoursePhase phase() const { return phase_; }
+  bool isMember() const { return phase_ != CoursePhase::kObstacle; }
+  /// Returns whether a path is under way, or sent and not yet accepted.
+  bool isActive() const { return phase_ > CoursePhase::kStanding; }
+  bool isAccepted() const { return phase_ >= CoursePhase::kDriving; }
+  bool isRefused() const { return phase_ == CoursePhase::kRefused; }
+  bool isWithdrawn() const { return phase_ == CoursePhase::kWithdrawn; }
   int points() const { return static_cast<int>(cells.size()); }
 
   /// Makes the robot a member of the fleet, in a cell.
@@ -109,13 +110,13 @@ struct Course {
   void refuse();
   /// Notes that the robot reports the path.
   void accept();
-  /// Notes that the robot was told to stop; drops the plan beyond.
+  /// Notes that the robot was commanded to stop; drops the plan beyond.
   void withdraw();
   /// Ends the path, in a cell.
   void finish(Cell cell);
 
  private:
-  Phase phase_ = Phase::kObstacle;
+  CoursePhase phase_ = CoursePhase::kObstacle;
 };
 
 }  // namespace fleet

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Executes plans. Robots drive as they can, early or late; the plan only says in which order they
-// pass each cell. The next cells of a robot are released as soon as they are free and it is that
-// robot's turn. Execution arbitrates turning, so the planner may assume that every turn succeeds.
+// Executes plans. The plan only gives the order in which robots pass each cell; robots may be early
+// or late. The next cells of a robot are released as soon as they are free and it is that robot's
+// turn. Execution arbitrates turning, so the planner may assume that every turn succeeds.
 //
 //   cell_holders.h   which robot holds which cell, and which cells are closed
 //   course.h         one robot's path, a state machine
@@ -31,8 +31,8 @@ struct Report {
   RobotStatus status = RobotStatus::kIdle;
   RobotState state = RobotState::kIdle;
   std::uint32_t path_id = 0, reached = 0, left = 0;
-  bool is_controlled = false;  ///< false: commanded by others, broken, …; an obstacle
-  bool is_busy = false;        ///< does something other than driving, and is not sent on
+  bool is_controlled = false;  ///< false: an obstacle, since others command it or it is broken
+  bool is_busy = false;        ///< busy with work other than driving; it is not sent on
   bool is_loaded = false;
 };
 
@@ -48,29 +48,28 @@ class Execution {
  public:
   Execution(const Floor& floor, const Motion& motion);
 
-  /// Takes the reports of all robots at `time` [s], and frees the cells that robots have left. At
-  /// the first call, and if the number of robots changes, all begins from where the robots are.
+  /// Takes the reports of all robots at `time` [s], and frees the cells that robots have left. The
+  /// first call, and one with another number of robots, starts from the reported positions.
   void update(double time, std::vector<Report> reports);
 
-  /// Sets which robots are busy and loaded, if that has changed since the reports, an element a
-  /// robot.
+  /// Sets which robots are busy and loaded, one element a robot, if that changed since the reports.
   void setWork(const std::vector<std::uint8_t>& busy, const std::vector<std::uint8_t>& loaded);
 
-  /// Sets which robots are broken, an element a robot: they stand or can't be reached, and others
-  /// are sent around them at once.
+  /// Sets which robots are broken, one element a robot: they stand or don't respond, and other
+  /// robots take another way at once.
   void setBroken(std::vector<std::uint8_t> broken) { broken_ = std::move(broken); }
 
-  /// Returns the fleet for the planner: where robots are, and what they can no longer take back.
-  /// Robots that are not controlled are left out, and their cells are closed. `goal` and `home`
-  /// have an element a robot, as in Fleet.
+  /// Returns the fleet for the planner: positions of robots, and their committed actions. Robots
+  /// that are not controlled are left out, and their cells are closed. `goal` and `home` have an
+  /// element a robot, as in Fleet.
   Fleet fleet(const std::vector<Cell>& goal, const std::vector<Cell>& home, int horizon);
   int robots() const { return static_cast<int>(courses_.size()); }
 
-  /// Has robots drive by a plan for the last fleet() from now on. A robot that was released
+  /// Makes robots drive by a plan for the last fleet() from now on. A robot that has been released
   /// other cells meanwhile keeps to them until the next plan.
   void adopt(const Plan& plan);
 
-  /// Has all robots drive whole plans from where they stand, an element a robot; no other plan
+  /// Makes all robots drive whole plans from where they stand, one plan a robot; no other plan
   /// replaces them. Ticks ascend. Robots that follow each other in a ring at one tick would wait
   /// for each other.
   void drive(std::vector<std::deque<Step>> plans);
@@ -78,60 +77,61 @@ class Execution {
   /// Returns releases: for each robot the free cells that it needs in order not to brake.
   Releases release();
 
-  /// Sets the cells of the aisles in which units stand: loaded robots can't pass.
+  /// Sets the aisle cells that units occupy: loaded robots can't pass.
   void setUnits(std::vector<Cell> cells) { holders_.setUnits(std::move(cells)); }
   /// Closes cells where people are or are about to be. A robot inside drives on along its released
   /// cells, and out.
   void setZone(std::vector<Cell> cells) { holders_.setZone(std::move(cells)); }
   /// Closes a cell until `until` [s].
   void close(Cell cell, double until) { holders_.close(cell, until); }
-  /// Stops the robot to which a cell was released before that cell, if it can still stop: something
-  /// lies there that robots don't see.
+  /// Stops the robot that a cell was released to before that cell, if it can still stop, since an
+  /// object lies there that robots don't see.
   void recall(Cell cell);
-  /// Returns whether a cell is closed, by close() or because a robot found an obstacle there. Then
-  /// look whether the obstacle is still there.
+  /// Returns whether a cell is closed, by close() or because a robot met an obstacle there. The
+  /// caller then checks whether the obstacle is still there.
   bool isClosing() const { return holders_.isClosing(now_); }
   /// Returns the cells closed now, including those of robots that are not controlled.
   std::vector<Cell> closed() const;
 
-  // Of one robot; std::out_of_range if there is none of that index.
+  // Queries about one robot; std::out_of_range for an unknown index.
 
-  /// Returns where it stands, or stood last; kNowhere beyond the floor.
+  /// Returns its present or last cell; kNowhere beyond the floor.
   Cell cellOf(int robot) const { return courses_.at(robot).at; }
-  /// Returns whether it stands in the middle of a cell with nothing released beyond.
+  /// Returns whether it stands in the middle of a cell with no further cell released.
   bool stands(int robot) const;
-  /// Returns the robot that holds a cell; kNobody.
+  /// Returns the robot that holds a cell, or kNobody.
   int holder(Cell cell) const { return holders_.holder(cell); }
-  /// Returns the robot for which a robot with a plan waits; kNobody.
+  /// Returns the robot that a robot with a plan waits for, or kNobody.
   int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
-  /// Returns what keeps a robot from the next cell of its plan.
+  /// Returns the cause that keeps a robot from the next cell of its plan.
   Hindrance hindrance(int robot) const { return courses_.at(robot).hindrance; }
   /// Returns the tick of the next step of its plan that is not released yet; -1 at the end.
   int nextTick(int robot) const;
-  /// Returns since when a robot with a goal elsewhere has stood [s]; for others the time of the
-  /// last report.
+  /// Returns the time since which a robot with a goal in another cell has stood [s]; for others the
+  /// time of the last report.
   double stillSince(int robot) const { return courses_.at(robot).still_since; }
-  /// Returns whether others command a robot: it is busy, but with neither its path nor work that is
-  /// known here.
+  /// Returns whether others command a robot: it is busy, but neither with its path nor with work
+  /// that setWork() knows.
   bool isForeign(int robot) const;
-  /// Returns whether a robot is broken, or does not drive although it may. For the planner its
-  /// cells are closed.
+  /// Returns whether a robot is broken, or stands although it may drive. The planner sees its cells
+  /// as closed.
   bool isStalled(int robot) const;
   /// Returns whether a robot was pushed off the middle of its cell.
   bool isAstray(int robot) const { return courses_.at(robot).is_astray; }
-  /// Returns whether a robot that was pushed found no way back, and is no longer asked to.
+  /// Returns whether a robot that was pushed can't come back to the grid; it gets no further
+  /// attempts.
   bool isLost(int robot) const;
   /// Returns the cells that a robot holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
 
-  /// Notes that a robot refused its path. The path is given up once none of its messages can still
+  /// Notes that a robot refused its path. The path is dropped once none of its messages can still
   /// be on the way.
   void refused(int robot);
 
   /// Returns a robot's journey since the last call.
   Journey takeJourney(int robot);
-  /// Returns how often a robot was BLOCKED before a cell of its own.
+  /// Returns the number of times that a robot was BLOCKED before a cell that it held.
   int blocked() const { return blocked_; }
 
  private:
@@ -191,7 +191,7 @@ class Execution {
   std::vector<Report> reports_;
   std::vector<Course> courses_;
   std::vector<int> members_;
-  std::vector<Cell> tight_;  ///< where a load that is turned would touch one askew; sorted
+  std::vector<Cell> tight_;  ///< sorted cells where a turned load would touch one askew
   std::vector<std::uint8_t> broken_;
   Fleet asked_;
   Releases releases_;  ///< to be sent

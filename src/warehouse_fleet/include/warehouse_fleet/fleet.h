@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a planner sees at a step and what it answers: a fleet as arrays, one element a robot.
+// The input and output of a planner at a step: a fleet as arrays, one element a robot, and a plan.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace fleet {
 
-/// What a robot does in one tick: the time of a cell at top speed, or of a quarter turn.
+/// The action of a robot in one tick: the time of a cell at top speed, or of a quarter turn.
 enum class Action : std::uint8_t {
   kWait = 0,
   kForward = 1,
@@ -19,32 +19,32 @@ enum class Action : std::uint8_t {
   kTurnNegative = 3,
 };
 
-/// Returns by how many quarter turns an action changes the heading.
+/// Returns the quarter turns by which an action changes the heading.
 constexpr int quarters(Action action) {
   return action == Action::kTurnPositive ? 1 : action == Action::kTurnNegative ? -1 : 0;
 }
 
-/// Which movements may happen at once.
+/// The movements that may happen in the same tick.
 struct Rules {
-  /// A robot may enter a cell while another leaves it. Otherwise it enters a tick later.
+  /// A robot may enter a cell in the tick in which another leaves it; otherwise one tick later.
   bool following = true;
-  /// Robots that follow each other in a ring may all move at once.
+  /// Robots that follow each other in a ring may all move in one tick.
   bool rings = false;
-  /// Two loaded robots side by side may turn at once: something else keeps them from it.
+  /// Two loaded robots side by side may turn in one tick, since execution keeps them apart.
   bool turning = false;
 };
 
-/// The fleet at a planning step. `cell`, `heading` and `goal` have an element for each robot; the
-/// others too, or none where a default is named.
+/// The fleet at a planning step. `cell`, `heading` and `goal` have an element for each robot. So
+/// have the other arrays, unless they are empty and their default holds.
 struct Fleet {
   std::vector<Cell> cell;
   std::vector<Heading> heading;
-  std::vector<Cell> goal;             ///< kNowhere: none; the robot stands where it blocks no other
+  std::vector<Cell> goal;  ///< kNowhere: no goal; the robot stands where it blocks no other
   std::vector<std::uint8_t> loaded;   ///< 1: drives on the aisles (default: none)
   std::vector<Cell> home;             ///< a storage place that it may enter loaded (default: none)
   std::vector<std::uint8_t> stopped;  ///< 1: stays where it is in any case (default: none)
-  /// The next actions that robots can no longer take back, in order, `committed_ticks` a robot.
-  /// From the tick at which a robot is free its row has kFree (default: all are free).
+  /// The committed actions of each robot, in order, `committed_ticks` a robot. A row has kFree from
+  /// the tick at which its robot is free (default: all are free).
   std::vector<std::uint8_t> committed;
   int committed_ticks = 0;
   std::vector<Cell> closed;  ///< cells that no robot may enter now
@@ -58,15 +58,14 @@ struct Fleet {
   bool isStopped(int robot) const { return !stopped.empty() && stopped[robot]; }
   Cell homeOf(int robot) const { return home.empty() ? kNowhere : home[robot]; }
   Deck deck(int robot) const { return isLoaded(robot) ? Deck::kAisles : Deck::kUnder; }
-  /// Returns how many of a robot's next actions are committed.
+  /// Returns the number of a robot's committed actions.
   int commitments(int robot) const;
   Action commitment(int robot, int tick) const {
     return static_cast<Action>(committed[robot * committed_ticks + tick]);
   }
 };
 
-/// A plan: `horizon` actions a robot, robot after robot. Robots that keep to it are not in each
-/// other's way.
+/// A plan: `horizon` actions a robot, robot by robot. Robots that keep to it do not collide.
 struct Plan {
   int horizon = 0;  ///< ticks
   std::vector<Action> actions;
@@ -74,7 +73,7 @@ struct Plan {
   Action at(int robot, int tick) const { return actions[robot * horizon + tick]; }
 };
 
-/// A robot's place in a plan.
+/// The cell and heading of a robot.
 struct GridPose {
   Cell cell = kNowhere;
   Heading heading = 0;
@@ -82,7 +81,7 @@ struct GridPose {
     return cell == other.cell && heading == other.heading;
   }
 };
-/// Returns where `action` leads on an open floor, allowed or not; kNowhere beyond its edge.
+/// Returns the pose after `action` on an open floor, allowed or not; kNowhere beyond its edge.
 GridPose after(const Floor& floor, GridPose state, Action action);
 
 /// Throws FloorError if a robot stands in a wall, two stand in one cell, a goal is off the floor,

@@ -22,7 +22,7 @@ enum class RobotState : std::uint8_t {
   kRotating = 3,
   kLifting = 4,
   kBlocked = 5,
-  /// At the last released point of its path.
+  /// Stands at the last released point of its path.
   kWaiting = 6,
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The order in which robots pass each cell by the plan.
+// The order in which robots pass each cell, by the plan.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ class PassingOrder {
   void clear();
   /// Sets the order by the plans of these robots.
   void set(const std::vector<int>& robots, const std::vector<Course>& courses);
-  /// Returns the robot that passes a cell next, of those whose plan still leads there; kNobody.
+  /// Returns the next robot to pass a cell among those whose plan still leads there, or kNobody.
   int first(Cell cell, const std::vector<Course>& courses);
 
  private:

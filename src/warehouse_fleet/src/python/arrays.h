@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between arrays of numpy and what the planner is written in.
+// Conversions between numpy arrays and the planner's types.
 #pragma once
 
 #include <pybind11/numpy.h>

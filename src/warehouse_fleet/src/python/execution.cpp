@@ -15,7 +15,7 @@
 namespace fleet::python {
 namespace {
 
-/// Execution, and the floor that it is about.
+/// Execution, and its floor.
 struct Run {
   std::shared_ptr<Floor> floor;
   Execution execution;
@@ -81,7 +81,7 @@ void drive(Run& run, const Array<int>& steps, const Array<Cell>& cell, const Arr
   run.execution.drive(std::move(plans));
 }
 
-/// One of the questions about a robot, for all of them.
+/// Returns the answers of one query for all robots.
 template <typename T, typename Question>
 auto ofAll(Question question) {
   return [question](const Run& run) {
@@ -94,7 +94,7 @@ auto ofAll(Question question) {
   };
 }
 
-/// What is known of each robot, in one go: courses of a large fleet don't fit into a cache.
+/// Returns the states of all robots in one pass: courses of a large fleet don't fit into a cache.
 py::tuple states(const Run& run) {
   const Execution& execution = run.execution;
   const int robots = execution.robots();

@@ -5,7 +5,7 @@
 
 namespace fleet::python {
 
-/// Execution, as the module's class of the same name.
+/// Defines the class Execution of the module.
 void bindExecution(pybind11::module_& module);
 
 }  // namespace fleet::python

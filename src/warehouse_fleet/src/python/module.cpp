@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The planner inside a Python process. This file translates; python/warehouse_fleet adds what is
-// easier said in Python.
+// easier to write in Python.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -52,7 +52,7 @@ py::array actionsOf(const Plan& plan) {
       reinterpret_cast<const std::uint8_t*>(plan.actions.data()));
 }
 
-/// A planner with the floor that it drives on.
+/// A planner with its floor.
 struct Started {
   Started(std::shared_ptr<Planner> planner, std::shared_ptr<Floor> floor, const Rules& rules,
           std::uint64_t seed)
@@ -76,7 +76,7 @@ py::array plan(Started& started, const Fleet& fleet, double seconds, int attempt
 void bindFleet(py::module_& module) {
   py::class_<Fleet> fleet(module, "Fleet", R"(The fleet at a planning step.
 
-The properties are views of the arrays that were given, empty for what was left out.)");
+The properties are views of the arguments, empty for arrays that were left out.)");
   fleet.def(py::init(&makeFleet), py::arg("cell"), py::arg("heading"), py::arg("goal"),
             py::arg("loaded") = py::none(), py::arg("home") = py::none(),
             py::arg("stopped") = py::none(), py::arg("committed") = py::none(),
@@ -86,7 +86,7 @@ The properties are views of the arrays that were given, empty for what was left 
 cell: (n,) int32. heading: (n,) uint8, quarter turns from +x towards +y. goal: (n,) int32 cells, -1:
 none, the robot waits where it blocks no other. loaded: (n,) bool, the robot drives on the aisles;
 default: none does. home: (n,) int32, a storage place that the robot may enter loaded; default: none.
-stopped: (n,) bool, the robot stays whatever it is told; default: none. committed: (n, ticks) uint8,
+stopped: (n,) bool, the robot stays in any case; default: none. committed: (n, ticks) uint8,
 the next actions that each robot can no longer take back, in order, 255 from where it is free;
 default: all are free. closed: cells that no robot may enter now. tight: cells where a load may pass
 but has no room to turn. ValueError if committed has another shape.)");

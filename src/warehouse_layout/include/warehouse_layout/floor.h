@@ -26,27 +26,30 @@ constexpr Heading turned(int heading, int quarters) {
 /// The graph that a robot drives on.
 enum class Deck : std::uint8_t {
   kUnder = 0,   ///< unloaded: the whole floor, beneath storage units too
-  kAisles = 1,  ///< loaded: all but storage places; its own is allowed besides
+  kAisles = 1,  ///< loaded: all but storage places, except the robot's own
 };
 
-/// Thrown for a floor that can't be planned on; the message says where and what was expected.
+/// Thrown for a floor that can't be planned on; the message has the place and the expectation.
 struct FloorError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Describes a floor. All vectors have width * height elements, or none where a default is named.
+/// A description of a floor. All vectors have width * height elements, or are empty where a default
+/// is named.
 struct FloorDescription {
   int width = 0;                       ///< cells along x
   int height = 0;                      ///< cells along y
   std::vector<std::uint8_t> passable;  ///< 1 where a robot can stand
   std::vector<std::uint8_t> storage;   ///< 1 where a storage unit can stand (default: nowhere)
-  std::vector<std::uint8_t> parking;   ///< 1 where only robots without a load go (default: nowhere)
-  std::vector<std::uint8_t> lane;      ///< 1 in the one-way lane of a station (default: nowhere)
-  std::vector<std::uint8_t> exits;     ///< bit h: may be left towards heading h (default: all)
+  std::vector<std::uint8_t>
+      parking;                     ///< 1 where only robots without a load may go (default: nowhere)
+  std::vector<std::uint8_t> lane;  ///< 1 in the one-way lane of a station (default: nowhere)
+  std::vector<std::uint8_t>
+      exits;  ///< bit h: the cell may be left towards heading h (default: all)
 };
 
-/// Cells and their neighbours. Never changes: temporary obstacles (a dead robot, a closed cell) are
-/// given to each planning step.
+/// Cells and their neighbours. Immutable: temporary obstacles (a broken robot, a closed cell) are
+/// passed to each planning step.
 class Floor {
  public:
   /// Throws FloorError if the size or the length of a vector is wrong.
@@ -59,7 +62,7 @@ class Floor {
   int y(Cell cell) const { return cell / width_; }
   bool has(Cell cell) const { return cell >= 0 && cell < size(); }
   bool isPassable(Cell cell) const { return passable_[cell]; }
-  /// Tells whether loaded robots drive there only if it is where they begin or end.
+  /// Returns whether loaded robots drive there only at the begin or the end of their way.
   bool isStorage(Cell cell) const { return storage_[cell]; }
   bool isParking(Cell cell) const { return parking_[cell]; }
   bool isLane(Cell cell) const { return lane_[cell]; }
@@ -83,7 +86,7 @@ class Floor {
   std::vector<Cell> next_[2];
 };
 
-/// Tells whether a robot on its way to `goal` would enter a station's lane there without need:
+/// Returns whether a robot on its way to `goal` would enter a station's lane there without need:
 /// lanes are no short cuts.
 inline bool isPassingThrough(const Floor& floor, Cell from, Cell to, Cell goal) {
   return floor.isLane(to) && !floor.isLane(from) && (goal == kNowhere || !floor.isLane(goal));

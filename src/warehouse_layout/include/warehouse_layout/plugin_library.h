@@ -11,21 +11,22 @@
 
 namespace warehouse {
 
-/// A shared library of classes that were registered with WAREHOUSE_ADD_PLUGIN. It stays loaded
-/// until the program ends: objects of its classes may live as long.
+/// A shared library of classes registered with WAREHOUSE_ADD_PLUGIN. It stays loaded until the
+/// program ends, as objects of its classes may live that long.
 class PluginLibrary {
  public:
   /// Throws std::runtime_error with the dynamic linker's reason if the file at `path` can't be
   /// loaded.
   explicit PluginLibrary(const std::string& path);
 
-  /// The names of the classes in it, separated by commas, each with its interface; empty: none.
+  /// Returns the names of its classes, separated by commas, each with its interface; empty without
+  /// classes.
   std::string contents() const;
 
-  /// The class of that name, namespaces left out in either; null if there is none.
+  /// Returns the class of that name, ignoring namespaces in either; null if there is none.
   const PluginClass* find(const std::string& name) const;
 
-  /// The first class for that interface; null if there is none.
+  /// Returns the first class with that interface; null if there is none.
   template <typename Interface>
   const PluginClass* first() const {
     for (const PluginClass* plugin : classes_) {
@@ -39,7 +40,7 @@ class PluginLibrary {
     return *plugin.type == typeid(Interface);
   }
 
-  /// A new object of a class that is for that interface.
+  /// Returns a new object of a class with that interface.
   template <typename Interface>
   static std::shared_ptr<Interface> make(const PluginClass& plugin) {
     return std::shared_ptr<Interface>(static_cast<Interface*>(plugin.make()));

@@ -16,20 +16,20 @@ namespace py = pybind11;
 template <typename T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-/// Returns an array's elements, row by row; none where no array was given.
+/// Returns an array's elements, row by row; empty for None.
 template <typename T>
 std::vector<T> copied(const std::optional<Array<T>>& array) {
   if (!array) return {};
   return std::vector<T>(array->data(), array->data() + array->size());
 }
 
-/// Returns a vector of C++ as a new array.
+/// Returns a vector as a new array.
 template <typename T>
 py::array_t<T> array(const std::vector<T>& vector) {
   return py::array_t<T>(static_cast<py::ssize_t>(vector.size()), vector.data());
 }
 
-/// Returns a vector of C++ as a read-only array that keeps its owner alive.
+/// Returns a vector as a read-only array that keeps its owner alive.
 template <typename T>
 py::array view(const std::vector<T>& vector, const py::object& owner,
                std::vector<py::ssize_t> shape = {}) {

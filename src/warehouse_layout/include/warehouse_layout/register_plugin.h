@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a shared library tells which classes of its own a program may load from it by name:
+// Registers classes of a shared library, which a program may load by name:
 //
 //   WAREHOUSE_ADD_PLUGIN(Mine, kiva::Plugin)
-//
 // at namespace scope, once for each class. The class needs a constructor without arguments.
 // PluginLibrary loads it.
 #pragma once
@@ -14,17 +13,17 @@ namespace warehouse {
 
 /// A class that a library offers.
 struct PluginClass {
-  const char* name;            ///< As it is written in the macro.
-  const char* interface;       ///< What it is to be used as, in the same words.
-  const std::type_info* type;  ///< That interface.
+  const char* name;            ///< The class as the macro names it.
+  const char* interface;       ///< Its interface as the macro names it.
+  const std::type_info* type;  ///< The type of that interface.
   void* (*make)();             ///< Makes an object, as a pointer to that interface.
-  const PluginClass* next;     ///< Another class of the same library.
+  const PluginClass* next;     ///< The next class of the same library.
 };
 
-/// The first class of this library: hidden, so that each library has a list of its own.
+/// The first class of this library. Hidden, so that each library has a list of its own.
 __attribute__((visibility("hidden"))) inline const PluginClass* plugin_classes = nullptr;
 
-/// Puts a class into the list while its library is loaded.
+/// Adds a class to the list while its library is loaded.
 struct PluginRegistration {
   explicit PluginRegistration(PluginClass* added) {
     added->next = plugin_classes;
@@ -32,7 +31,7 @@ struct PluginRegistration {
   }
 };
 
-/// The list's name to the dynamic linker.
+/// The symbol of the list for the dynamic linker.
 constexpr const char* kPluginClassesSymbol = "warehouse_plugin_classes";
 
 }  // namespace warehouse

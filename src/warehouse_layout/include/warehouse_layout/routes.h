@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The quickest ways of a robot from one cell to all others, or to it from all others.
+// The quickest ways of a robot from one cell to all others, and vice versa.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,30 @@
 
 namespace layout {
 
-/// Which cells a robot may go through, and how long that takes. A node is a cell and a heading,
+/// The cells that a robot may pass, and the times of its steps. A node is a cell and a heading,
 /// cell * kHeadings + heading.
 struct RouteGraph {
-  const Cell* next;         ///< by node: the cell beside it, or kNowhere; cells * kHeadings
-  const std::uint8_t* end;  ///< by cell: ways end there, in the heading in which they come
+  const Cell* next;         ///< by node: the neighbouring cell, or kNowhere; cells * kHeadings
+  const std::uint8_t* end;  ///< by cell: ways end there, in the heading of arrival
   Cell cells;
-  double step;  ///< from cell to cell [s]
-  double turn;  ///< by a quarter [s]
+  double step;  ///< time from cell to cell [s]
+  double turn;  ///< time of a quarter turn [s]
 };
 
 /// The quickest ways, an entry a node: duration [s], infinity if no quickest way to a cell passes
-/// the node; count of steps; the node before, -1 for the first.
+/// the node; number of steps; the previous node, -1 for the first.
 struct Routes {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;
   std::vector<std::int32_t> before;
 };
 
-/// Returns the quickest ways from a cell, which begin in any heading. With edges turned round they
-/// are those to the cell.
+/// Returns the quickest ways from a cell, starting in any heading. With reversed edges these are
+/// the ways to the cell.
 Routes routesFrom(const RouteGraph& graph, Cell start);
 
 /// The quickest ways to a list of cells, each in the heading that is reached first: duration [s],
-/// infinity if there is no way; count of steps.
+/// infinity if there is no way; number of steps.
 struct Ways {
   std::vector<double> seconds;
   std::vector<std::int32_t> steps;

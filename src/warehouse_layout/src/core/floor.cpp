@@ -68,8 +68,8 @@ Cell Floor::beside(Cell cell, int heading) const {
 
 namespace {
 
-/// How far cells are from where a search began. What searches before it left counts as nothing, so
-/// that one over a few cells of a large floor costs as much as those few.
+/// Distances of cells from the start of a search. Entries of earlier searches are ignored, so that
+/// a search over a few cells of a large floor takes as long as these few.
 class Distances {
  public:
   void begin(std::size_t cells) {
@@ -86,7 +86,7 @@ class Distances {
   }
 
  private:
-  std::vector<std::uint32_t> search_;  ///< the one that came to each cell last
+  std::vector<std::uint32_t> search_;  ///< the last search that reached each cell
   std::vector<int> steps_;
   std::uint32_t now_ = 0;
 };
@@ -102,8 +102,8 @@ struct Step {
 
 }  // namespace
 
-// A*: a step brings a robot nearer along the axes by one, or away by one. So there are cells to be
-// looked at now, with the least sum of steps done and steps left, and others with two more.
+// Searches by A*. A step brings a robot one cell nearer along the axes, or takes it one away, so
+// that the queue has only two costs: the least sum of steps done and steps left, and two more.
 int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
   thread_local Distances distances;
   distances.begin(floor.size());

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = LayoutFault::Kind;
 
-/// Searches the aisles' deck along its edges and against them.
+/// The aisles' deck, searched along its edges and against them.
 class Aisles {
  public:
   explicit Aisles(const Floor& floor) : floor_(floor), index_(floor.size(), kNowhere) {
@@ -74,8 +74,8 @@ class Aisles {
     return cells;
   }
 
-  /// Returns which cells have a way from core cells, or to them: first over the core alone, then
-  /// into lanes and storage places.
+  /// Returns the cells with a way from core cells, or to them: first over the core alone, then into
+  /// lanes and storage places.
   std::vector<std::uint8_t> reached(const std::vector<Cell>& start, bool is_forward) const {
     std::vector<std::uint8_t> reached(floor_.size(), 0);
     std::vector<Cell> queue = start;
@@ -92,9 +92,9 @@ class Aisles {
       for (int heading = 0; heading < kHeadings; ++heading) {
         const Cell to = is_forward ? step(cell, heading) : stepBack(cell, heading);
         if (to == kNowhere || (*reached)[to]) continue;
-        // Nor through a lane: robots that only pass would wait in its queue.
+        // A way must not pass a lane, either: robots that only pass would wait in its queue.
         if (isCore(to) != core_only) continue;
-        // No loaded robot drives through a storage place, and none has to come to parking.
+        // Loaded robots neither pass storage places nor need to reach parking places.
         if (floor_.isStorage(cell) && floor_.isStorage(to) && !floor_.isParking(to)) continue;
         (*reached)[to] = 1;
         queue->push_back(to);
@@ -122,7 +122,7 @@ class Aisles {
     return cells;
   }
 
-  /// Tells whether there is a way from `to` to `from`, both indices, other than the one edge.
+  /// Returns whether there is a way from `to` to `from`, both indices, besides the one edge.
   bool leadsBack(Cell from, Cell to, const StrongBridges& bridges) const {
     return part_[from] == part_[to] && !bridges.has(to, from);
   }
@@ -131,7 +131,7 @@ class Aisles {
   std::vector<Cell> core_;   // cells
   std::vector<Cell> index_;  // into core_, of each cell
   Neighbours ahead_, back_;  // indices into core_
-  std::vector<int> part_;    // of each cell in core_
+  std::vector<int> part_;    // part of each cell in core_
 };
 
 }  // namespace

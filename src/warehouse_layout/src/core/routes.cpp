@@ -12,8 +12,9 @@ struct Arrival {
   std::int32_t node;
 };
 
-/// Nodes come in by rising time, since each is found from one that was taken out by rising time, at
-/// the same cost. So two queues do what a heap does for edges of any cost.
+/// A queue whose nodes arrive in the order of time: each is reached from a node that left a queue
+/// in that order, at the same cost. So two queues replace the heap that edges of any cost would
+/// need.
 struct Queue {
   std::vector<Arrival> nodes;
   std::size_t first = 0;
@@ -24,9 +25,9 @@ struct Queue {
   }
 };
 
-class Search {
+class RouteSearch {
  public:
-  Search(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
+  RouteSearch(const RouteGraph& graph, Cell start, bool keeps_before, Routes* out)
       : graph_(graph), start_(start), keeps_before_(keeps_before), out_(*out) {
     const std::size_t nodes = static_cast<std::size_t>(graph.cells) * kHeadings;
     out_.seconds.assign(nodes, std::numeric_limits<double>::infinity());
@@ -49,7 +50,7 @@ class Search {
   }
 
  private:
-  /// Nothing turns twice in a cell: it would go back to where it came from.
+  /// A robot never turns twice in a cell: it would go back.
   void goOn(Arrival reached, bool has_turned) {
     stepOn(reached);
     if (has_turned) return;
@@ -59,7 +60,7 @@ class Search {
       const Cell next = graph_.next[node];
       if (next == kNowhere || !reach(reached, node, graph_.turn, 0)) continue;
       const Arrival turned{out_.seconds[node], node};
-      // Most turn into an end: no need to wait for its turn.
+      // Most arrivals turn into an end, which need not wait in the queue.
       graph_.end[next] ? stepOn(turned) : turns_.nodes.push_back(turned);
     }
   }
@@ -92,14 +93,14 @@ class Search {
 
 Routes routesFrom(const RouteGraph& graph, Cell start) {
   Routes out;
-  Search(graph, start, true, &out).run();
+  RouteSearch(graph, start, true, &out).run();
   return out;
 }
 
 Ways waysFrom(const RouteGraph& graph, Cell start, const std::vector<Cell>& ends) {
-  // Kept: on a large floor fresh memory takes as long as the search.
+  // Kept between calls: on a large floor fresh memory takes as long as the search.
   thread_local Routes all;
-  Search(graph, start, false, &all).run();
+  RouteSearch(graph, start, false, &all).run();
   Ways out;
   out.seconds.reserve(ends.size());
   out.steps.reserve(ends.size());

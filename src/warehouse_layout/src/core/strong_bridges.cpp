@@ -49,7 +49,8 @@ class Dominators {
     spanSubtrees();
   }
 
-  /// Returns for each node the one whose edge to it is on all ways there; kNowhere without one.
+  /// Returns for each node the one whose edge to it is on all ways there; kNowhere if there is
+  /// none.
   std::vector<Cell> onlyWaysIn() const {
     std::vector<Cell> out(number_.size(), kNowhere);
     for (int i = 0; i < count(); ++i) {
@@ -96,7 +97,7 @@ class Dominators {
   }
 
   /// Returns the node with the least semidominator among `i` and its ancestors from `linked` on,
-  /// and shortens the way there for the next time.
+  /// and compresses the path for later calls.
   int bestAbove(int i, int linked) {
     path_.clear();
     for (; ancestor_[i] >= linked; i = ancestor_[i]) path_.push_back(i);
@@ -109,7 +110,7 @@ class Dominators {
     return best_[i];
   }
 
-  /// Numbers the tree of dominators, so that the nodes below each are in a row.
+  /// Numbers the tree of dominators, so that the descendants of each node are contiguous.
   void spanSubtrees() {
     below_.assign(count(), 1);
     for (int i = count() - 1; i >= 0; --i) {
@@ -130,7 +131,8 @@ class Dominators {
     return begin_[i] <= begin_[other] && begin_[other] < begin_[i] + below_[i];
   }
 
-  /// Tells whether only what `i` dominates has edges to it, besides its dominator.
+  /// Returns whether all edges to `i`, except that from its dominator, come from nodes that `i`
+  /// dominates.
   bool isOnlyEntry(int i) const {
     bool is_edge = false;
     for (const Cell from : back_[node_[i]]) {
@@ -147,8 +149,8 @@ class Dominators {
 
   const Neighbours &ahead_, &back_;
   const std::vector<int>& part_;
-  std::vector<int> number_;  // of nodes
-  std::vector<Cell> node_;   // and below, by number:
+  std::vector<int> number_;  // number of each node
+  std::vector<Cell> node_;   // node of each number; the following also go by number
   std::vector<int> dominator_, semi_, ancestor_, best_, below_, begin_, path_;
 };
 

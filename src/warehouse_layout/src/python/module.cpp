@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Offers the floor and its check to Python. This file only translates; python/warehouse_layout adds
-// what is easier to write in Python.
+// The floor and its check inside a Python process. This file translates; python/warehouse_layout
+// adds what is easier to write in Python.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kQuarterTurn = 1.5707963267948966;  // [rad]
 
-/// Which cell of a row or column is nearest to `way` [cells] from the first.
+/// Returns the cell of a row or column nearest to `way` [cells] from the first.
 int nearest(double way, int cells) {
   const double rounded = std::nearbyint(way);
   return rounded > 0 ? static_cast<int>(std::min(rounded, cells - 1.0)) : 0;
@@ -19,8 +19,8 @@ int nearest(double way, int cells) {
 
 }  // namespace
 
-Floor::Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
-             std::vector<int> stations)
+RimmedFloor::RimmedFloor(const layout::FloorDescription& description, int rim,
+                         const layout::Raster& raster, std::vector<int> stations)
     : layout::Floor(description),
       rim_(rim),
       raster_(raster),
@@ -29,16 +29,16 @@ Floor::Floor(const layout::FloorDescription& description, int rim, const layout:
   for (const int cell : stations_) is_station_[cell] = 1;
 }
 
-int Floor::longest() const { return std::max(width(), height()) - 2 * rim_; }
+int RimmedFloor::longest() const { return std::max(width(), height()) - 2 * rim_; }
 
-int Floor::step(int heading) const {
+int RimmedFloor::step(int heading) const {
   const int steps[] = {1, width(), -1, -width()};
   return steps[heading & 3];
 }
 
-int Floor::inside(int cell) const { return std::clamp(cell, 0, size() - 1); }
+int RimmedFloor::inside(int cell) const { return std::clamp(cell, 0, size() - 1); }
 
-int Floor::cellOf(double to_x, double to_y) const {
+int RimmedFloor::cellOf(double to_x, double to_y) const {
   return nearest((to_y - raster_.y) / raster_.spacing, height()) * width() +
          nearest((to_x - raster_.x) / raster_.spacing, width());
 }

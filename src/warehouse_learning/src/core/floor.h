@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The floor that robots learn on: that of warehouse_layout, inside a rim of cells that no robot can
-// enter, so that every neighbourhood lies on it; and where it is in the world.
+// The floor that robots learn on: that of warehouse_layout inside a rim of impassable cells, so
+// that every neighbourhood lies on it, with its place in the world.
 #pragma once
 
 #include <vector>
@@ -15,26 +15,26 @@ using layout::Deck;
 using layout::kHeadings;
 using layout::kNowhere;
 
-class Floor : public layout::Floor {
+class RimmedFloor : public layout::Floor {
  public:
-  /// The description includes the rim, so many cells wide; `stations` are cells at which units are
-  /// delivered. Throws layout::FloorError as layout::Floor does.
-  Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
-        std::vector<int> stations);
+  /// `description` includes the rim, which is `rim` cells wide; `stations` are the cells where
+  /// units are delivered. Throws layout::FloorError as layout::Floor does.
+  RimmedFloor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
+              std::vector<int> stations);
 
-  int rim() const { return rim_; }                    ///< [cells] around it
+  int rim() const { return rim_; }                    ///< Width of the rim [cells].
   double spacing() const { return raster_.spacing; }  ///< Edge of a cell [m].
   const std::vector<int>& stations() const { return stations_; }
   bool isStation(int cell) const { return is_station_[cell]; }
 
-  /// The longer edge without the rim [cells].
+  /// Returns the longer edge without the rim [cells].
   int longest() const;
-  /// What to add to a cell for the next one in that direction, wherever that lies.
+  /// Returns the difference of the next cell in that direction and a cell, wherever that lies.
   int step(int heading) const;
-  /// The cell itself, or the nearest number of one: a robot may have been pushed into the rim, and
-  /// some of what is around it lies outside.
+  /// Returns the cell, clamped to the floor's numbers: the surroundings of a robot that was pushed
+  /// into the rim may lie outside.
   int inside(int cell) const;
-  /// The cell nearest to a place in world [m]; of one beyond the floor, at its edge.
+  /// Returns the cell nearest to a point in world [m]; beyond the floor, a cell of its edge.
   int cellOf(double to_x, double to_y) const;
 
  private:
@@ -44,7 +44,7 @@ class Floor : public layout::Floor {
   std::vector<char> is_station_;  // by cell
 };
 
-/// The quarter turns that are nearest to `yaw` [rad], 0 to 3.
+/// Returns the quarter turns nearest to `yaw` [rad], 0 to 3.
 int headingOf(double yaw);
 
 }  // namespace learning

@@ -5,7 +5,7 @@
 
 namespace learning {
 
-Goals::Goals(const Floor& floor, const State& state)
+Goals::Goals(const RimmedFloor& floor, const TaskState& state)
     : floor_(floor),
       state_(state),
       ways_(floor),
@@ -96,8 +96,8 @@ void Goals::findOpen(int w) {
 const Goals::Choice* Goals::nearest(int w, int robot, const std::vector<Choice>& choices) const {
   const int at = state_.cell[w][robot];
   const auto less = [at](const Choice& a, const Choice& b) { return (*a.way)[at] < (*b.way)[at]; };
-  const auto found = std::min_element(choices.begin(), choices.end(), less);
-  return found == choices.end() ? nullptr : &*found;
+  const auto nearest = std::min_element(choices.begin(), choices.end(), less);
+  return nearest == choices.end() ? nullptr : &*nearest;
 }
 
 void Goals::take(int w, int robot, std::vector<Choice>* open) {

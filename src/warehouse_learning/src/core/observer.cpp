@@ -6,7 +6,7 @@
 namespace learning {
 namespace {
 
-/// Of what a cell looks like; in the order of fields.LAYERS.
+/// The properties of a cell, in the order of fields.LAYERS.
 enum Layer : std::uint8_t {
   kBlocked = 1,
   kStorage = 2,
@@ -30,7 +30,7 @@ float* oneHot(float* out, int which, int of) {
 
 }  // namespace
 
-Observer::Observer(const Floor& floor, const State& state, const Goals& goals, int radius)
+Observer::Observer(const RimmedFloor& floor, const TaskState& state, const Goals& goals, int radius)
     : floor_(floor), state_(state), goals_(goals), still_(floor.size()) {
   for (int cell = 0; cell < floor.size(); ++cell) {
     still_[cell] = (floor.isPassable(cell) ? 0 : kBlocked) |
@@ -73,7 +73,7 @@ void Observer::lookAt(int w) {
   }
 }
 
-/// position 2, heading 4, load 3, busy 1
+/// Writes position 2, heading 4, load 3, busy 1.
 float* Observer::own(float* row, int w, int robot) const {
   const int cell = state_.cell[w][robot], load = state_.load[w][robot];
   const int rim = floor_.rim();
@@ -85,7 +85,7 @@ float* Observer::own(float* row, int w, int robot) const {
   return row;
 }
 
-/// goal 2, distance 1, way 4
+/// Writes goal 2, distance 1, way 4.
 float* Observer::goal(float* row, int w, int robot) const {
   constexpr int kCos[] = {1, 0, -1, 0}, kSin[] = {0, 1, 0, -1};
   const int cell = state_.cell[w][robot], heading = state_.heading[w][robot];
@@ -106,7 +106,7 @@ float* Observer::goal(float* row, int w, int robot) const {
   return row;
 }
 
-/// Cells from behind right to ahead left, as the robot faces them.
+/// Writes cells from behind right to ahead left, as the robot faces them.
 void Observer::around(float* row, int cell, int heading) const {
   for (const int offset : around_[heading]) {
     row = std::copy_n(layers_[look_[floor_.inside(cell + offset)]].data(), kLayers, row);

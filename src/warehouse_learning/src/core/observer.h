@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots observe, as warehouse_learning/fields.py describes it, but for their motion and their
+// Observations of robots, as warehouse_learning/fields.py describes them, without motion and
 // lasers.
 #pragma once
 
@@ -16,12 +16,12 @@ namespace learning {
 
 class Observer {
  public:
-  /// radius: of the neighbourhood [cells], at most the floor's rim.
-  Observer(const Floor& floor, const State& state, const Goals& goals, int radius);
+  /// `radius`: that of the neighbourhood [cells], at most the floor's rim.
+  Observer(const RimmedFloor& floor, const TaskState& state, const Goals& goals, int radius);
 
-  /// How many numbers it fills.
+  /// Returns the count of numbers a robot.
   int size() const;
-  /// A row a robot, `stride` numbers apart, warehouse after warehouse.
+  /// Writes a row a robot, `stride` numbers apart, warehouse by warehouse.
   void observe(float* out, int stride);
 
  private:
@@ -33,13 +33,14 @@ class Observer {
   float* goal(float* row, int w, int robot) const;
   void around(float* row, int cell, int heading) const;
 
-  const Floor& floor_;
-  const State& state_;
+  const RimmedFloor& floor_;
+  const TaskState& state_;
   const Goals& goals_;
-  std::vector<std::uint8_t> still_;            // bits of each cell, of what never moves
-  std::vector<std::uint8_t> look_;             // and with what moves, of one warehouse at a time
-  std::array<std::vector<int>, 4> around_;     // by heading: what to add to the robot's cell
-  std::array<Layers, 1 << kLayers> layers_{};  // the numbers of a cell's bits
+  std::vector<std::uint8_t> still_;  // bits of each cell's immobile properties
+  std::vector<std::uint8_t> look_;   // the same with mobile properties, of one warehouse at a time
+  std::array<std::vector<int>, 4>
+      around_;  // by heading: differences of the cells around and the robot's
+  std::array<Layers, 1 << kLayers> layers_{};  // numbers for each combination of a cell's bits
 };
 
 }  // namespace learning

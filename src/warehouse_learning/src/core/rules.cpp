@@ -8,13 +8,13 @@ namespace learning {
 namespace {
 
 constexpr std::int32_t kNobody = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kTurnsAlready = -1;  // before everybody who is about to
+constexpr std::int32_t kTurnsAlready = -1;  // rank before all robots that are about to turn
 
 bool isTurn(std::int8_t action) { return action == kLeft || action == kRight; }
 
 }  // namespace
 
-Rules::Rules(const Floor& floor, State* state, Goals* goals, bool reserve)
+TaskRules::TaskRules(const RimmedFloor& floor, TaskState* state, Goals* goals, bool reserve)
     : floor_(floor),
       state_(*state),
       goals_(*goals),
@@ -23,7 +23,7 @@ Rules::Rules(const Floor& floor, State* state, Goals* goals, bool reserve)
       held_(floor.size()),
       rank_(floor.size(), kNobody) {}
 
-void Rules::possible(bool* out) {
+void TaskRules::possible(bool* out) {
   for (int w = 0; w < state_.warehouses(); ++w) {
     markHeld(w, reserve_);
     for (int robot = 0; robot < state_.robots(); ++robot, out += kActions) {
@@ -37,7 +37,7 @@ void Rules::possible(bool* out) {
   }
 }
 
-std::vector<Order> Rules::begin(const bool* possible, const std::int8_t* actions, bool* done) {
+std::vector<Order> TaskRules::begin(const bool* possible, const std::int8_t* actions, bool* done) {
   const int robots = state_.robots();
   std::vector<Order> orders;
   for (int w = 0; w < state_.warehouses(); ++w, actions += robots, done += robots) {
@@ -54,7 +54,7 @@ std::vector<Order> Rules::begin(const bool* possible, const std::int8_t* actions
   return orders;
 }
 
-Outcome Rules::settle() {
+Outcome TaskRules::settle() {
   Outcome outcome(state_.warehouses(), state_.robots());
   for (int w = 0; w < state_.warehouses(); ++w) {
     for (int robot = 0; robot < state_.robots(); ++robot) {
@@ -68,34 +68,34 @@ Outcome Rules::settle() {
   return outcome;
 }
 
-int Rules::ahead(int w, int robot) const {
+int TaskRules::ahead(int w, int robot) const {
   return floor_.inside(state_.cell[w][robot] + floor_.step(state_.heading[w][robot]));
 }
 
-bool Rules::mayLift(int w, int robot) const {
+bool TaskRules::mayLift(int w, int robot) const {
   const int cell = state_.cell[w][robot];
   return state_.load[w][robot] == kNone ? state_.unit_at[w][cell] != kNone : floor_.isStorage(cell);
 }
 
-bool Rules::isOpen(int w, int robot) const {
+bool TaskRules::isOpen(int w, int robot) const {
   const int cell = ahead(w, robot);
   const bool fits = state_.load[w][robot] == kNone || state_.unit_at[w][cell] == kNone;
   return floor_.isPassable(cell) && !held_[cell] && fits;
 }
 
-int Rules::unitFor(int w, int robot) const {
+int TaskRules::unitFor(int w, int robot) const {
   const int load = state_.load[w][robot];
   return load == kNone ? state_.unit_at[w][state_.cell[w][robot]] : load;
 }
 
-void Rules::markHeld(int w, bool mark) {
+void TaskRules::markHeld(int w, bool mark) {
   for (int robot = 0; robot < state_.robots(); ++robot) {
     held_[state_.cell[w][robot]] = held_[state_.bound_for[w][robot]] = mark;
   }
 }
 
-/// Of several that want into one cell the first goes.
-void Rules::takeCells(int w, const std::int8_t* actions, bool* done) {
+/// Gives a cell that several robots go to to the first of them.
+void TaskRules::takeCells(int w, const std::int8_t* actions, bool* done) {
   const auto wants = [&](int robot) { return done[robot] && actions[robot] == kForward; };
   std::vector<int> taken;
   for (int robot = 0; robot < state_.robots(); ++robot) {
@@ -108,8 +108,9 @@ void Rules::takeCells(int w, const std::int8_t* actions, bool* done) {
   for (const int cell : taken) held_[cell] = false;
 }
 
-/// One that turns sweeps beyond its cell, and two side by side would touch: the first of them may.
-void Rules::takeTurns(int w, const std::int8_t* actions, bool* done) {
+/// Decides turns. A turning robot sweeps beyond its cell, and two side by side would touch: only
+/// the first may turn.
+void TaskRules::takeTurns(int w, const std::int8_t* actions, bool* done) {
   const int robots = state_.robots();
   for (int robot = 0; robot < robots; ++robot) {
     const bool turns_already = state_.turning[w][robot] && state_.busy[w][robot];
@@ -126,8 +127,8 @@ void Rules::takeTurns(int w, const std::int8_t* actions, bool* done) {
   for (int robot = 0; robot < robots; ++robot) rank_[state_.cell[w][robot]] = kNobody;
 }
 
-/// Whether there is something to begin.
-bool Rules::begin(int w, int robot, Action action) {
+/// Begins an action. Returns whether there is an order to post.
+bool TaskRules::begin(int w, int robot, Action action) {
   const bool busy = state_.busy[w][robot];
   load_before_[w][robot] = state_.load[w][robot];
   if (action == kForward) {
@@ -139,7 +140,7 @@ bool Rules::begin(int w, int robot, Action action) {
   return action != kWait;
 }
 
-void Rules::changeLoad(int w, int robot, Outcome* outcome) {
+void TaskRules::changeLoad(int w, int robot, Outcome* outcome) {
   const int cell = state_.cell[w][robot], load = state_.load[w][robot];
   if (load != kNone) {
     state_.unit_cell[w][load] = state_.unit_at[w][cell] = kNone;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rules of the task: what robots may do, and what has come of it when physics has had its say.
+// The rules of the task: the actions that robots may choose, and their outcome after physics.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace learning {
 
-/// Numbered as in RWARE.
+/// The actions, numbered as in RWARE.
 enum Action : std::int8_t { kWait, kForward, kLeft, kRight, kLift };
 constexpr int kActions = 5;
 
-/// What a robot is to begin. A lift is of `unit`: up if it carries none, down else.
+/// The order with which a robot begins an action. A lift concerns `unit`: up if the robot has no
+/// load, else down.
 struct Order {
   int warehouse, robot;
   Action action;
@@ -28,33 +29,33 @@ struct Who {
   int warehouse, robot;
 };
 
-/// What happened to each robot.
+/// The outcome for each robot.
 struct Outcome {
   Outcome(int warehouses, int robots)
       : lifted(warehouses, robots), dropped(warehouses, robots), stored(warehouses, robots) {}
 
-  Table<bool> lifted, dropped;  ///< A requested unit, undelivered.
+  Table<bool> lifted, dropped;  ///< The unit is requested and undelivered.
   Table<bool> stored;           ///< A delivered unit was put back.
-  std::vector<Who> arrived;     ///< They stand at a station with a load.
+  std::vector<Who> arrived;     ///< Robots that stand at a station with a load.
 };
 
-class Rules {
+class TaskRules {
  public:
-  /// reserve: forward is impossible where another robot stands or goes.
-  Rules(const Floor& floor, State* state, Goals* goals, bool reserve);
+  /// `reserve`: a robot can't go forward where another one stands or goes.
+  TaskRules(const RimmedFloor& floor, TaskState* state, Goals* goals, bool reserve);
 
-  // Arrays: robots, warehouse after warehouse.
+  // Arrays have an element a robot, warehouse by warehouse.
 
-  /// Which actions each robot may choose now: kActions a robot.
+  /// Writes the actions that each robot may choose now: kActions a robot.
   void possible(bool* out);
-  /// Robots begin what they may. Tells who does as told.
+  /// Begins the actions that are possible. `done`: whether each robot does its action.
   std::vector<Order> begin(const bool* possible, const std::int8_t* actions, bool* done);
-  /// What came of it, by what robots carry now and carried then.
+  /// Returns the outcome, by the robots' loads now and then.
   Outcome settle();
 
  private:
   int ahead(int w, int robot) const;
-  bool mayLift(int w, int robot) const;  ///< Or put down.
+  bool mayLift(int w, int robot) const;  ///< Lift or put down.
   bool isOpen(int w, int robot) const;
   int unitFor(int w, int robot) const;
   void markHeld(int w, bool mark);
@@ -63,14 +64,14 @@ class Rules {
   bool begin(int w, int robot, Action action);
   void changeLoad(int w, int robot, Outcome* outcome);
 
-  const Floor& floor_;
-  State& state_;
+  const RimmedFloor& floor_;
+  TaskState& state_;
   Goals& goals_;
   bool reserve_;
   Table<std::int32_t> load_before_;
   // By cell, of one warehouse at a time.
   std::vector<char> held_;          // a robot stands there or goes there
-  std::vector<std::int32_t> rank_;  // who turns there, by the order in which they may
+  std::vector<std::int32_t> rank_;  // rank of the robot that turns there
 };
 
 }  // namespace learning

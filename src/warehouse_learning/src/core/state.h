@@ -10,8 +10,8 @@ namespace learning {
 constexpr int kNone = -1;
 
 /// The task in many warehouses at once: a row a warehouse, a column a robot, a unit or a cell.
-struct State {
-  State(int warehouses, int robots, int units, int cells)
+struct TaskState {
+  TaskState(int warehouses, int robots, int units, int cells)
       : cell(warehouses, robots),
         heading(warehouses, robots),
         busy(warehouses, robots),
@@ -27,18 +27,18 @@ struct State {
   int robots() const { return cell.columns(); }
   int units() const { return unit_cell.columns(); }
 
-  // Of robots.
+  // Columns are robots.
   Table<std::int32_t> cell;
   Table<std::int8_t> heading;
-  Table<bool> busy;               ///< Still at an action.
-  Table<std::int32_t> load;       ///< The unit that it carries, kNone = none.
+  Table<bool> busy;               ///< An action is under way.
+  Table<std::int32_t> load;       ///< The carried unit, kNone = none.
   Table<std::int32_t> bound_for;  ///< The cell that it drives to, else its own.
   Table<bool> turning;
-  // Of storage units.
+  // Columns are storage units.
   Table<std::int32_t> unit_cell;  ///< kNone = carried.
-  Table<std::int32_t> unit_at;    ///< By cell: who stands there, kNone = none.
+  Table<std::int32_t> unit_at;    ///< By cell: the unit there, kNone = none.
   Table<bool> requested;
-  Table<bool> served;  ///< Delivered, and not yet put back.
+  Table<bool> served;  ///< The unit was delivered and not yet put back.
 };
 
 }  // namespace learning

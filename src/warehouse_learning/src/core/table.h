@@ -7,7 +7,7 @@
 
 namespace learning {
 
-/// Rows of equal length that stay where they are, so that numpy can look at them; bool too.
+/// A table with rows of equal length at fixed addresses, which numpy can view, of bool too.
 template <typename T>
 class Table {
  public:

@@ -3,7 +3,7 @@
 
 namespace learning {
 
-Ways::Ways(const Floor& floor) : floor_(floor) {
+WayTable::WayTable(const RimmedFloor& floor) : floor_(floor) {
   for (auto& goals : to_) goals.resize(floor.size());
   for (int cell = 0; cell < floor.size(); ++cell) {
     for (int heading = 0; heading < kHeadings; ++heading) {
@@ -13,14 +13,14 @@ Ways::Ways(const Floor& floor) : floor_(floor) {
   }
 }
 
-const Way& Ways::to(int goal, Deck deck) {
+const Way& WayTable::to(int goal, Deck deck) {
   const Way*& way = to_[static_cast<int>(deck)][goal];
   if (!way) way = &ways_.emplace_back(measure(goal, deck));
   return *way;
 }
 
-/// Wave by wave from the goal. One may begin in any passable cell.
-Way Ways::measure(int goal, Deck deck) const {
+/// Searches breadth first from the goal. A way may begin in any passable cell.
+Way WayTable::measure(int goal, Deck deck) const {
   Way way(floor_.size(), kFar);
   way[goal] = 0;
   std::vector<int> wave{goal};

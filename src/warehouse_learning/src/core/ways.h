@@ -11,23 +11,24 @@
 
 namespace learning {
 
-/// How many cells it is to a goal, from each cell.
+/// The distance to a goal from each cell [cells].
 using Way = std::vector<std::int16_t>;
-constexpr std::int16_t kFar = std::numeric_limits<std::int16_t>::max();  ///< No way leads there.
+constexpr std::int16_t kFar = std::numeric_limits<std::int16_t>::max();  ///< There is no way.
 
-/// Ways to goals, measured when they are asked for at first.
-class Ways {
+/// Ways to goals, computed on demand.
+class WayTable {
  public:
-  explicit Ways(const Floor& floor);
+  explicit WayTable(const RimmedFloor& floor);
 
-  /// With a load it keeps out of storage but at its goal. It stays where it is.
+  /// Returns the way to a goal, at a fixed address. On the aisles' deck it avoids storage places
+  /// except the goal.
   const Way& to(int goal, Deck deck);
 
  private:
   Way measure(int goal, Deck deck) const;
 
-  const Floor& floor_;
-  std::vector<int> beside_;  // by cell and heading; kNowhere if one can't go there
+  const RimmedFloor& floor_;
+  std::vector<int> beside_;  // by cell and heading; kNowhere where there is no passage
   std::deque<Way> ways_;
   std::array<std::vector<const Way*>, 2> to_;  // by deck, by goal
 };

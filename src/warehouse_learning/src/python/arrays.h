@@ -19,19 +19,20 @@ using Array = py::array_t<T, py::array::c_style>;
 
 inline std::string text(const py::object& value) { return py::str(value); }
 
-/// Nothing is converted: another type or shape is a ValueError that names the argument.
+/// Returns an array without a conversion. Throws ValueError, which names the argument, for another
+/// type or shape.
 template <typename T>
-Array<T> checked(const char* name, const py::object& given, std::vector<py::ssize_t> shape) {
-  bool fits = py::isinstance<Array<T>>(given);
+Array<T> checked(const char* name, const py::object& argument, std::vector<py::ssize_t> shape) {
+  bool fits = py::isinstance<Array<T>>(argument);
   if (fits) {
-    const auto array = py::reinterpret_borrow<py::array>(given);
+    const auto array = py::reinterpret_borrow<py::array>(argument);
     fits = std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()) == shape;
   }
   if (!fits) {
     throw py::value_error(std::string(name) + ": expected an array of " + text(py::dtype::of<T>()) +
                           ", contiguous, of shape " + text(py::tuple(py::cast(shape))));
   }
-  return py::reinterpret_borrow<Array<T>>(given);
+  return py::reinterpret_borrow<Array<T>>(argument);
 }
 
 }  // namespace learning::python

@@ -27,16 +27,17 @@ namespace py = pybind11;
 namespace learning::python {
 namespace {
 
-/// IndexError unless low <= value < high.
+/// Returns `value`; throws IndexError unless low <= value < high.
 int within(const char* name, py::ssize_t value, py::ssize_t low, py::ssize_t high) {
   if (value >= low && value < high) return static_cast<int>(value);
   throw py::index_error(std::string(name) + " has " + std::to_string(value) + "; " +
                         std::to_string(low) + " to " + std::to_string(high - 1) + " was expected");
 }
 
-std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<double, 2> origin,
-                                 double spacing, const py::object& passable,
-                                 const py::object& storage, const std::vector<int>& stations) {
+std::shared_ptr<RimmedFloor> makeFloor(int width, int height, int rim, std::array<double, 2> origin,
+                                       double spacing, const py::object& passable,
+                                       const py::object& storage,
+                                       const std::vector<int>& stations) {
   if (rim < 0 || width <= 2 * rim || height <= 2 * rim) {
     throw py::value_error("floor: expected cells within a rim");
   }
@@ -49,14 +50,14 @@ std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<doub
   description.height = height;
   description.passable.assign(open.data(), open.data() + open.size());
   description.storage.assign(places.data(), places.data() + places.size());
-  return std::make_shared<Floor>(description, rim, layout::Raster{origin[0], origin[1], spacing},
-                                 stations);
+  return std::make_shared<RimmedFloor>(description, rim,
+                                       layout::Raster{origin[0], origin[1], spacing}, stations);
 }
 
 using Places = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// (cell, heading), each like x.
-py::tuple locate(const Floor& floor, const Places& x, const Places& y, const Places& yaw) {
+/// Returns (cell, heading), each of the shape of x.
+py::tuple locate(const RimmedFloor& floor, const Places& x, const Places& y, const Places& yaw) {
   if (y.size() != x.size() || yaw.size() != x.size()) {
     throw py::value_error("x, y and yaw: expected arrays of one shape");
   }
@@ -70,7 +71,7 @@ py::tuple locate(const Floor& floor, const Places& x, const Places& y, const Pla
   return py::make_tuple(cell, heading);
 }
 
-/// Rows of the task as an array that can be read and lives as long as the task.
+/// Returns rows of the task as a read-only array that lives as long as the task.
 template <typename T>
 py::array view(const Table<T>& table, const py::object& owner) {
   py::array_t<T> array({table.rows(), table.columns()}, table[0], owner);
@@ -85,7 +86,7 @@ py::array copy(const Table<T>& table) {
 
 class Task {
  public:
-  Task(std::shared_ptr<Floor> floor, int warehouses, std::vector<std::int32_t> kiva_id,
+  Task(std::shared_ptr<RimmedFloor> floor, int warehouses, std::vector<std::int32_t> kiva_id,
        std::vector<std::int32_t> shelf_id, int radius, bool reserve)
       : floor_(std::move(floor)),
         state_(within("warehouses", warehouses, 1, 1 << 24), static_cast<int>(kiva_id.size()),
@@ -154,7 +155,7 @@ class Task {
     return py::array_t<bool>({state_.warehouses(), state_.robots(), kActions}, knowPossible()[0]);
   }
 
-  /// (done, world, commands)
+  /// Returns (done, world, commands).
   py::tuple begin(const py::object& actions) {
     const auto chosen = byRobot<std::int8_t>("actions", actions);
     for (py::ssize_t i = 0; i < chosen.size(); ++i) {
@@ -174,9 +175,9 @@ class Task {
     return py::make_tuple(done, worlds, rows);
   }
 
-  /// (refused, collided, [warehouse with collisions])
+  /// Returns (refused, collided, [warehouse with collisions]).
   py::tuple takeEvents(const py::object& done, const py::object& counts) const {
-    const auto told = byRobot<bool>("done", done);
+    const auto obeyed = byRobot<bool>("done", done);
     const auto events = checked<std::uint32_t>(
         "counts", counts, {state_.warehouses(), state_.robots(), kiva::Event::kKinds});
     Table<bool> refused(state_.warehouses(), state_.robots());
@@ -184,7 +185,7 @@ class Task {
     py::list hit;
     for (int w = 0; w < state_.warehouses(); ++w) {
       for (int robot = 0; robot < state_.robots(); ++robot) {
-        const bool idles = !told.at(w, robot) && !state_.busy[w][robot];
+        const bool idles = !obeyed.at(w, robot) && !state_.busy[w][robot];
         refused[w][robot] = idles || events.at(w, robot, int(kiva::Event::Kind::kRefused)) > 0;
         collided[w][robot] = events.at(w, robot, int(kiva::Event::Kind::kCollision)) > 0;
       }
@@ -194,7 +195,7 @@ class Task {
     return py::make_tuple(copy(refused), copy(collided), hit);
   }
 
-  /// (lifted, dropped, stored, [(warehouse, robot)])
+  /// Returns (lifted, dropped, stored, [(warehouse, robot)]).
   py::tuple settle() {
     const Outcome outcome = rules_.settle();
     is_possible_known_ = false;
@@ -236,8 +237,8 @@ class Task {
   }
 
   void observe(const py::object& out) {
-    const auto given = py::array::ensure(out);
-    const py::ssize_t size = given && given.ndim() == 3 ? given.shape(2) : 0;
+    const auto buffer = py::array::ensure(out);
+    const py::ssize_t size = buffer && buffer.ndim() == 3 ? buffer.shape(2) : 0;
     if (size < observer_.size()) {
       throw py::value_error("out: expected at least " + std::to_string(observer_.size()) +
                             " numbers a robot");
@@ -246,13 +247,13 @@ class Task {
     observer_.observe(rows.mutable_data(), static_cast<int>(size));
   }
 
-  const State& state() const { return state_; }
+  const TaskState& state() const { return state_; }
   const Goals& goals() const { return goals_; }
 
  private:
   template <typename T>
-  Array<T> byRobot(const char* name, const py::object& given) const {
-    return checked<T>(name, given, {state_.warehouses(), state_.robots()});
+  Array<T> byRobot(const char* name, const py::object& argument) const {
+    return checked<T>(name, argument, {state_.warehouses(), state_.robots()});
   }
 
   const Table<bool>& knowPossible() {
@@ -281,12 +282,12 @@ class Task {
     return out;
   }
 
-  std::shared_ptr<Floor> floor_;
-  State state_;
+  std::shared_ptr<RimmedFloor> floor_;
+  TaskState state_;
   Goals goals_;
-  Rules rules_;
+  TaskRules rules_;
   Observer observer_;
-  Table<bool> possible_;  // as of Rules
+  Table<bool> possible_;  // result of TaskRules::possible
   bool is_possible_known_ = false;
   std::vector<std::int32_t> kiva_id_, shelf_id_;
   std::vector<int> unit_of_;  // by shelf_id
@@ -294,7 +295,7 @@ class Task {
 };
 
 void defineFloor(py::module_& m) {
-  py::class_<Floor, std::shared_ptr<Floor>>(m, "Floor")
+  py::class_<RimmedFloor, std::shared_ptr<RimmedFloor>>(m, "Floor")
       .def(py::init(&makeFloor), py::arg("width"), py::arg("height"), py::arg("rim"),
            py::arg("origin"), py::arg("spacing"), py::arg("passable"), py::arg("storage"),
            py::arg("stations"),
@@ -308,11 +309,12 @@ stations: cells. ValueError, IndexError for what is none of that.)")
 }
 
 void defineTask(py::module_& m) {
-  py::class_<Task> task(m, "Task",
-                        "The task in many warehouses at once. Arrays are (warehouses, robots), "
-                        "unless told; another type or shape is a ValueError, a number out of range "
-                        "an IndexError.");
-  task.def(py::init<std::shared_ptr<Floor>, int, std::vector<std::int32_t>,
+  py::class_<Task> task(
+      m, "Task",
+      "The task in many warehouses at once. Arrays are (warehouses, robots), "
+      "unless stated otherwise; another type or shape is a ValueError, a number out of range "
+      "an IndexError.");
+  task.def(py::init<std::shared_ptr<RimmedFloor>, int, std::vector<std::int32_t>,
                     std::vector<std::int32_t>, int, bool>(),
            py::arg("floor"), py::arg("warehouses"), py::arg("kiva_id"), py::arg("shelf_id"),
            py::arg("radius"), py::arg("reserve"),
@@ -328,8 +330,8 @@ void defineTask(py::module_& m) {
            "Units stand in those cells, (units,) int32; -1 = carried.");
   task.def("possible", &Task::possible, "(warehouses, robots, 5) bool: what each may choose now.");
   task.def("begin", &Task::begin, py::arg("actions"),
-           "Robots begin what they may of actions, int8. (done, world, commands): who does as "
-           "told, bool, and what is to be posted, (k,) int32 and COMMAND.");
+           "Robots begin what they may of actions, int8. Returns (done, world, commands): "
+           "who does its action, bool, and what is to be posted, (k,) int32 and COMMAND.");
   task.def("take_events", &Task::takeEvents, py::arg("done"), py::arg("counts"),
            "After update(): who was refused, and who has collided, by begin()'s `done` and by "
            "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");
@@ -353,12 +355,12 @@ void defineTask(py::module_& m) {
     };
     task.def_property_readonly(name, get, doc);
   };
-  add("cell", &State::cell, "int32. A view.");
-  add("heading", &State::heading, "int8: quarter turns from +x. A view.");
-  add("busy", &State::busy, "bool: still at an action. A view.");
-  add("load", &State::load, "int32: the unit that it carries, -1 = none. A view.");
-  add("unit_cell", &State::unit_cell, "(warehouses, units) int32, -1 = carried. A view.");
-  add("requested", &State::requested, "(warehouses, units) bool. A view.");
+  add("cell", &TaskState::cell, "int32. A view.");
+  add("heading", &TaskState::heading, "int8: quarter turns from +x. A view.");
+  add("busy", &TaskState::busy, "bool: still at an action. A view.");
+  add("load", &TaskState::load, "int32: the unit that it carries, -1 = none. A view.");
+  add("unit_cell", &TaskState::unit_cell, "(warehouses, units) int32, -1 = carried. A view.");
+  add("requested", &TaskState::requested, "(warehouses, units) bool. A view.");
   const auto goals = [](const py::object& self) {
     return view(self.cast<const Task&>().goals().cells(), self);
   };

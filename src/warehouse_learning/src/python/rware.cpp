@@ -20,7 +20,7 @@ namespace {
 
 using rware::Layer;
 
-constexpr int kWorth = 64;  // warehouses that a second thread is woken for
+constexpr int kWorth = 64;  // warehouses that justify a second thread
 
 /// Warehouses of one kind, stepped and observed on all threads.
 class Rware {
@@ -80,7 +80,7 @@ class Rware {
     });
   }
 
-  /// A step of the only warehouse, by plain numbers: arrays would cost more than the step.
+  /// Steps the only warehouse, with Python's numbers: arrays would cost more than the step.
   py::tuple stepOne(const py::sequence& actions, const py::object& given_rewards) {
     auto rewards = checked<double>("rewards", given_rewards, {1, agents_});
     double* reward = rewards.mutable_data();
@@ -91,29 +91,30 @@ class Rware {
     actions_.clear();
     for (const py::handle action : actions) actions_.push_back(actionOf(action));
     const bool ends = warehouses_[0].step(actions_.data(), reward);
-    const bool is_paid = std::any_of(reward, reward + agents_, [](double one) { return one != 0; });
+    const bool is_paid =
+        std::any_of(reward, reward + agents_, [](double share) { return share != 0; });
     return py::make_tuple(ends, is_paid);
   }
 
-  void vectors(const py::object& given) {
-    write("vectors", given, {count(), agents_, senses_.size()}, senses_.size(),
+  void vectors(const py::object& destination) {
+    write("vectors", destination, {count(), agents_, senses_.size()}, senses_.size(),
           [this](int i, int agent, float* out) {
             const float* messages = messages_.data() + std::ptrdiff_t{i} * agents_ * senses_.bits;
             rware::writeVector(warehouses_[i], senses_, messages, agent, out);
           });
   }
 
-  void images(const py::object& given) {
+  void images(const py::object& destination) {
     const int layers = static_cast<int>(layers_.size()), width = senses_.width();
-    write("images", given, {count(), agents_, layers, width, width}, layers * senses_.cells(),
+    write("images", destination, {count(), agents_, layers, width, width}, layers * senses_.cells(),
           [this](int i, int agent, float* out) {
             rware::writeImage(warehouses_[i], senses_, layers_, directional_, agent, out);
           });
   }
 
-  void features(const py::object& given) {
+  void features(const py::object& destination) {
     write(
-        "features", given, {count(), agents_, rware::kFeatures}, rware::kFeatures,
+        "features", destination, {count(), agents_, rware::kFeatures}, rware::kFeatures,
         [this](int i, int agent, float* out) { rware::writeFeatures(warehouses_[i], agent, out); });
   }
 
@@ -136,9 +137,9 @@ class Rware {
     });
   }
 
-  /// (count, agents, 3): cell, direction, shelf carried or -1.
-  void where(const py::object& given) {
-    auto array = checked<int>("out", given, {count(), agents_, 3});
+  /// Writes (count, agents, 3): cell, direction, carried shelf or -1.
+  void where(const py::object& argument) {
+    auto array = checked<int>("out", argument, {count(), agents_, 3});
     int* out = array.mutable_data();
     for (const rware::Warehouse& warehouse : warehouses_) {
       for (const rware::Agent& agent : warehouse.agents()) {
@@ -155,7 +156,8 @@ class Rware {
     return cells;
   }
 
-  /// (agents, 4) of a warehouse: cell, direction, shelf carried or -1, whether it has delivered it.
+  /// Returns (agents, 4) of a warehouse: cell, direction, carried shelf or -1, whether that was
+  /// delivered.
   py::array_t<int> agents(int i) {
     py::array_t<int> out({agents_, 4});
     int* row = out.mutable_data();
@@ -195,21 +197,21 @@ class Rware {
                           " is not an action; 0 to 4 were expected");
   }
 
-  static std::int8_t actionOf(const py::handle& given) {
-    const auto action = given.cast<long>();
+  static std::int8_t actionOf(const py::handle& value) {
+    const auto action = value.cast<long>();
     checkAction(action);
     return static_cast<std::int8_t>(action);
   }
 
-  void takeMessages(const py::object& given) {
-    const auto messages = checked<float>("messages", given, {count(), agents_, senses_.bits});
+  void takeMessages(const py::object& argument) {
+    const auto messages = checked<float>("messages", argument, {count(), agents_, senses_.bits});
     std::copy_n(messages.data(), messages.size(), messages_.begin());
   }
 
   template <typename Write>
-  void write(const char* name, const py::object& given, std::vector<py::ssize_t> shape, int size,
+  void write(const char* name, const py::object& argument, std::vector<py::ssize_t> shape, int size,
              const Write& writeOne) {
-    auto array = checked<float>(name, given, std::move(shape));
+    auto array = checked<float>(name, argument, std::move(shape));
     float* out = array.mutable_data();
     const py::gil_scoped_release release;
     workers_.share(count(), kWorth, [&](int begin, int end) {
@@ -243,10 +245,10 @@ std::unique_ptr<Rware> makeRware(int height, int width, std::vector<std::uint8_t
                                                 std::move(walls));
   const rware::Options options{agents, requests, max_inactivity, max_steps,
                                static_cast<rware::Reward>(reward)};
-  std::vector<Layer> seen;
-  for (const int layer : layers) seen.push_back(static_cast<Layer>(layer));
+  std::vector<Layer> visible;
+  for (const int layer : layers) visible.push_back(static_cast<Layer>(layer));
   return std::make_unique<Rware>(std::move(layout), options, count,
-                                 rware::Senses{range, bits, normalised}, std::move(seen),
+                                 rware::Senses{range, bits, normalised}, std::move(visible),
                                  directional, threads);
 }
 
@@ -296,7 +298,7 @@ actions: a sequence of one an agent, without messages; written: rewards, (1, age
       R"(Lets agents that are at nothing begin an action that takes time, where that is possible.
 
 actions, current: (count, agents) int8; current, 0 where an agent is at nothing, is written. What
-ends is told to step(), which makes it come true. bodies: neighbours turn one after the other.)");
+ends is given to step(), which makes it come true. bodies: neighbours turn one after the other.)");
   rware.def("where", &Rware::where, py::arg("out"),
             "out: (count, agents, 3) int32: cell, direction, shelf carried or -1.");
   rware.def("shelf_at", &Rware::shelfAt, py::arg("i"), "By cell: the shelf there, or -1.");

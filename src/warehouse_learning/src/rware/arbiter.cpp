@@ -9,11 +9,11 @@ namespace rware {
 namespace {
 
 /// The graph of wishes as networkx.DiGraph builds it: nodes and edges in the order in which robots
-/// bring them.
+/// add them.
 struct Graph {
-  Graph(const std::vector<Wish>& wishes, int cells) : next(cells, -1), before(cells) {
+  Graph(const std::vector<MoveWish>& wishes, int cells) : next(cells, -1), before(cells) {
     std::vector<char> known(cells);
-    for (const Wish& wish : wishes) {
+    for (const MoveWish& wish : wishes) {
       for (const int cell : {wish.from, wish.to}) {
         if (!known[cell]) nodes.push_back(cell);
         known[cell] = true;
@@ -26,7 +26,7 @@ struct Graph {
   std::vector<std::vector<int>> before;
 };
 
-/// The connected part with that cell, in the order in which networkx's breadth-first search adds
+/// Returns the connected part of a cell, in the order in which networkx's breadth-first search adds
 /// its cells to a set.
 PythonSet partWith(int cell, const Graph& graph, const Layout& layout) {
   PythonSet part;
@@ -45,7 +45,7 @@ PythonSet partWith(int cell, const Graph& graph, const Layout& layout) {
   return part;
 }
 
-/// The first cell of the part that has `cell`, by the order of the graph's nodes.
+/// Returns the first cell of the part, by the order of the graph's nodes.
 int firstOf(const PythonSet& part, const Graph& graph, const Layout& layout) {
   return *std::find_if(graph.nodes.begin(), graph.nodes.end(),
                        [&](int cell) { return part.contains(cell, layout.hashes[cell]); });
@@ -53,7 +53,7 @@ int firstOf(const PythonSet& part, const Graph& graph, const Layout& layout) {
 
 }  // namespace
 
-const std::vector<char>& Arbiter::settle(const std::vector<Wish>& wishes,
+const std::vector<char>& Arbiter::settle(const std::vector<MoveWish>& wishes,
                                          const std::vector<int>& robot_at) {
   wishes_ = &wishes;
   committed_.assign(wishes.size(), false);
@@ -70,7 +70,7 @@ void Arbiter::link(const std::vector<int>& robot_at) {
   behind_.resize(count);
   for (auto& robots : behind_) robots.clear();
   for (std::size_t robot = 0; robot < count; ++robot) {
-    const Wish& wish = (*wishes_)[robot];
+    const MoveWish& wish = (*wishes_)[robot];
     ahead_[robot] = wish.to == wish.from ? static_cast<int>(robot) : robot_at[wish.to];
     if (wish.to != wish.from && ahead_[robot] >= 0) {
       behind_[ahead_[robot]].push_back(static_cast<int>(robot));
@@ -79,30 +79,30 @@ void Arbiter::link(const std::vector<int>& robot_at) {
 }
 
 void Arbiter::commitRings() {
-  // Every robot has one ahead at most: from wherever it begins, a walk ends or comes into a ring.
-  seen_.assign(ahead_.size(), 0);
+  // Every robot has at most one robot ahead, so that a walk ends or runs into a ring.
+  visited_.assign(ahead_.size(), 0);
   enum : char { kUnseen, kOnWalk, kDone };
   std::vector<int> walk;
   for (int start = 0; start < static_cast<int>(ahead_.size()); ++start) {
     walk.clear();
     int robot = start;
-    for (; robot >= 0 && seen_[robot] == kUnseen; robot = ahead_[robot]) {
-      seen_[robot] = kOnWalk;
+    for (; robot >= 0 && visited_[robot] == kUnseen; robot = ahead_[robot]) {
+      visited_[robot] = kOnWalk;
       walk.push_back(robot);
     }
-    if (robot >= 0 && seen_[robot] == kOnWalk) {
+    if (robot >= 0 && visited_[robot] == kOnWalk) {
       const auto ring = std::find(walk.begin(), walk.end(), robot);
       if (walk.end() - ring != 2) {
         std::for_each(ring, walk.end(), [this](int member) { committed_[member] = true; });
       }
     }
-    for (const int member : walk) seen_[member] = kDone;
+    for (const int member : walk) visited_[member] = kDone;
   }
 }
 
 void Arbiter::measureChains() {
   length_.assign(ahead_.size(), 0);
-  std::vector<int> open;  // robots whose chains behind are all measured
+  std::vector<int> open;  // robots behind which all chains are measured
   std::vector<int> missing(ahead_.size());
   for (std::size_t robot = 0; robot < ahead_.size(); ++robot) {
     missing[robot] = static_cast<int>(behind_[robot].size());
@@ -120,14 +120,14 @@ void Arbiter::measureChains() {
 }
 
 void Arbiter::commitChains() {
-  seen_.assign(ahead_.size(), false);
+  visited_.assign(ahead_.size(), false);
   std::vector<int> rivals;
   for (std::size_t robot = 0; robot < ahead_.size(); ++robot) {
-    if (ahead_[robot] >= 0 || seen_[robot]) continue;
+    if (ahead_[robot] >= 0 || visited_[robot]) continue;
     rivals.clear();
     for (std::size_t other = robot; other < ahead_.size(); ++other) {
       if (ahead_[other] >= 0 || (*wishes_)[other].to != (*wishes_)[robot].to) continue;
-      seen_[other] = true;
+      visited_[other] = true;
       rivals.push_back(static_cast<int>(other));
     }
     commitChain(longest(rivals));
@@ -138,26 +138,27 @@ void Arbiter::commitChain(int head) {
   for (int robot = head; robot >= 0; robot = longest(behind_[robot])) committed_[robot] = true;
 }
 
-/// The robot with the longest chain behind it; of several, the first in the order of the graph.
+/// Returns the robot with the longest chain behind it; of several, the first in the order of the
+/// graph.
 int Arbiter::longest(const std::vector<int>& robots) {
-  int most = 0, count = 0, found = -1;
+  int most = 0, count = 0, best = -1;
   for (const int robot : robots) {
-    if (length_[robot] > most) most = length_[robot], count = 0, found = robot;
+    if (length_[robot] > most) most = length_[robot], count = 0, best = robot;
     count += length_[robot] == most;
   }
-  if (count < 2) return found;
-  const std::vector<int> order = orderAround(found);
+  if (count < 2) return best;
+  const std::vector<int> order = orderAround(best);
   const auto place = [&](int robot) {
     return std::find(order.begin(), order.end(), (*wishes_)[robot].from);
   };
   for (const int robot : robots) {
-    if (length_[robot] == most && place(robot) < place(found)) found = robot;
+    if (length_[robot] == most && place(robot) < place(best)) best = robot;
   }
-  return found;
+  return best;
 }
 
-/// The cells around a robot in the order in which networkx goes through a copy of that part of the
-/// graph: the set's if the part is small, else the graph's.
+/// Returns the cells around a robot in the order in which networkx iterates over a copy of that
+/// part of the graph: the set's order if the part is small, else the graph's.
 std::vector<int> Arbiter::orderAround(int robot) const {
   const Graph graph(*wishes_, layout_.size());
   PythonSet part = partWith((*wishes_)[robot].from, graph, layout_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which robots move when several want into one cell, or each into another's.
+// Arbitration between robots that want to enter the same cell, or each other's.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace rware {
 
-/// What each robot wants: cells, `to` equal to `from` if it stays.
-struct Wish {
+/// The wish of a robot: cells, `to` equal to `from` if it stays.
+struct MoveWish {
   int from, to;
 };
 
@@ -21,9 +21,8 @@ struct Wish {
 class Arbiter {
  public:
   explicit Arbiter(const Layout& layout) : layout_(layout) {}
-  /// robot_at: by cell, the robot that stands there, or -1. Returns, by robot, whether its wish
-  /// comes true.
-  const std::vector<char>& settle(const std::vector<Wish>& wishes,
+  /// `robot_at`: by cell, the robot there, or -1. Returns, by robot, whether its wish is granted.
+  const std::vector<char>& settle(const std::vector<MoveWish>& wishes,
                                   const std::vector<int>& robot_at);
 
  private:
@@ -36,12 +35,12 @@ class Arbiter {
   std::vector<int> orderAround(int robot) const;
 
   const Layout& layout_;
-  const std::vector<Wish>* wishes_ = nullptr;
-  // By robot: the robot in the cell that it wants, itself if it stays, -1 if that is empty; those
-  // that want its cell; how many robots the longest chain has that ends with it.
+  const std::vector<MoveWish>* wishes_ = nullptr;
+  // By robot: the robot in the cell that it wants (itself if it stays, -1 if the cell is empty);
+  // the length of the longest chain that ends with it; the robots that want its cell.
   std::vector<int> ahead_, length_;
   std::vector<std::vector<int>> behind_;
-  std::vector<char> committed_, seen_;
+  std::vector<char> committed_, visited_;
 };
 
 }  // namespace rware

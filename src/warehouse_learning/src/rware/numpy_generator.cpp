@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned __int128 kMultiplier =
     (static_cast<unsigned __int128>(2549297995355413924ULL) << 64) + 4865540595714422341ULL;
-// From these sizes on numpy shuffles the end of a range instead of drawing one by one.
+// Sizes from which numpy shuffles the end of a range instead of drawing one by one.
 constexpr int kLargeRange = 10000, kLargeShare = 50;
 
 std::uint64_t maskOver(std::uint64_t value) {
@@ -66,7 +66,7 @@ void NumpyGenerator::shuffle(std::vector<int>* values, int first) {
 std::vector<int> NumpyGenerator::byFloyd(int count, int size) {
   std::vector<int> chosen;
   chosen.reserve(size);
-  // numpy keeps what is taken in a hash set; what it answers is whether a value is in there.
+  // numpy keeps taken values in a hash set, of which only membership matters.
   const std::uint64_t mask = maskOver(static_cast<std::uint64_t>(1.2 * size));
   std::vector<int> taken(mask + 1, -1);
   const auto placeOf = [&](int value) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The random stream of numpy, so that the same seed draws the same numbers here as there.
+// The random stream of numpy: the same seed gives the same numbers.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace rware {
 /// (Bentley, "Programming Pearls", 1987).
 class NumpyGenerator {
  public:
-  /// What numpy.random.PCG64().state tells.
+  /// The state of numpy.random.PCG64().
   struct State {
     unsigned __int128 state = 0, increment = 1;
-    bool has_half = false;   ///< Whether half of the last 64 bits is still to be used.
-    std::uint32_t half = 0;  ///< That half.
+    bool has_half = false;   ///< Whether half of the last 64 bits is unused.
+    std::uint32_t half = 0;  ///< The unused half.
   };
 
   NumpyGenerator() = default;
@@ -29,7 +29,7 @@ class NumpyGenerator {
 
   /// Draws as Generator.integers(0, count) does; count is 1 or more.
   int integer(int count);
-  /// Draws as Generator.choice(count, size, replace=False) does; size is count at the most.
+  /// Draws as Generator.choice(count, size, replace=False) does; size is at most count.
   std::vector<int> choice(int count, int size);
 
  private:

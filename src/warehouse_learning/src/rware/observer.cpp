@@ -12,7 +12,7 @@ float* writeDirection(int direction, float* out) {
   return out;
 }
 
-/// What of agents a cell has: presence, direction, message. Without an agent its direction is up.
+/// Writes a cell's agent: presence, direction, message. Without an agent its direction is up.
 float* writeAgent(const Warehouse& warehouse, int bits, const float* messages, int agent,
                   float* out) {
   *out++ = agent >= 0 ? 1.0f : 0.0f;
@@ -27,8 +27,8 @@ float* writeShelf(const Warehouse& warehouse, int shelf, float* out) {
   return out;
 }
 
-/// Who is where RWARE looks for agents when it draws directions and loads: it takes rows for
-/// columns there.
+/// Returns the agent where RWARE looks for agents when it draws directions and loads: it swaps rows
+/// and columns there.
 int agentTransposed(const Warehouse& warehouse, int x, int y) {
   const Layout& layout = warehouse.layout();
   return y < layout.width && x < layout.height ? warehouse.agentAt(x * layout.width + y) : -1;
@@ -59,7 +59,7 @@ float valueOf(const Warehouse& warehouse, Layer layer, int x, int y) {
   }
 }
 
-/// The offset, in columns and rows, of what an agent sees at (column, row) of its picture of
+/// Returns the offset, in columns and rows, of an agent's view at (column, row) of its picture of
 /// `last` + 1 columns, if ahead is up there.
 std::pair<int, int> turned(int direction, int column, int row, int last) {
   switch (direction) {
@@ -81,7 +81,7 @@ void writeVector(const Warehouse& warehouse, const Senses& senses, const float* 
   const Layout& layout = warehouse.layout();
   const Agent& agent = warehouse.agents()[index];
   const int x = layout.x(agent.cell), y = layout.y(agent.cell);
-  // In double as in Python, then rounded once.
+  // Computed in double as in Python, then rounded once.
   *out++ = static_cast<float>(senses.normalised ? x / (layout.width - 1.0) : x);
   *out++ = static_cast<float>(senses.normalised ? y / (layout.height - 1.0) : y);
   *out++ = agent.shelf >= 0 ? 1.0f : 0.0f;

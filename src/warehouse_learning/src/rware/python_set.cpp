@@ -12,7 +12,7 @@ constexpr unsigned kPerturbShift = 5;
 }  // namespace
 
 std::uint64_t hashOfPair(int x, int y) {
-  // xxHash as Objects/tupleobject.c has it; the hash of a small number is that number.
+  // xxHash as in Objects/tupleobject.c; the hash of a small number is that number.
   constexpr std::uint64_t kPrime1 = 11400714785074694791ULL, kPrime2 = 14029467366897019727ULL,
                           kPrime5 = 2870177450012600261ULL;
   std::uint64_t sum = kPrime5;

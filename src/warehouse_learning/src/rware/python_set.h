@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// In which order Python goes through a set of grid cells.
+// The order in which Python iterates over a set of grid cells.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace rware {
 
-/// hash((x, y)) of CPython 3.8 and later, for x, y >= 0.
+/// Returns hash((x, y)) of CPython 3.8 and later, for x, y >= 0.
 std::uint64_t hashOfPair(int x, int y);
 
-/// A set as CPython 3.8 to 3.14 lays it out: open addressing with short linear probes. RWARE lets
-/// the order of such a set decide which of two robots enters a cell, so the order is part of its
-/// rules.
+/// A set with the layout of CPython 3.8 to 3.14: open addressing with short linear probes. RWARE
+/// lets the order of such a set decide which of two robots enters a cell, so the order is part of
+/// its rules.
 class PythonSet {
  public:
   PythonSet() : table_(kLeast) {}
-  /// Adds a cell by its number; one that is there already changes nothing.
+  /// Adds a cell by its number, unless it is there already.
   void add(int cell, std::uint64_t hash);
   bool contains(int cell, std::uint64_t hash) const;
   std::size_t size() const { return used_; }
 
-  /// Calls visit(cell, hash) for each, in Python's order.
+  /// Calls visit(cell, hash) for each cell, in Python's order.
   template <typename Visit>
   void forEach(const Visit& visit) const {
     for (const Entry& entry : table_) {
@@ -36,7 +36,7 @@ class PythonSet {
     int cell = -1;
     std::uint64_t hash = 0;
   };
-  std::size_t find(int cell, std::uint64_t hash) const;  // its place, or the free one for it
+  std::size_t find(int cell, std::uint64_t hash) const;  // the cell's slot, or the free one for it
   void grow();
 
   std::vector<Entry> table_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// RWARE's actions where they take time: which may begin beside those that are under way.
+// RWARE's actions with a duration: arbitration of new actions with those under way.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace rware {
 
-/// Lets agents that are at nothing begin an action, in the order of their numbers. An action comes
-/// true when it ends: until then its agent stands where it stood, and holds the cell that it goes
-/// to. So a cell that is left can be entered once it is empty, by one agent.
+/// Begins actions of idle agents, in the order of their numbers. An action takes effect when it
+/// ends: until then its agent occupies its cell, and holds the cell that it goes to. So a cell can
+/// be entered once it is empty, by one agent.
 class Undertaking {
  public:
-  /// bodies: neighbours turn one after the other, since corners of loads would meet.
+  /// `bodies`: neighbours turn one after the other, since corners of loads would touch.
   explicit Undertaking(bool bodies) : bodies_(bodies) {}
-  /// actions, current: one an agent; current, kNoop where an agent is at nothing, gets what begins.
+  /// `actions`, `current`: one an agent. `current` is kNoop for an idle agent and is set to the
+  /// action that begins.
   void begin(const Warehouse& warehouse, const std::int8_t* actions, std::int8_t* current);
 
  private:

@@ -86,7 +86,7 @@ int Warehouse::beyond(const Agent& agent) const {
   }
 }
 
-Wish Warehouse::wish(const Agent& agent, int action) const {
+MoveWish Warehouse::wish(const Agent& agent, int action) const {
   if (action != kForward) return {agent.cell, agent.cell};
   const int target = ahead(agent);
   const int other = agent_at_[target];
@@ -113,7 +113,7 @@ void Warehouse::toggleLoad(Agent* agent, double* reward) const {
 }
 
 void Warehouse::move(const std::vector<char>& committed) {
-  // All leave before one arrives: in a ring each takes the place of another.
+  // All leave before any arrives: in a ring each takes the place of another.
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     if (!committed[i] || wishes_[i].to == wishes_[i].from) continue;
     agent_at_[wishes_[i].from] = -1;
@@ -145,7 +145,7 @@ bool Warehouse::deliver(double* rewards) {
   return delivered;
 }
 
-/// One of the shelves that are not requested.
+/// Draws one of the shelves that are not requested.
 int Warehouse::drawRequest() {
   const auto count = static_cast<int>(shelf_cell_.size()) - options_.requests;
   if (count < 1) throw std::invalid_argument("every shelf is requested; none is left to draw");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A warehouse to test in: an empty floor, the real models, and short words to command robots with.
+// A test fixture: a warehouse with an empty floor, the real models, and short names for commands.
 //
 //   Warehouse w;
 //   w.spawn("kiva", "kiva1", 0, 0);
@@ -28,7 +28,7 @@
 
 namespace kiva {
 
-/// What gtest prints when states differ.
+/// Prints a state by name in gtest's messages.
 inline void PrintTo(State state, std::ostream* out) {
   static const char* const names[] = {"IDLE",    "MOVING_X", "MOVING_Y", "ROTATING",
                                       "LIFTING", "BLOCKED",  "WAITING"};
@@ -69,25 +69,26 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text;
 }
 
-/// `text` without all that begins with `first` and ends with the next `last`.
+/// Returns `text` without all parts that begin with `first` and end with the next `last`.
 inline std::string without(std::string text, const std::string& first, const std::string& last) {
   const std::size_t begin = text.find(first);
   if (begin == std::string::npos) throw std::logic_error("no '" + first + "' in the text");
   return text.erase(begin, text.find(last, begin) + last.size() - begin);
 }
 
-/// For EXPECT_PRED2, which prints both.
+/// Predicate for EXPECT_PRED2, which prints both arguments.
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// SDF of a model of worlds/models: "kiva", "storage_unit", "item", "conveyor_belt", "wall",
-/// "person".
+/// Returns the SDF of a model of worlds/models: "kiva", "storage_unit", "item", "conveyor_belt",
+/// "wall", "person".
 inline std::string modelText(const std::string& kind) {
   return fileText(std::string(WORLDS_DIR) + "/models/" + kind + "/model.sdf");
 }
 
-/// `text` with another value in `<key>`, wherever that holds the value that it holds first.
+/// Returns `text` with another value in `<key>`, wherever that has the same value as at its first
+/// place.
 inline std::string withParameter(const std::string& text, const std::string& key,
                                  const std::string& value) {
   const std::string open = "<" + key + ">", close = "</" + key + ">";
@@ -101,32 +102,33 @@ inline std::string withParameter(const std::string& text, const std::string& key
 
 using Changes = std::vector<std::pair<std::string, std::string>>;
 
-/// SDF of the Kiva with other parameters: kivaText({{"speed", "3"}, {"drive", "jointed"}}).
+/// Returns the SDF of the Kiva with other parameters: kivaText({{"speed", "3"}, {"drive",
+/// "jointed"}}).
 inline std::string kivaText(const Changes& changes = {}) {
   std::string text = modelText("kiva");
   for (const auto& [key, value] : changes) text = withParameter(text, key, value);
   return text;
 }
 
-/// `text` without the plugin of that name: "motion", "rotation", "lift" or "laser".
+/// Returns `text` without the plugin of that name: "motion", "rotation", "lift" or "laser".
 inline std::string withoutPlugin(const std::string& text, const std::string& plugin) {
   return without(text, "<plugin name=\"" + plugin + "\"", "</plugin>");
 }
 
-/// `text` with `element`, a `<plugin>` say, as the last of its model.
+/// Returns `text` with `element`, such as a `<plugin>`, at the end of its model.
 inline std::string withElement(const std::string& text, const std::string& element) {
   return replaced(text, "</model>", element + "</model>");
 }
 
-/// The Kiva at the paper's instantaneous speed: no acceleration.
+/// Returns the Kiva at the paper's instantaneous speed: no acceleration.
 inline std::string abruptKiva() { return kivaText({{"acceleration", "0"}}); }
 
-/// A storage unit with that mass [kg] in place of its own.
+/// Returns a storage unit with that mass [kg].
 inline std::string unitOfMass(double mass) {
   return withParameter(modelText("storage_unit"), "mass", std::to_string(mass));
 }
 
-/// One model of SDF `text`, renamed and put there.
+/// Returns one model of SDF `text`, with another name and pose.
 inline ModelInstance instance(const std::string& text, const std::string& name,
                               const Pose& pose = Pose::Zero) {
   ModelInstance model = parseModels(text, modelPaths(), "test").at(0);
@@ -135,7 +137,7 @@ inline ModelInstance instance(const std::string& text, const std::string& name,
   return model;
 }
 
-/// What is wrong with the order of a robot's events; empty if each ACCEPTED has its one end.
+/// Returns the fault in the order of a robot's events; empty if each ACCEPTED has one end.
 inline std::string disorder(const std::vector<Event::Kind>& kinds) {
   using Kind = Event::Kind;
   bool busy = false;
@@ -184,7 +186,7 @@ class Warehouse {
       : world(parseWorld(worldText(plan), modelPaths(), "test"), plan.options) {}
   explicit Warehouse(const WorldDescription& description, const WorldOptions& options = {})
       : world(description, options) {}
-  /// The world of a file in worlds/.
+  /// Loads the world of a file in worlds/.
   explicit Warehouse(const std::string& file)
       : world(loadWorld(std::string(WORLDS_DIR) + "/" + file, modelPaths())) {}
 
@@ -229,7 +231,7 @@ class Warehouse {
     world.step();
     collect();
   }
-  /// Steps for that long [s]; `each` is called after every step.
+  /// Runs for `seconds` [s]; `each` is called after every step.
   void run(double seconds, const std::function<void()>& each = {}) {
     const auto steps = std::llround(seconds / world.stepSize());
     for (long long i = 0; i < steps; ++i) {
@@ -237,8 +239,8 @@ class Warehouse {
       if (each) each();
     }
   }
-  /// Steps, once at least, until `done` is true. Returns the time it took [s]; that it takes longer
-  /// than `deadline` fails the test.
+  /// Steps, once at least, until `done` is true. Returns the duration [s]; one longer than
+  /// `deadline` fails the test.
   double runUntil(const std::function<bool()>& done, double deadline = 120,
                   const std::function<void()>& each = {}) {
     const std::uint64_t begin = world.steps();
@@ -256,7 +258,7 @@ class Warehouse {
   double runUntilState(int id, State expected, double deadline = 120) {
     return runUntil([this, id, expected] { return state(id) == expected; }, deadline);
   }
-  /// Takes what happened into `events` and `changes`.
+  /// Moves new events into `events` and `changes`.
   void collect() {
     for (Event& event : world.takeEvents()) events.push_back(std::move(event));
     for (StatusChange& change : world.takeStatusChanges()) changes.push_back(change);
@@ -284,9 +286,9 @@ class Warehouse {
   Status status(int id) const { return world.fleet().status[index(id)]; }
   State state(int id) const { return world.fleet().state[index(id)]; }
   const Robot& robot(int id) const { return world.fleet().robots[index(id)]; }
-  /// Distance to the nearest grid point [m].
+  /// Returns the distance to the nearest grid point [m].
   double offGrid(int id) const { return std::hypot(offLine(x(id)), offLine(y(id))); }
-  /// Angle to the nearest multiple of 90° [rad].
+  /// Returns the angle to the nearest multiple of 90° [rad].
   double offSquare(int id) const { return std::abs(std::remainder(yaw(id), kQuarter)); }
   void expectOnGrid(int id) const {
     EXPECT_LT(offGrid(id), kMillimetre) << "kiva" << id << " at " << x(id) << ", " << y(id);
@@ -301,25 +303,25 @@ class Warehouse {
   const StorageUnit& unit(int id) const { return world.storageUnits()[unitIndex(id)]; }
   Pose unitPose(int id) const { return world.storageUnitPose(unitIndex(id)); }
   Pose itemPose(const std::string& name) const { return world.state(name)->pose; }
-  /// The id of the robot that carries it, 0 = none.
+  /// Returns the id of the robot that carries it, 0 = none.
   int carrierOf(int unit_id) const {
     const int carrier = unit(unit_id).carrier;
     return carrier < 0 ? 0 : world.fleet().robots[carrier].id;
   }
-  /// The number of the unit that the robot carries, 0 = none.
+  /// Returns the number of the unit that the robot carries, 0 = none.
   int loadOf(int id) const {
     const int carried = world.fleet().unit[index(id)];
     return carried < 0 ? 0 : world.storageUnits()[carried].id;
   }
 
   // --- what happened
-  /// How many events of that kind there were; of one model only, if it is named.
+  /// Returns the number of events of that kind; of one model only, if it is named.
   int count(Event::Kind kind, const std::string& model = "") const {
     int count = 0;
     for (const Event& e : events) count += e.kind == kind && (model.empty() || e.model == model);
     return count;
   }
-  /// The last one of that kind; an empty event if there was none.
+  /// Returns the last event of that kind; an empty event if there was none.
   Event last(Event::Kind kind) const {
     for (auto e = events.rbegin(); e != events.rend(); ++e) {
       if (e->kind == kind) return *e;
@@ -333,7 +335,7 @@ class Warehouse {
     }
     return kinds;
   }
-  /// The states that the robot reported, in order.
+  /// Returns the states that the robot reported, in order.
   std::vector<State> statesOf(int id) const {
     std::vector<State> states;
     for (const StatusChange& c : changes) {
@@ -341,7 +343,7 @@ class Warehouse {
     }
     return states;
   }
-  /// Steps once and returns why what was posted is refused; empty if it is accepted.
+  /// Steps once and returns the reason of the refusal; empty if the command is accepted.
   std::string refusal() {
     const std::size_t before = events.size();
     step();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robots without loads, each sent from cell to cell; every plan is looked at by the validator
-// before it is driven.
+// Robots without loads, each sent from cell to cell; the validator checks every plan before it is
+// driven.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ class Errands {
     planner_->start(floor, rules, 1);
   }
 
-  /// Drives so many ticks; returns how many goals were reached.
+  /// Drives for `ticks`; returns the number of goals that were reached.
   int run(int ticks, const Budget& budget = {0, 0}) {
     int arrivals = 0;
     for (int tick = 0; tick < ticks; ++tick) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shift on a floor with storage units: robots fetch units, bring them to stations and back, and
-// every plan is looked at by the validator before it is driven.
+// A shift on a floor with storage units: robots take units to stations and back; the validator
+// checks every plan before it is driven.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@
 
 namespace fleet::test {
 
-/// Drawn: '.' an aisle, 'S' a storage place, 'E' a station in an aisle, '#' a wall, '>' '<' '^'
-/// 'v' a lane.
+/// Returns a floor from a drawing: '.' an aisle, 'S' a storage place, 'E' a station in an aisle,
+/// '#' a wall, '>' '<' '^' 'v' a lane.
 inline FloorDescription drawn(const std::vector<std::string>& rows) {
   FloorDescription floor;
   floor.height = static_cast<int>(rows.size());
@@ -84,7 +84,7 @@ class Shift {
     planner_->start(floor, rules, seed);
   }
 
-  /// Drives so many ticks; false at the first plan that is not right.
+  /// Drives for `ticks`; returns false at the first invalid plan.
   bool run(int ticks, const Budget& budget = {}) {
     for (int tick = 0; tick < ticks; ++tick) {
       if (!step(budget)) return false;

@@ -9,6 +9,7 @@ import os
 
 import numpy as np
 import pytest
+from fault_site import Site
 
 from kiva_plugin_cpp import EventKind, FailureKind, World
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
@@ -24,7 +25,7 @@ WARM_UP = 60  # [s]
 KEPT = 0.85  # of the throughput of sound robots
 
 
-class Fleet:
+class Fleet(Site):
     """A preset whose stations are all busy."""
 
     def __init__(self, size, seed=1, tow_after=None, **realism):
@@ -34,12 +35,6 @@ class Fleet:
         self._demand = RandomTransports(self.transports, seed, exchange=10)
         self.events = []
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.driver.close()
-
     def run(self, seconds):
         """Units delivered meanwhile."""
         before, end = self.transports.totals.delivered, self.world.time + seconds
@@ -47,18 +42,8 @@ class Fleet:
             self.step()
         return self.transports.totals.delivered - before
 
-    def step(self):
-        self.driver.step()
-        events = self.transports.take_events()
-        self.events += events
-        self._demand.advance(self.world.time, events)
-
     def until(self, condition, patience=120):
-        end = self.world.time + patience
-        while not (met := condition()):
-            assert self.world.time < end, "waited in vain"
-            self.step()
-        return met
+        return super().until(condition, patience)
 
     def loaded_in_streets(self):
         """Robots with a unit that drive fast, far from storage and lanes."""

@@ -46,9 +46,7 @@ def test_robots_that_stop_delay_only_whom_they_must(calm):
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
             assert not site.traffic.robots.mode.any()
-    told(calm, during, after)
-    assert np.mean(during) > 0.3 * calm
-    assert np.mean(after) > AS_BEFORE * calm
+    check_rates(calm, during=during, least=0.3, after=after)
 
 
 def test_messages_late_and_lost(calm):
@@ -59,8 +57,7 @@ def test_messages_late_and_lost(calm):
             assert site.driver.collisions == 0
             assert not site.traffic.robots.mode.any()
             assert site.transports.totals.failed == 0
-    told(calm, during, [])
-    assert np.mean(during) > 0.6 * calm
+    check_rates(calm, during=during, least=0.6)
 
 
 def test_all_at_once(calm):
@@ -73,8 +70,7 @@ def test_all_at_once(calm):
             stops.end()
             assert site.driver.collisions == 0
             assert not site.traffic.robots.mode.any()
-    told(calm, during, [])
-    assert np.mean(during) > 0.25 * calm
+    check_rates(calm, during=during, least=0.25)
 
 
 PUSHES = [(0.2, 0.0), (0.0, -0.3), (0.45, 0.0), (0.0, 0.6), (-0.6, 0.0)]  # [m]
@@ -97,8 +93,7 @@ def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
             assert len(site.driver.refusals) < 10 * len(PUSHES), site.driver.refusals[-5:]
-    told(calm, [], after)
-    assert np.mean(after) > AS_BEFORE * calm
+    check_rates(calm, after=after)
 
 
 @pytest.mark.parametrize(
@@ -155,8 +150,7 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
             site.until(lambda: not site.traffic.robots.astray.any())
             assert not site.traffic.robots.lost[robot]
             assert site.driver.collisions == 0
-    told(calm, during, [])
-    assert np.mean(during) > 0.3 * calm
+    check_rates(calm, during=during, least=0.3)
 
 
 def refusals_of(site, robot):
@@ -212,9 +206,7 @@ def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
             assert not site.traffic.robots.stalled.any()
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
-    told(calm, during, after)
-    assert np.mean(during) > 0.5 * calm
-    assert np.mean(after) > AS_BEFORE * calm
+    check_rates(calm, during=during, least=0.5, after=after)
 
 
 def test_a_robot_is_deleted_and_leaves_its_unit_across_the_street(calm):
@@ -236,9 +228,7 @@ def test_a_robot_is_deleted_and_leaves_its_unit_across_the_street(calm):
             site.until(partial(site.has_seen, Kind.LIFTED, shelf))
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
-    told(calm, during, after)
-    assert np.mean(during) > 0.5 * calm
-    assert np.mean(after) > AS_BEFORE * 19 / 20 * calm
+    check_rates(calm, during=during, least=0.5, after=after, as_before=AS_BEFORE * 19 / 20)
 
 
 @pytest.mark.parametrize("what", ["box", "person"])
@@ -260,9 +250,7 @@ def test_something_stands_in_a_street_for_a_minute(calm, what):
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
             assert site.traffic.robots.stalled.sum() == 0
-    told(calm, during, after)
-    assert np.mean(during) > 0.3 * calm
-    assert np.mean(after) > AS_BEFORE * calm
+    check_rates(calm, during=during, least=0.3, after=after)
 
 
 def ahead(site, robot, cells):
@@ -299,11 +287,12 @@ def test_another_driver_takes_over_what_is_under_way(calm):
             assert site.driver.collisions == 0
             stored = {event.shelf_id for event in site.events if event.kind == Kind.STORED}
             assert set(carried[carried != 0].tolist()) <= stored
-    told(calm, [], after)
-    assert np.mean(after) > AS_BEFORE * calm
+    check_rates(calm, after=after)
 
 
-def told(calm, during, after):
-    """Prints figures: pytest -s."""
-    rates = [f"{np.mean(r):.1f}" if len(r) else "–" for r in (during, after)]
+def check_rates(calm, during=None, least=0.0, after=None, as_before=AS_BEFORE):
+    """Checks units delivered a minute by their share of those of a calm fleet; pytest -s prints."""
+    rates = ["–" if r is None else f"{np.mean(r):.1f}" for r in (during, after)]
     print(f"delivered a minute: calm {calm:.1f}, during {rates[0]}, after {rates[1]}")
+    assert during is None or np.mean(during) > least * calm
+    assert after is None or np.mean(after) > as_before * calm

@@ -4,7 +4,7 @@
 namespace kiva {
 namespace {
 
-/// Returns where the argument that begins at `from` ends.
+/// Returns the end of the argument that begins at `from`.
 std::size_t endOf(const std::string& list, std::size_t from) {
   int depth = 0;
   for (std::size_t at = from; at < list.size(); ++at) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A small binary archive. What a struct holds is listed once, by a function
+// A small binary archive. The fields of a struct are listed once, by a function
 //
 //   template <class Archive>
 //   void describe(Archive& a, MotionSegment& segment) {
 //     FIELDS(segment.kind, segment.x, within(segment.yaw, -1e9, 1e9));
 //   }
-//
-// which writes, reads, compares or hashes it, depending on the archive, so that these can't
-// diverge. What is read is checked: an enum has one of its values, as `lastOf` tells, a number is
-// finite, or within its limits. An error names the field.
+// which writes, reads, compares or hashes them, depending on the archive, so that these can't
+// diverge. Input is checked: an enum is at most `lastOf`, a number is finite, or within its limits.
+// An error names the field.
 #pragma once
 
 #include <algorithm>
@@ -29,13 +28,13 @@
 
 namespace kiva {
 
-/// Bytes that end too early, or say what can't be. `field`: where, as in `robots[3].mass`.
+/// An error of truncated or impossible input. `field` is its address, such as `robots[3].mass`.
 class ArchiveError : public std::runtime_error {
  public:
   explicit ArchiveError(const std::string& why, const std::string& field = "")
       : std::runtime_error(field.empty() ? why : field + ": " + why), why_(why), field_(field) {}
 
-  /// Returns the same, as a part of `outer`.
+  /// Returns the same error, as a part of `outer`.
   ArchiveError in(const std::string& outer) const {
     const bool follows = !field_.empty() && field_.front() != '[';
     return ArchiveError(why_, outer + (follows ? "." : "") + field_);
@@ -59,14 +58,15 @@ Within<T> within(T& value, double least, double most) {
   return {value, least, most};
 }
 
-constexpr double kFarthest = 1e17;  // no number of a world is larger but those with limits above it
+constexpr double kFarthest = 1e17;  // largest number in a world without limits of its own
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void failTooShort();  ///< Throws that the bytes end too early.
 /// Throws that the number is not from `least` to `most`.
 [[noreturn]] void failOutside(double value, double least, double most);
 
-/// Text number `index` of a list such as `r.name, within(r.id, 1, 9)`: its last name, `id`.
+/// Returns the name of text number `index` in a list such as `r.name, within(r.id, 1, 9)`: `id` for
+/// 1.
 std::string nameIn(const char* list, int index);
 
 /// Mixes one word into a hash (the finaliser of MurmurHash3, Appleby 2011).
@@ -87,7 +87,7 @@ inline std::uint64_t hashBytes(std::uint64_t hash, const void* data, std::size_t
   return mix(hash, rest ^ (static_cast<std::uint64_t>(size) << 56));
 }
 
-/// Where the bytes go to or come from: what the archives differ in.
+/// The source or the destination of bytes, in which the archives differ.
 struct WriteBytes {
   static constexpr bool kReads = false;
   std::string bytes;
@@ -108,7 +108,7 @@ struct ReadBytes {
   }
 };
 
-/// Compares what would be written with what was, which begins at `at`.
+/// Compares bytes that would be written with present ones, which begin at `at`.
 struct CompareBytes {
   static constexpr bool kReads = false;
   const char* at;
@@ -136,7 +136,7 @@ struct HashBytes {
   }
 };
 
-/// x y z w qx qy qz of a pose, bit by bit: Pose's own comparison has a tolerance, and -0 == 0.
+/// Returns the bits of a pose, x y z w qx qy qz of it: Pose's own comparison ignores the sign of 0.
 inline std::array<std::uint64_t, 7> numbersOf(const Pose& pose) {
   const Vector3& p = pose.Pos();
   const Quaternion& q = pose.Rot();
@@ -165,7 +165,7 @@ class Archive : public Bytes {
     return *this;
   }
 
-  /// A pose that is mostly equal to another one, which was described before it.
+  /// Describes a pose that mostly equals another one, which was described before.
   void mostly(Pose& pose, const Pose& usual) {
     bool differs = !kReads && numbersOf(pose) != numbersOf(usual);
     transfer(differs);
@@ -305,7 +305,8 @@ class Archive : public Bytes {
     const std::size_t size = count(list.size());
     if constexpr (kReads) {
       list.clear();
-      // One by one: a wrong size must not take the memory before the bytes run out.
+      // Elements are read one by one: a wrong size must not allocate memory before the bytes run
+      // out.
       for (std::size_t i = 0; i < size; ++i)
         inField([i] { return indexed(i); }, list.emplace_back());
     } else {
@@ -313,7 +314,7 @@ class Archive : public Bytes {
     }
   }
 
-  /// Returns the size of what follows; at least a byte for each is left, or the size is wrong.
+  /// Returns the size of a list. Throws unless at least a byte is left for each element.
   std::size_t count(std::size_t size) {
     auto number = static_cast<std::uint32_t>(size);
     this->raw(&number, sizeof number);
@@ -334,9 +335,10 @@ void describe(A& a, Vector3& v) {
   FIELDS(v.X(), v.Y(), v.Z());
 }
 
-constexpr double kUnitError = 1e-3;  // of a quaternion's squared length
+constexpr double kUnitError = 1e-3;  // tolerance of a quaternion's squared length
 
-/// Only what differs from the identity: most things stand upright, and squarely.
+/// Describes the difference from the identity alone: most things are upright, and square to the
+/// axes.
 template <class A>
 void describe(A& a, Pose& pose) {
   static const std::array<std::uint64_t, 7> identity = numbersOf(Pose::Zero);

@@ -20,7 +20,7 @@
 namespace kiva {
 namespace {
 
-/// The models' descriptions, each once however many share it.
+/// The models' descriptions, each once, whatever the number of models that share it.
 struct DescriptionTable {
   std::vector<std::shared_ptr<const ModelDescription>> descriptions;
   std::vector<std::int32_t> of_slot;  // -1 = no model
@@ -28,7 +28,8 @@ struct DescriptionTable {
 
 DescriptionTable tableOf(const WorldState& world) {
   DescriptionTable table;
-  std::map<const ModelDescription*, std::int32_t> index;  // for looking up: its order is none
+  std::map<const ModelDescription*, std::int32_t>
+      index;  // for look-up only, since its order depends on addresses
   for (const auto& model : world.models) {
     if (!model) {
       table.of_slot.push_back(-1);
@@ -56,7 +57,7 @@ void makeModels(WorldState& world, const DescriptionTable& table) {
   }
 }
 
-/// What stands in the world, and what it is made of.
+/// Describes the models of a world, and all that does not change from step to step.
 template <class A>
 void describeSetting(A& a, WorldState& world) {
   DescriptionTable table;
@@ -77,7 +78,7 @@ bool hasState(const Model& model) {
   return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
 }
 
-/// What changes from step to step.
+/// Describes all that changes from step to step.
 template <class A>
 void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   FIELDS(world.clock.steps, world.clock.total_steps, world.clock.dt_since,
@@ -108,7 +109,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
 }
 
-/// Gives each command that is to follow a path its own. Throws ArchiveError.
+/// Gives each command of the kind kFollow its path. Throws ArchiveError.
 void pairUp(std::deque<Command> commands, std::deque<FollowPath> paths, Inbox* inbox) {
   const auto follow = static_cast<std::size_t>(
       std::count_if(commands.begin(), commands.end(),
@@ -125,7 +126,7 @@ void pairUp(std::deque<Command> commands, std::deque<FollowPath> paths, Inbox* i
   }
 }
 
-/// Pending commands are stored apart from the paths that some of them stand for.
+/// Describes pending commands, and apart from them the paths that some of them stand for.
 template <class A>
 void describeInbox(A& a, Inbox& inbox) {
   std::deque<Command> commands;
@@ -138,7 +139,7 @@ void describeInbox(A& a, Inbox& inbox) {
   if constexpr (A::kReads) pairUp(std::move(commands), std::move(paths), &inbox);
 }
 
-/// What is on its way in or out.
+/// Describes messages to and from the world.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
   describeInbox(a, world.inbox);
@@ -172,8 +173,8 @@ void deriveRest(WorldState& world) {
   }
 }
 
-/// Returns what is in the checkpoint, if the world was restored from it, all that is static stands
-/// since, and there is no plugin that might refuse. No bytes that are damaged have that hash.
+/// Returns the content of a checkpoint if the world was restored from this very checkpoint, nothing
+/// static has moved since, and no plugin might refuse. Damaged bytes have another hash.
 std::optional<Reader> readOrigin(const WorldState& world, const std::string& bytes) {
   const bool has_plugins = !world.plugins.world.empty() || !world.models.with_plugins.empty();
   const bool stands = world.origin.fixtures == world.physics.fixtureChanges();
@@ -181,12 +182,12 @@ std::optional<Reader> readOrigin(const WorldState& world, const std::string& byt
   try {
     const Content content = opened(bytes);
     if (content.hash == world.origin.hash) return content.reader;
-  } catch (const ArchiveError&) {  // told by readCheckpoint()
+  } catch (const ArchiveError&) {  // reported by readCheckpoint()
   }
   return std::nullopt;
 }
 
-/// Returns whether the checkpoint's setting, which is read then, is that of the world.
+/// Reads the checkpoint's settings; returns whether they are those of the world.
 bool readSameSetting(Reader& reader, WorldState& world) {
   Comparer now(reader.at, reader.end);
   describeSetting(now, world);
@@ -194,7 +195,7 @@ bool readSameSetting(Reader& reader, WorldState& world) {
   return now.is_same;
 }
 
-/// Forgets what only some realism describes, and what is not yet told.
+/// Clears state that only some realism describes, and events that clients have not taken.
 void forget(WorldState& world) {
   FleetState& f = world.fleet;
   f.battery.clear();
@@ -229,7 +230,7 @@ Restored read(const std::string& bytes) {
 }  // namespace
 
 std::string checkpoint(const WorldState& saved) {
-  auto& world = const_cast<WorldState&>(saved);  // describing changes nothing unless it reads
+  auto& world = const_cast<WorldState&>(saved);  // describing changes nothing, except by a reader
   PhysicsState physics = readPhysics(world);
   std::vector<PluginState> plugins = savePlugins(world);
   Writer writer;
@@ -267,8 +268,8 @@ bool returnTo(WorldState& world, const std::string& bytes) {
 std::uint64_t stateHash(const WorldState& world) {
   Hasher hasher;
   PhysicsState physics = readPhysics(world);
-  physics.contacts.clear();  // a restored world lacks those that the next step drops
-  // Describing changes nothing unless it reads.
+  physics.contacts.clear();  // the next step would drop some, and a restored world lacks these
+  // Describing changes nothing, except by a reader.
   describeMotion(hasher, const_cast<WorldState&>(world), physics);
   std::vector<PluginState> plugins = savePlugins(world);
   hasher(plugins);

@@ -11,10 +11,10 @@
 
 namespace kiva {
 
-/// Returns the whole state as bytes: all that the world's future follows from.
+/// Returns the whole state as bytes: all that determines the world's future.
 std::string checkpoint(const WorldState& world);
 
-/// A world read back; its plugins are still to be restored.
+/// A restored world whose plugins are not restored yet.
 struct Restored {
   std::unique_ptr<WorldState> world;
   std::vector<PluginState> plugins;
@@ -22,9 +22,9 @@ struct Restored {
 /// Throws CheckpointError.
 Restored readCheckpoint(const std::string& bytes);
 
-/// Restores a world in place, at a fraction of the work, to the checkpoint that it was restored
-/// from last, if models neither came nor went since and all that is static stands where it stood.
-/// Returns false, with nothing changed, if that is not so.
+/// Restores a world in place to the checkpoint from which it was last restored, at a fraction of
+/// the work. This requires that since then no model was added or removed and nothing static has
+/// moved. Returns false, with nothing changed, if that does not hold.
 bool returnTo(WorldState& world, const std::string& bytes);
 
 std::uint64_t stateHash(const WorldState& world);

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kMostMass = 1e12;       // [kg]
 constexpr double kMostSize = 1e6;        // [m]
-constexpr double kMostCoordinate = 1e6;  // [m] of what stands in the world
+constexpr double kMostCoordinate = 1e6;  // [m] of models in the world
 constexpr double kMostSpeed = 1e5;       // [m/s, rad/s]
 
-/// `list`[i].`field` is what it should be, or that is told.
+/// Throws ArchiveError at `list`[i].`field` unless it is right.
 void require(bool is_right, const char* list, std::size_t i, const char* field, const char* why) {
   if (is_right) return;
   const std::string dot = *field ? "." : "";
@@ -155,7 +155,7 @@ void checkModel(const WorldState& world, const Model& model, std::size_t slot) {
   }
 }
 
-/// That list names those slots, each once.
+/// Checks that a list has exactly those slots, each once.
 void checkSlots(const std::vector<int>& list, const std::set<int>& slots, const char* name) {
   std::set<int> left = slots;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -207,7 +207,8 @@ void checkModels(const WorldState& world, const PhysicsState& physics) {
 
 // --- the fleet
 
-/// Goes through a fleet's fields as an archive does: every column has an entry for each robot.
+/// Visits a fleet's fields like an archive and checks that every column has an entry for each
+/// robot.
 class ColumnCheck {
  public:
   static constexpr bool kReads = false;
@@ -269,7 +270,7 @@ bool fits(const Task& task, std::size_t units) {
   }
 }
 
-/// Returns whether every point that its numbers lead to is one of the path's.
+/// Returns whether all indices of a path refer to points of it.
 bool fits(const ReleasedPath& path, std::uint32_t reached, std::uint32_t left) {
   if (!path.isUnderWay()) return path.points.empty();
   constexpr std::size_t kMost = 0xffffffffu;

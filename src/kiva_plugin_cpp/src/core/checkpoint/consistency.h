@@ -6,8 +6,9 @@
 
 namespace kiva {
 
-/// Whether what was read is about one world: every index leads somewhere, what refers to each other
-/// agrees, and bodies can be built of the descriptions. Throws ArchiveError with the field.
+/// Checks that the content describes one consistent world: every index is in range,
+/// cross-references agree, and bodies can be built from the descriptions. Throws ArchiveError with
+/// the field.
 void checkConsistent(const WorldState& world, const PhysicsState& physics);
 
 }  // namespace kiva

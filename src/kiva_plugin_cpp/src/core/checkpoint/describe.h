@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the structs of a world hold, listed once for writing, reading and hashing; see archive.h.
+// The fields of a world's structs, listed once for writing, reading and hashing; see archive.h.
 #pragma once
 
 #include "core/checkpoint/archive.h"
@@ -12,12 +12,12 @@
 
 namespace kiva {
 
-// A field that is added to a struct below has to be described too, and where that changes what the
-// bytes mean, the version counted up. The numbers of fields are to remind of it.
+// Asserts the number of a struct's fields, as a reminder: a new field must be described below. If
+// that changes the meaning of the bytes, the version must be increased.
 #define DESCRIBED(type, fields) \
   static_assert(fieldCount<type>() == (fields), "describe what is new in it, then correct this")
 
-// --- the last value of each enum, so that none beyond it is read
+// --- the last value of each enum, the limit of a valid one
 
 constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
@@ -33,7 +33,7 @@ constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
 constexpr Failure lastOf(Failure) { return Failure::kWheelSlip; }
 constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
 
-/// Returns what a struct's fields() calls to have each number described with its limits.
+/// Returns a function for a struct's fields() that describes each number with its limits.
 template <class A>
 auto limited(A& a) {
   return [&a](const char* name, auto& value, double least, double most) {
@@ -138,7 +138,7 @@ void describe(A& a, std::shared_ptr<const ModelDescription>& shared) {
     a(*description);
     shared = std::move(description);
   } else {
-    a(const_cast<ModelDescription&>(*shared));  // describing changes nothing unless it reads
+    a(const_cast<ModelDescription&>(*shared));  // describing changes nothing, except by a reader
   }
 }
 
@@ -211,7 +211,7 @@ void describe(A& a, Robot& r) {
   FIELDS(within(r.load_height, -1000, 1000), within(r.load_foothold, 0, 100),
          within(r.load_tipping_inertia, 0, 1e15));
   FIELDS(r.drive, r.lift, r.laser, r.has_motion,
-         r.has_rotation);  // its ray_fan comes with its laser, its grip with what is broken
+         r.has_rotation);  // its ray_fan is derived from its laser, its grip from its failures
 }
 
 template <class A>
@@ -269,9 +269,9 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 30);  // what only some realism needs: with the world
-  // What is broken, charges, and where points are counted next, follow from what else the world
-  // holds; what people allow: with those.
+  DESCRIBED(FleetState, 30);  // fields of realism are described with the world
+  // Some fields are derived from other state: failures, charge, and the next points to count. The
+  // allowed speed is derived from people.
   DESCRIBED(Fleet, 27);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
@@ -314,7 +314,7 @@ void describe(A& a, Model& m) {
   a.mostly(m.pose, m.spawn_pose);
   FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.upright, m.rocking, m.tips, m.joints,
          m.robot_namespace);
-  if (m.kind == ModelKind::kRobot) FIELDS(m.geometries);  // others follow from the description
+  if (m.kind == ModelKind::kRobot) FIELDS(m.geometries);  // derived for other kinds
 }
 
 template <class A>
@@ -397,7 +397,7 @@ void describe(A& a, Solid& s) {
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
-/// Describes a mover's footprint: it has no body of its own, and no triangles.
+/// Describes a mover's footprint, which has no body and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
   DESCRIBED(Footprint, 14);
@@ -591,7 +591,7 @@ template <class A>
 void describe(A& a, WorldOptions& o) {
   DESCRIBED(WorldOptions, 6);
   FIELDS(o.seed, o.drive, o.always_in_bullet,
-         o.realism);  // plugins and threads stay the world's own
+         o.realism);  // plugins and threads stay those of the restoring world
 }
 
 #undef DESCRIBED

@@ -7,7 +7,7 @@
 
 namespace kiva {
 
-/// Stands for a field of any type.
+/// Converts to a field of any type.
 struct AnyField {
   template <typename T>
   operator T() const;
@@ -19,8 +19,8 @@ std::true_type takes(std::index_sequence<I...>,
 template <typename T>
 std::false_type takes(...);
 
-/// Returns how many initialisers an aggregate takes: one a base and a field, one an element of an
-/// array. At most `Most` are looked for.
+/// Returns the number of an aggregate's initialisers: one for each base and field, one for each
+/// element of an array; `Most` at most.
 template <typename T, std::size_t Most = 48>
 constexpr std::size_t fieldCount() {
   static_assert(std::is_aggregate_v<T>);

@@ -19,7 +19,7 @@ void save(const std::string& model, const PluginList& plugins, std::vector<Plugi
   }
 }
 
-/// Returns the descriptions of those that are a user's.
+/// Returns the descriptions of users' plugins.
 Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
   Descriptions own;
   for (const PluginDescription& plugin : all) {
@@ -28,7 +28,7 @@ Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
   return own;
 }
 
-/// Those of a model and of its sensors.
+/// Returns those of a model and of its sensors.
 Descriptions usersOwn(const WorldState& world, const Model& model) {
   Descriptions own = usersOwn(world, model.description->plugins);
   for (const SensorDescription& sensor : model.description->sensors) {
@@ -81,7 +81,7 @@ std::vector<PluginState> savePlugins(const WorldState& world) {
 }
 
 void adoptPlugins(WorldState& world, const WorldState& before) {
-  // What a plugin does when it is loaded was done long ago.
+  // Drops commands that a plugin posts when it is loaded: it posted them long ago.
   const auto pending = world.inbox.pending;
   const auto events = world.log.events;
   const auto status_changes = world.log.status_changes;

@@ -10,17 +10,17 @@
 
 namespace kiva {
 
-/// What one plugin saved.
+/// The state that one plugin saved.
 struct PluginState {
   std::string model;  ///< Empty: a plugin of the world.
-  int index = 0;      ///< Among the plugins of that model.
+  int index = 0;      ///< Index among the plugins of that model.
   std::string state;
 };
 
 std::vector<PluginState> savePlugins(const WorldState& world);
 
-/// Gives restored parts of the world the plugins that they had: those of the world before it, where
-/// the same model stood there, or new ones. Throws DescriptionError.
+/// Gives the models of a restored world their plugins. A plugin of the previous world is kept if
+/// the same model was there; otherwise a new one is loaded. Throws DescriptionError.
 void adoptPlugins(WorldState& world, const WorldState& before);
 void restorePlugins(WorldState& world, const std::vector<PluginState>& states);
 

@@ -16,7 +16,7 @@
 namespace kiva {
 namespace {
 
-/// Whose a body is. Asked only, never gone through: its order is none.
+/// The addresses of bodies. For look-up only, since its order depends on pointers.
 using Addresses = std::unordered_map<const btCollisionObject*, BodyAddress>;
 
 Addresses addresses(const WorldState& world) {
@@ -34,7 +34,7 @@ Addresses addresses(const WorldState& world) {
   return out;
 }
 
-/// When Bullet got it; a model's bodies come together.
+/// Returns the rank of a model in Bullet's order of arrival; a model's bodies arrive together.
 int arrivalOf(const Model& model) {
   if (model.bodies.links.empty()) return -1;
   return model.bodies.links.front().body->getBroadphaseHandle()->getUid();
@@ -87,8 +87,8 @@ auto keyOf(const BodyAddress& a, const BodyAddress& b, int part_a, int part_b) {
                          part_b);
 }
 
-/// A contact that has no manifold any more, since its bodies have parted in the last step, would
-/// have been dropped at the beginning of the next.
+/// A contact without a manifold, whose bodies parted in the last step, would be dropped at the
+/// beginning of the next, so it is not saved.
 void writeContacts(WorldState& world, const std::vector<ContactMemory>& memories) {
   if (memories.empty()) return;
   std::map<decltype(keyOf({}, {}, 0, 0)), const ContactMemory*> memory_of;
@@ -120,7 +120,7 @@ void buildModel(WorldState& world, const ModelInPhysics& state) {
   }
 }
 
-/// One that was not touched in Bullet has those from before it entered.
+/// A model that Bullet has not touched keeps the footprints from before its entry.
 void addFootprints(WorldState& world, Model& model) {
   const bool is_in = model.in_physics;
   if (model.owner->isActivatedWhenNear() && !model.disturbed) model.in_physics = false;
@@ -128,8 +128,8 @@ void addFootprints(WorldState& world, Model& model) {
   model.in_physics = is_in;
 }
 
-/// Sets the footprints of robots and loads as the checkpoint has them. Footprints that are computed
-/// from today's poses would differ by rounding errors.
+/// Sets the footprints of robots and loads to those of the checkpoint. Footprints computed from the
+/// present poses would have other rounding errors.
 void setMovers(Obstacles& obstacles, const PhysicsState& state) {
   for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
     obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
@@ -170,8 +170,8 @@ void renewFootprints(WorldState& world, Model& model, const Standing& before) {
   }
 }
 
-/// Returns whether Bullet got all that is static first. What rebuildMovable() builds comes after
-/// it.
+/// Returns whether all static models precede the others in Bullet: rebuildMovable() can only
+/// append.
 bool fixturesCameFirst(const WorldState& world, const PhysicsState& state) {
   const auto is_static = [&](const ModelInPhysics& model) {
     return world.models[model.slot]->isStatic();

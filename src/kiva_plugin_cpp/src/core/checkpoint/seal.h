@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is around the content of a checkpoint: its format, its size and its hash.
+// The envelope of a checkpoint's content: format, size and hash.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Content {
 };
 
 std::string sealed(const std::string& content);
-/// Returns what is under the seal. Throws ArchiveError if it is broken.
+/// Returns the content of an envelope. Throws ArchiveError if it is damaged.
 Content opened(const std::string& bytes);
 
 }  // namespace kiva

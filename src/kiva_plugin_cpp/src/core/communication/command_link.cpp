@@ -13,8 +13,8 @@ bool isWired(const Command& command) {
   return command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
 }
 
-/// Returns the step at which a message sent now arrives: never before an earlier one to the same
-/// robot.
+/// Returns the step at which a message sent now arrives: never before an earlier message to the
+/// same robot.
 std::uint64_t arrival(const CommandLink& link, const Scene& world, int kiva_id,
                       RandomStream* random) {
   const RadioRealism& real = world.settings.realism.radio;

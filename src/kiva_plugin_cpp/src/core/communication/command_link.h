@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Carries commands to the robots: at once, or delayed by a radio.
+// Carries commands to the robots: without delay, or by a radio that delays and loses them.
 #pragma once
 
 #include "core/state/robots/command_link.h"
@@ -9,7 +9,7 @@
 
 namespace kiva {
 
-/// Sends a command. Commands that stop robots or let them go on are wired, and never late.
+/// Sends a command. Commands that stop or resume robots are wired, and never late.
 void send(CommandLink& link, Inbox& inbox, const Scene& world, PendingCommand command);
 /// Moves the commands that have arrived by now into the inbox.
 void receive(CommandLink& link, Inbox& inbox, const Clock& clock);

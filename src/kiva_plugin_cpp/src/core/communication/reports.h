@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Carries the robots' reports to clients: at once, or by a radio that delays and loses them.
+// Carries the robots' reports to clients: without delay, or by a radio that delays and loses them.
 #pragma once
 
 #include "core/state/robots/failure_state.h"
@@ -8,10 +8,10 @@
 
 namespace kiva {
 
-/// Returns what the robot would report now.
+/// Returns the robot's present report.
 RobotReport reportOf(const Scene& world, int robot);
-/// Sends reports, ten times a second and when a status changes, and takes in those that have
-/// arrived by now. Does nothing while the world's realism has no radio.
+/// Sends reports ten times a second and at each change of status, and takes those that have
+/// arrived. Does nothing while the world's realism has no radio.
 void deliverReports(TaskView& world);
 /// Records the pose of a robot that a client has placed; the client knows it without a report.
 void recordPlacement(TaskView& world, FailureState& failures, int robot);

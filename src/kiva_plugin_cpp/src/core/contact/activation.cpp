@@ -15,11 +15,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kReach = 0.3;    // [m] around a robot in which to look
-constexpr double kLinger = 0.05;  // [s] in Bullet after the last one was near
-// What is in Bullet and slow looks around seldom: less than kNear is gone meanwhile.
+constexpr double kReach = 0.3;    // [m] around a robot that are searched
+constexpr double kLinger = 0.05;  // [s] in Bullet after nothing was near any more
+// Slow models in Bullet search seldom: in that time they move by less than kNear.
 constexpr double kSlow = 0.2, kSeldom = 0.008;  // [m/s, s]
-constexpr int kLooksTogether = 32;              // on one thread: less is not worth waking another
+constexpr int kLooksTogether = 32;  // on one thread: fewer do not justify waking another
 
 /// A load enters with the robot that carries it.
 void activateWhole(ContactView& world, int slot) {
@@ -29,14 +29,14 @@ void activateWhole(ContactView& world, int slot) {
   activate(world, robot < 0 ? model : world.models.of(world.fleet.robots[robot]));
 }
 
-/// In an order that does not depend on how the obstacles are indexed.
+/// Puts models into Bullet in an order that does not depend on the index of obstacles.
 void activateAll(ContactView& world, std::vector<int> slots) {
   std::sort(slots.begin(), slots.end());
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   for (int slot : slots) activateWhole(world, slot);
 }
 
-/// Lets the robot, which can't be left alone for long, and what it could touch enter Bullet.
+/// Puts the robot, which has no clearance, and all models that it could touch into Bullet.
 void activateClose(ContactView& world, int robot) {
   FleetState& f = world.fleet;
   std::vector<int> close;
@@ -44,7 +44,7 @@ void activateClose(ContactView& world, int robot) {
   const double least = findClose(world, own, pointSpeed(f, robot), kReach, &close);
   if (!close.empty()) activate(world, world.models.of(world.fleet.robots[robot]));
   activateAll(world, std::move(close));
-  // It may be another that comes, and both may speed up.
+  // Twice the distance: the other model may approach as well, and both may speed up.
   const double way = 2 * (world.fleet.fastest + kCornerSpeed) * world.clock.dt;
   const double free_steps = std::floor((least - kNear) / way - 1);
   const double seldom =
@@ -64,8 +64,8 @@ bool looksAround(const Scene& world, int robot) {
   return (is_hasty || !is_known) && isMoving(world.fleet, robot);
 }
 
-/// Returns for how long the way of each robot that looks around is free [s], as all stand now; 0
-/// for others. By place in the list of those that are stepped singly.
+/// Returns for how long the way of each searching robot is free [s], with all poses as they are; 0
+/// for others. Entries are in the order of the robots that are stepped singly.
 std::vector<double> clearTimes(const Scene& world) {
   const std::vector<int>& robots = world.schedule.stepped_singly;
   std::vector<double> times(robots.size(), 0);
@@ -82,7 +82,7 @@ std::vector<double> clearTimes(const Scene& world) {
   return times;
 }
 
-/// Looks around one by one, since a model that enters Bullet changes what the next one finds.
+/// Searches robot by robot, since a model that enters Bullet changes the next result.
 void lookAround(ContactView& world) {
   const FleetState& f = world.fleet;
   const auto asks = [&](int robot) { return looksAround(world, robot); };
@@ -100,14 +100,14 @@ void lookAround(ContactView& world) {
   }
 }
 
-/// Returns whether no point of a storage unit that slides is fast.
+/// Returns whether all points of a sliding storage unit are slow.
 bool isSlow(const Model& model) {
-  constexpr double kFarthest = 1;  // [m] from its centre of mass
+  constexpr double kFarthest = 1;  // largest distance from its centre of mass [m]
   const btRigidBody& body = *model.bodies.links.front().body;
   return body.getLinearVelocity().length() + kFarthest * body.getAngularVelocity().length() < kSlow;
 }
 
-/// A body that moves by itself: what it could hit enters Bullet too.
+/// Puts models into Bullet that a freely moving body could hit.
 void activateNearBody(ContactView& world, Model& model) {
   if (!isAwake(model)) return;
   const bool is_due = (world.clock.total_steps + model.slot) % world.clock.stepsIn(kSeldom) == 0;
@@ -120,7 +120,7 @@ void activateNearBody(ContactView& world, Model& model) {
   std::vector<Footprint> all;
   for (const CollisionGeometry& geometry : model.geometries) {
     all.push_back(world.obstacles[geometry.handle]);
-    all.back().z_min -= near;  // it may fall, or be thrown, upon something
+    all.back().z_min -= near;  // a body may fall or be thrown on something
     all.back().z_max += near;
   }
   std::vector<int> close;
@@ -129,7 +129,7 @@ void activateNearBody(ContactView& world, Model& model) {
   if (model.owner->isActivatedWhenNear()) return;
   for (int slot : close) {
     Model& other = *world.models[slot];
-    other.tips = other.in_physics && other.owner->isActivatedWhenNear();  // it may fall on it
+    other.tips = other.in_physics && other.owner->isActivatedWhenNear();  // the body may fall on it
   }
 }
 
@@ -144,7 +144,7 @@ void release(ContactView& world) {
   }
 }
 
-/// Most blocks of a large fleet have none, and cost little.
+/// Most blocks of a large fleet have no such robot, and cost little.
 __attribute__((target_clones("avx2", "default"))) void findSteppedSingly(
     const std::uint8_t* awake, const std::int64_t* cruising, int count, std::vector<int>* robots) {
   constexpr int kBlock = 16;

@@ -11,13 +11,13 @@ namespace kiva {
 namespace {
 
 constexpr double kApart = 0.0005;  // [m]
-constexpr double kForget = 0.1;    // [s]: a contact that returns within is the same one
+constexpr double kForget = 0.1;    // [s]; a contact that returns within this time is the same one
 
-// An impact takes a few steps: Bullet first brings a body that comes near to where it touches, then
-// stops it there, and may find only one point of contact a step. It is over when none has neared
-// for a while; what goes on for longer than an impact is a push [s].
+// Durations of an impact [s]. An impact takes a few steps: Bullet first moves an approaching body
+// to the surface, then stops it there, and may find only one contact point a step. An impact is
+// over when no pair has approached for kQuiet. Contact that lasts longer than kImpact is a push.
 constexpr double kQuiet = 0.002, kImpact = 0.01;
-// What counts as nearing: a share of the speed at first, and at least so much [m/s].
+// Limits of an approach: a share of the initial speed, and a speed [m/s].
 constexpr double kShare = 0.01, kNearing = 0.001;
 
 int robotIn(const Scene& world, const Model& model) { return model.owner->robot(world, model); }
@@ -35,7 +35,7 @@ bool isCollision(const Scene& world, const Contact& contact) {
   const Model& a = *world.models[contact.model_a];
   const Model& b = *world.models[contact.model_b];
   if (a.owner->isFloor() || b.owner->isFloor()) return false;
-  if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
+  if (!a.owner->reportsCollisions() && !b.owner->reportsCollisions()) return false;
   const int robot = robotIn(world, a);
   return (robot < 0 || robot != robotIn(world, b)) && !isFall(world.fallen, contact);
 }
@@ -50,14 +50,15 @@ bool areApart(const Scene& world, const TouchingPair& pair) {
   return apart;
 }
 
-/// A robot in it is to stop.
+/// Notes that a robot in the contact must stop.
 void noteCrash(const Scene& world, ContactLog& contact_log, const Model& model,
                const Model& other) {
   const int robot = robotIn(world, model);
   if (robot >= 0) contact_log.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
-/// What an impact [Ns, in world] made of the storage unit that it hit, or whose robot.
+/// Notes the change of velocity by an impact [Ns, in world] on a storage unit, or on the unit of a
+/// robot.
 void noteJolt(const Scene& world, ContactLog& contact_log, const Model& model,
               const Vector3& impulse) {
   const int robot = robotIn(world, model);

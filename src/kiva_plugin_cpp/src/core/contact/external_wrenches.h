@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Applies the forces of clients to links and joints, for a step or for a while.
+// Applies the forces of clients to links and joints, for one step or a period.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace kiva {
 
-/// Applies the forces that are due before a step, and drops those that are over.
+/// Applies the forces that are due before a step, and drops those whose period is over.
 void applyExternalWrenches(ContactView& world);
-/// For the next step: a force on the link's centre of mass and a torque, in world. Returns false
-/// if the link does not move.
+/// Applies a force on the link's centre of mass and a torque for the next step, in world. Returns
+/// false if the link does not move.
 bool pushLink(ContactView& world, Model& model, int link, const Vector3& force,
               const Vector3& torque);
 /// Forgets the forces on a model that is removed.

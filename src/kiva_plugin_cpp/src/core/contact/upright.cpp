@@ -13,27 +13,27 @@
 namespace kiva {
 namespace {
 
-constexpr double kFootHeight = 0.005;  // [m] above the floor, up to which a shape is a foot
-constexpr double kVisible = 0.01;      // [rad]: a unit that rocks farther is a whole body
-constexpr double kCalm = 0.25;         // share of that energy with which it is planar again
-constexpr double kAbove = 0.002;       // [m] that it may hang above the floor then
-constexpr double kRising = 0.02;       // [m/s] with which it may move up or down then
-constexpr double kNoPush = 1e-3;       // [Nms] that no rocking is worth
-constexpr double kBurden = 0.1;        // share of its weight that may press on it from above
+constexpr double kFootHeight = 0.005;  // [m] above the floor up to which a shape is a foot
+constexpr double kVisible = 0.01;      // [rad]; a unit that rocks farther gets a whole body
+constexpr double kCalm = 0.25;         // share of that energy below which it is planar again
+constexpr double kAbove = 0.002;       // [m] above the floor up to which it may be planar again
+constexpr double kRising = 0.02;       // [m/s] of vertical speed up to which it may be planar again
+constexpr double kNoPush = 1e-3;       // [Nms]; a smaller momentum does not rock a unit
+constexpr double kBurden = 0.1;        // largest pressure from above, as a share of its weight
 
-/// What of a body's weight and shape matters for rocking.
+/// The properties of a body that determine its rocking.
 struct Rocking {
   double weight = 0;   // [N]
   double height = 0;   // height of the centre of mass [m]
-  double support = 0;  // the least distance from there to where it tips over [m]
-  double inertia = 0;  // about that edge, of feet that slide [kg m²]
+  double support = 0;  // shortest distance from the centre of mass to a tipping edge [m]
+  double inertia = 0;  // inertia about that edge, of feet that slide [kg m²]
 
   double energy() const { return weight * support * kVisible; }  // [J]
 };
 
-/// Returns the feet that the description has, in the frame of the centre of mass.
-std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double weight) {
-  std::vector<Foot> feet;
+/// Returns the feet of the description, in the frame of the centre of mass.
+std::vector<SlidingFoot> feetOf(const FloorState& floor, const Model& model, double weight) {
+  std::vector<SlidingFoot> feet;
   const Link& link = model.description->links.front();
   const Pose to_mass = (link.pose_in_model * link.inertial_pose_in_link).Inverse();
   const auto add = [&](double x, double y, double friction) {
@@ -54,7 +54,7 @@ std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double wei
       for (double y : {box.min.Y(), box.max.Y()}) add(x, y, friction);
     }
   }
-  for (Foot& foot : feet) foot.grip_limit *= weight / static_cast<double>(feet.size());
+  for (SlidingFoot& foot : feet) foot.grip_limit *= weight / static_cast<double>(feet.size());
   return feet;
 }
 
@@ -62,10 +62,10 @@ const SlidingFriction& frictionOf(const Model& model) {
   return static_cast<const SlidingFriction&>(*model.bodies.joints.front());
 }
 
-/// Returns how far the feet reach from the centre of mass that way.
-double supportAlong(const std::vector<Foot>& feet, const btVector3& way_in_body) {
+/// Returns the extent of the feet from the centre of mass in a direction.
+double supportAlong(const std::vector<SlidingFoot>& feet, const btVector3& way_in_body) {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Foot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
+  for (const SlidingFoot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
   return most;
 }
 
@@ -78,7 +78,7 @@ std::vector<btVector3> allAround() {
   return ways;
 }
 
-double leastSupport(const std::vector<Foot>& feet) {
+double leastSupport(const std::vector<SlidingFoot>& feet) {
   static const std::vector<btVector3> ways = allAround();
   double least = std::numeric_limits<double>::infinity();
   for (const btVector3& way : ways) least = std::min(least, supportAlong(feet, way));
@@ -86,7 +86,7 @@ double leastSupport(const std::vector<Foot>& feet) {
 }
 
 Rocking rockingOf(const WorldSettings& settings, const btRigidBody& body,
-                  const std::vector<Foot>& feet) {
+                  const std::vector<SlidingFoot>& feet) {
   Rocking r;
   r.weight = body.getMass() * settings.gravityDown();
   if (feet.empty()) return r;
@@ -97,10 +97,10 @@ Rocking rockingOf(const WorldSettings& settings, const btRigidBody& body,
   return r;
 }
 
-/// Returns how far from the centre of mass the edge is over which that momentum turns it [m].
+/// Returns the distance from the centre of mass to the edge over which a momentum turns it [m].
 double armOf(const Model& model, const Vector3& momentum) {
   const double size = momentum.Length();
-  const btVector3 way(momentum.Y() / size, -momentum.X() / size, 0);  // where it would tip to
+  const btVector3 way(momentum.Y() / size, -momentum.X() / size, 0);  // direction of tipping
   const btMatrix3x3& basis = model.bodies.links.front().body->getWorldTransform().getBasis();
   return supportAlong(frictionOf(model).feet(), basis.transpose() * way);
 }
@@ -120,13 +120,13 @@ void rockOne(const Scene& world, Model& model, const Push& push) {
   model.tips = model.tips || momentum.SquaredLength() > 2 * r.inertia * r.energy();
 }
 
-/// Returns whether it bears a load, or is lifted.
+/// Returns whether it carries a load, or is lifted.
 bool isBurdened(const Scene& world, const Model& model, const Push& push) {
   const double weight = model.bodies.links.front().body->getMass() * world.settings.gravityDown();
   return std::abs(push.load) > kBurden * weight * world.clock.dt;
 }
 
-/// Puts another body in place of the one that it has, with that velocity.
+/// Replaces the model's body by another one with that velocity.
 void exchange(ContactView& world, Model& model, const EntityState& state, bool is_disturbed) {
   world.physics.remove(model.bodies);
   model.bodies = model.owner->build(world, model);
@@ -147,7 +147,7 @@ EntityState stateOf(const Model& model) {
           {fromBullet(body.getLinearVelocity()), fromBullet(body.getAngularVelocity())}};
 }
 
-/// Returns whether a whole body stands on its feet again, and rocks invisibly little.
+/// Returns whether a whole body stands on its feet again and no longer rocks visibly.
 bool hasCalmed(const Scene& world, const Model& model) {
   const EntityState state = canonicalState(model);
   const double tilt = std::acos(std::min(1.0, state.pose.Rot().ZAxis().Z()));
@@ -211,7 +211,7 @@ void rock(const Scene& world, ModelTable& models) {
 void letTip(ContactView& world, Model& model) {
   EntityState state = stateOf(model);
   if (!model.rocking.Equal(Vector3::Zero, kNoPush)) {
-    // About the edge, which stays on the floor: the centre of mass rises.
+    // The unit turns about the edge, which stays on the floor, so that the centre of mass rises.
     const btRigidBody& body = *model.bodies.links.front().body;
     const Rocking r = rockingOf(world.settings, body, frictionOf(model).feet());
     state.twist.angular += model.rocking / r.inertia;

@@ -98,7 +98,7 @@ void checkCarry(const Scene& world, int robot, int unit) {
   }
 }
 
-/// Returns the unit that a drop without a number means. Throws Refusal.
+/// Returns the unit for a drop without a number. Throws Refusal.
 int carriedUnit(const FleetState& fleet, int robot) {
   const int unit = fleet.unit[robot];
   if (unit < 0) throw Refusal("it carries nothing");
@@ -160,7 +160,7 @@ void start(TaskView& world, int robot, std::uint32_t number, CommandPlan plan) {
 
 using Order = void (*)(RobotView&, int robot);
 
-/// Returns the order for a kind of command to one robot or all robots; null for other kinds.
+/// Returns the order of a command to one robot or to all; null for other kinds.
 Order orderOf(Command::Kind kind) {
   switch (kind) {
     case Command::Kind::kStop:
@@ -189,8 +189,8 @@ void commandAll(RobotView& world, Order order) {
   }
 }
 
-/// Gives the command to its robot; `path` is what it stands for, if it is kFollow. Numbers the
-/// command, unless it only changes the present one. Throws Refusal.
+/// Gives the command to its robot. `path` is the path of a kFollow. Numbers the command, unless it
+/// only changes the present one. Throws Refusal.
 void obey(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& command,
           const FollowPath& path) {
   if (!path.fault.empty()) throw Refusal(path.fault);
@@ -212,8 +212,8 @@ void obey(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Command& co
   inbox.last_command = number;
 }
 
-/// Postpones the next search for a way back: a client may command an idle robot at each step, and a
-/// search that fails takes longer than all else that a step does for it.
+/// Postpones the next search for a way back. A client may command an idle robot at each step, and a
+/// search that fails takes longer than the rest of the robot's step.
 void backOff(RobotView& world, int kiva_id) {
   double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
   const auto now = static_cast<double>(world.clock.total_steps);

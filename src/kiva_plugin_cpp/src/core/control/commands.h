@@ -8,7 +8,8 @@
 
 namespace kiva {
 
-/// Answers all queued commands but those to shadows, and gives the accepted ones to their robots.
+/// Answers all queued commands except those to shadows, and gives the accepted ones to their
+/// robots.
 void acceptCommands(TaskView& world, Obstacles& obstacles, Inbox& inbox, const Shadows& shadows);
 /// Stops the robots that were in a collision.
 void haltCollidedRobots(TaskView& world, ContactLog& contacts);

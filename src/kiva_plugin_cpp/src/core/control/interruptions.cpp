@@ -11,7 +11,7 @@
 namespace kiva {
 namespace {
 
-/// Returns how many segments bring a robot that was off the grid back to it; at least the present
+/// Returns the number of segments after which a robot is back on the grid; at least the present
 /// one.
 std::size_t segmentsToGrid(const Task& task) {
   for (std::size_t k = task.segments.size(); k > 1; --k) {
@@ -24,7 +24,7 @@ bool lifts(const MotionSegment& segment) {
   return segment.kind == MotionSegment::Kind::kRaise || segment.kind == MotionSegment::Kind::kLower;
 }
 
-/// Ends a drive on the next grid point where the robot can stop.
+/// Ends a drive at the next grid point where the robot can stop.
 void shortenDrive(RobotView& world, Obstacles& obstacles, int robot) {
   const FleetState& f = world.fleet;
   const double cell = world.settings.grid_spacing;

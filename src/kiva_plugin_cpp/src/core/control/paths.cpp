@@ -20,7 +20,8 @@ constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch an 
 constexpr double kCentred = 0.001;  // [m] within which a robot is on its point
 constexpr std::uint64_t kMostPoints = 100000;
 
-/// `known`: points of the path so far, of which `forgotten` have been left.
+/// Checks a message's numbers. `known`: count of the path's points so far, of which the first
+/// `forgotten` were left. Throws Refusal.
 void checkNumbers(const FollowPath& m, std::uint64_t known, std::uint64_t forgotten) {
   if (!m.fault.empty()) throw Refusal(m.fault);
   if (m.path_id == 0) throw Refusal("path_id 0: another number was expected");
@@ -48,8 +49,8 @@ bool isSame(const PathPoint& a, const PathPoint& b) {
   return std::abs(a.x - b.x) < kGoalTolerance && std::abs(a.y - b.y) < kGoalTolerance;
 }
 
-/// Returns whether a model is a part of the building, or one of its belts, and will not move. A
-/// model shorter than a cell that stands alone, such as a person, may.
+/// Returns whether a model is a part of the building, or a belt, and so will not move. A model
+/// shorter than a cell that stands alone may move: it may be a person.
 bool isBuilding(const Scene& world, const Model& model) {
   const std::uint8_t as = model.owner->occupies(world, model);
   if (as == Occupancy::kBelt) return true;
@@ -83,7 +84,7 @@ void checkClear(const Scene& world, int robot, const PathPoint& from, const Path
       format("%s is between (%g, %g) and (%g, %g)", hit->name.c_str(), from.x, from.y, to.x, to.y));
 }
 
-/// Throws Refusal if a robot can't go straight from one to the other.
+/// Throws Refusal if a robot can't drive straight from one point to the other.
 void checkLink(const Scene& world, int robot, const PathPoint& from, const PathPoint& to,
                std::uint64_t number) {
   const bool moves_x = std::abs(to.x - from.x) > kGoalTolerance;
@@ -120,8 +121,8 @@ void checkTurns(const FleetState& fleet, int robot, const std::vector<PathPoint>
 
 // --- a change of the path under way
 
-/// Returns the message's points that are new. Throws Refusal if it changes a released point, or the
-/// robot can't drive to a new one.
+/// Returns the new points of a message. Throws Refusal if the message changes a released point, or
+/// the robot can't drive to a new one.
 std::vector<PathPoint> checkedChange(const Scene& world, int robot, const FollowPath& m) {
   const ReleasedPath& path = world.fleet.tasks[robot].path;
   const std::uint32_t committed = std::min(path.released, m.released);
@@ -130,7 +131,7 @@ std::vector<PathPoint> checkedChange(const Scene& world, int robot, const Follow
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto number = static_cast<std::uint32_t>(m.first + k);
     points[k] = {m.x[k], m.y[k]};
-    if (number < path.first) continue;  // left and forgotten
+    if (number < path.first) continue;  // left, and no longer stored
     const bool was_new = is_new;
     is_new = number >= path.size() || !isSame(points[k], path[number]);
     if (is_new && number < committed) {
@@ -144,14 +145,14 @@ std::vector<PathPoint> checkedChange(const Scene& world, int robot, const Follow
   return points;
 }
 
-/// End of the present run, and the distance along it.
+/// The end of the present run, and the distance to it along the run.
 struct RunEnd {
   std::uint32_t point;
   double along;
 };
 
-/// Returns the end of the run if that much of the path is released. Throws Refusal if the robot
-/// can't stop there.
+/// Returns the end of the run if `released` points are released. Throws Refusal if the robot can't
+/// stop there.
 RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
   const FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];

@@ -9,7 +9,7 @@
 
 namespace kiva {
 
-/// Returns whether that is a change of the path that the robot follows.
+/// Returns whether a message changes the path that the robot follows.
 bool changesPath(const FleetState& fleet, int robot, const FollowPath& path);
 /// Gives an idle robot a path, as its command `number`. Throws Refusal, with nothing changed.
 void startPath(TaskView& world, int robot, std::uint32_t number, const FollowPath& path);

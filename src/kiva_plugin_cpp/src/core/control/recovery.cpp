@@ -11,13 +11,13 @@
 namespace kiva {
 namespace {
 
-constexpr int kCells = 2;             // around a robot within which it may return to the grid
-constexpr double kRoomStep = 0.1;     // [m] between places where it looks for room to turn
+constexpr int kCells = 2;  // range around a robot in which it may return to the grid [cells]
+constexpr double kRoomStep = 0.1;     // [m] between places that are searched for room to turn
 constexpr double kRoomReach = 1.5;    // [m]
-constexpr double kShift = 0.025;      // [m] that a wedged robot drives before it looks again
+constexpr double kShift = 0.025;      // [m] that a wedged robot drives before it searches again
 constexpr double kSamePlace = 0.001;  // [m]
 
-// Room beside a robot that is to be free [m]; a wedged one may push a leg aside a little.
+// Clearance at the sides of a robot [m]; a wedged robot may push a leg aside a little.
 constexpr double kSideClearance = 0.002, kScrape = -0.01;
 
 double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
@@ -36,7 +36,7 @@ std::vector<Point> gridAround(const WorldSettings& settings, const Point& here) 
   return points;
 }
 
-/// Returns the grid points near a point that lie on the floor, the nearest first.
+/// Returns the grid points around a point that lie on the floor, the nearest first.
 std::vector<Point> goalsAround(const Scene& world, const Point& here) {
   std::vector<Point> points = gridAround(world.settings, here);
   const auto is_outside = [&](const Point& p) { return !isOnFloor(world, p); };
@@ -44,7 +44,7 @@ std::vector<Point> goalsAround(const Scene& world, const Point& here) {
   return points;
 }
 
-/// Returns that goal alone, if it is among the goals.
+/// Returns that goal alone if it is among the goals.
 std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   for (const Point& known : goals) {
     if (distance(known, goal) < kSamePlace) return {known};
@@ -52,12 +52,13 @@ std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   return {};
 }
 
-/// Returns the pose that far along the heading [m].
+/// Returns the pose `way` ahead along the heading [m].
 PlanarPose shifted(const PlanarPose& from, double way) {
   return {from.x + std::cos(from.yaw) * way, from.y + std::sin(from.yaw) * way, from.yaw};
 }
 
-/// Returns how far straight on to look for room to turn [m]: in steps, and beside grid points.
+/// Returns the distances straight ahead at which to search for room to turn [m]: in steps, and
+/// beside grid points.
 std::vector<double> waysToRoom(const WorldSettings& settings, const PlanarPose& at) {
   std::vector<double> ways;
   for (int step = 1; step * kRoomStep <= kRoomReach; ++step) {
@@ -71,14 +72,13 @@ std::vector<double> waysToRoom(const WorldSettings& settings, const PlanarPose& 
   return ways;
 }
 
-/// Searches a way for one robot. A way is the points to which it drives straight; empty: there is
-/// none.
+/// Searches a way for one robot: the points to which it drives straight. Empty if there is none.
 class ReturnSearch {
  public:
   ReturnSearch(const Scene& world, int robot, std::vector<Point> goals, double margin)
       : world_(world), robot_(robot), goals_(std::move(goals)), margin_(margin) {}
 
-  /// Finds a way from that pose, or from a little ahead of it or behind.
+  /// Searches a way from that pose, or from a pose a little ahead or behind.
   std::vector<Point> wayFromNear(const PlanarPose& at) const {
     std::vector<Point> way = wayFrom(at);
     if (!way.empty()) return way;
@@ -92,8 +92,8 @@ class ReturnSearch {
   }
 
  private:
-  /// Finds a way to a goal, turning as far as the robot can there; or straight on, or square, to a
-  /// place with room: a robot that was hit while it turned stands askew.
+  /// Searches a way to a goal: by turning as far as the robot can here, or straight on or square to
+  /// a place with room. A robot that was hit while it turned stands askew.
   std::vector<Point> wayFrom(const PlanarPose& at) const {
     const TurnRoom room = roomToTurn(world_, robot_, at, Among::kAll);
     if (const Point* goal = findGoal(at, room)) return {*goal};
@@ -106,7 +106,7 @@ class ReturnSearch {
     return {};
   }
 
-  /// Finds a way straight on to a place with room to turn around, then to a goal.
+  /// Searches a way straight on to a place with room to turn around, then to a goal.
   std::vector<Point> wayByRoom(const PlanarPose& at) const {
     std::vector<Point> way;
     visitStraight(at, waysToRoom(world_.settings, at), [&](const PlanarPose& there) {
@@ -118,8 +118,8 @@ class ReturnSearch {
     return way;
   }
 
-  /// Returns the first goal to which the robot can drive from there, and turn square at; null:
-  /// there is none.
+  /// Returns the first goal to which the robot can drive from there and turn square; null if there
+  /// is none.
   const Point* findGoal(const PlanarPose& from, const TurnRoom& room) const {
     for (const Point& goal : goals_) {
       const StraightWay way = straightWay(from, goal);
@@ -133,8 +133,8 @@ class ReturnSearch {
     return nullptr;
   }
 
-  /// Calls visit(pose) for the places so far straight ahead and behind to which the robot can
-  /// drive, until that returns true.
+  /// Calls visit(pose) for the places straight ahead and behind to which the robot can drive, at
+  /// those distances, until a call returns true.
   template <typename Visit>
   void visitStraight(const PlanarPose& at, const std::vector<double>& ways, Visit visit) const {
     bool is_open[] = {true, true};  // behind, ahead

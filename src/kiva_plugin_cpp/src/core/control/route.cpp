@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kOnGrid = 0.001;              // [m] within which a robot is on its grid point
 constexpr double kSquare = 0.01 * M_PI / 180;  // [rad] within which a heading is along the grid
-constexpr double kNearGrid = 0.02;  // [m], [rad]: both, of a robot that estimates its pose
-constexpr double kAside = 0.05;  // [m] off its line from which a robot without a way back may go on
+constexpr double kNearGrid =
+    0.02;  // [m], [rad]: both tolerances of a robot that estimates its pose
+constexpr double kAside =
+    0.05;  // [m] off its line up to which a robot without a way back may go on
 
 }  // namespace
 
@@ -92,8 +94,8 @@ MotionSegment Route::makeDrive(State state) const {
   return segment;
 }
 
-/// Plans the way back to the grid. A robot without one that stands but a little aside goes on from
-/// there: its next drive leads it back to its line.
+/// Plans the way back to the grid. If there is none, a robot that stands a little off its line goes
+/// on: the next drive leads it back to the line.
 void Route::recover(const Point* back) {
   Point from{here_.x, here_.y};
   const bool is_wedged =

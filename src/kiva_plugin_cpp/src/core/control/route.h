@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plans the way of one robot for one command, over the grid.
+// Plans the way of one robot for one command, along the grid.
 #pragma once
 
 #include <cstdio>
@@ -18,12 +18,12 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A refusal because the robot is off the grid and finds no way back.
+/// A refusal because the robot is off the grid, without a way back.
 struct Wedged : Refusal {
   Wedged() : Refusal("it is off the grid, and it reaches no free grid point nearby") {}
 };
 
-/// The tolerance for goals that clients computed [m].
+/// Tolerance of goals that clients computed [m].
 constexpr double kGoalTolerance = 0.001;
 
 template <typename... Args>
@@ -41,16 +41,16 @@ void checkGoal(const Scene& world, const Point& goal);
 /// Throws Refusal if the robot can't drive.
 void checkMotion(const FleetState& fleet, int robot);
 
-/// A way of one robot, built segment by segment. The route keeps track of the pose after each.
+/// The way of one robot, built segment by segment. The route keeps the pose after each.
 class Route {
  public:
-  /// Starts at the robot's pose. A robot off the grid first returns to the grid: to `back` if that
-  /// grid point is near and free, otherwise to the nearest free one. Throws Refusal without one.
+  /// Starts at the robot's pose. A robot off the grid first returns to it: to the grid point `back`
+  /// if that is near and free, otherwise to the nearest free one. Throws Refusal if there is none.
   Route(const Scene& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }
   void rotate(int direction);
-  /// Turns towards a coordinate along one axis, and drives there.
+  /// Turns towards a coordinate along one axis and drives there.
   void driveTo(int axis, double coordinate);
   void lift(MotionSegment::Kind kind, int unit);
   std::deque<MotionSegment> takeSegments() { return std::move(segments_); }

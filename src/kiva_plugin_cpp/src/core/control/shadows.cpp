@@ -21,7 +21,7 @@ int findRobot(const Scene& world, int kiva_id) {
   return robot;
 }
 
-/// Returns the index of the unit that the report names, -1 if it names none.
+/// Returns the index of the unit in the report, -1 if it has none.
 int findLoad(const Scene& world, int robot, int unit_id) {
   if (unit_id == 0) return -1;
   const std::string name = "storage_unit" + std::to_string(unit_id);
@@ -34,8 +34,8 @@ int findLoad(const Scene& world, int robot, int unit_id) {
   return at->second;
 }
 
-/// Refuses a report whose fields no robot could have: a shadow's report is published as a robot's
-/// state. The pose is checked where the model is placed.
+/// Throws for a report that no robot could make: a shadow's report is published as a robot's state.
+/// The pose is checked where the model is placed.
 void checkReport(const ShadowReport& shadow) {
   const RobotReport& report = shadow.report;
   if (!(std::isfinite(report.x) && std::isfinite(report.y) && std::isfinite(report.yaw))) {
@@ -48,7 +48,7 @@ void checkReport(const ShadowReport& shadow) {
   }
 }
 
-/// The unit is put onto the robot, wherever it stood: the robot that is elsewhere has it.
+/// Puts the unit onto the robot, wherever it stood, since the robot elsewhere has it.
 void load(ModelView& world, int robot, int unit) {
   Model& model = *world.models[world.storage.units[unit].model];
   const PlanarPose at = {world.fleet.x[robot], world.fleet.y[robot], world.fleet.yaw[robot]};
@@ -78,7 +78,7 @@ void takeReport(TaskView& world, int robot, const ShadowReport& shadow) {
   f.charge[robot] = shadow.charge;
 }
 
-/// Puts the robot there, its wheels at rest.
+/// Moves the robot to the reported pose, its wheels at rest.
 void place(ModelView& world, int robot, const RobotReport& report) {
   const Pose at(report.x, report.y, world.floor.extent.z, 0, 0, report.yaw);
   placeModel(world, world.models.of(world.fleet.robots[robot]), {at, {}});

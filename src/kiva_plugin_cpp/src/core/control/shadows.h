@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadows of robots that are elsewhere: they stand where those are, and do what those do.
+// Shadows of robots that are elsewhere: they repeat the poses and states of these.
 #pragma once
 
 #include "core/state/robots/shadows.h"
@@ -10,7 +10,7 @@ namespace kiva {
 
 /// Implements World::shadow.
 void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& report);
-/// Forgets that the robot of that id was a shadow.
+/// Ends the state of being a shadow for the robot of that id.
 void endShadow(Shadows& shadows, int kiva_id);
 
 }  // namespace kiva

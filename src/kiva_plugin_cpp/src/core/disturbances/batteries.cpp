@@ -12,17 +12,18 @@ namespace kiva {
 namespace {
 
 constexpr double kBatteryPeriod = 0.1;  // [s]
-constexpr double kJoule = 3600;         // [J] in a watt hour
+constexpr double kJoule = 3600;         // [J] in 1 Wh
 constexpr double kLeastCharge = 0.05;   // share of the power that a nearly full battery takes
-constexpr double kRestarts = 0.02;      // state of charge from which an empty robot works again
-constexpr double kStandstill = 1e-3;    // [m/s]
+constexpr double kRestarts =
+    0.02;  // state of charge from which a robot with an empty battery works again
+constexpr double kStandstill = 1e-3;  // [m/s]
 constexpr char kMarkings[] = "floor_markings";
 constexpr char kChargingLink[] = "charging";
 
 double capacityOf(const EnergyRealism& e) { return e.capacity * e.health * kJoule; }
 
-/// Adds the chargers that a static model shows: each visual of its charging links is a rectangle
-/// along the axes.
+/// Adds the chargers of a static model: each visual of its charging links is a rectangle along the
+/// axes.
 void addChargers(const Model& model, std::vector<Charger>* out) {
   for (const Link& link : model.description->links) {
     if (link.name != kChargingLink) continue;
@@ -52,7 +53,7 @@ bool isOnCharger(const Chargers& chargers, const Fleet& f, int i) {
   });
 }
 
-/// Returns that of chassis, load, and both wheels with their motors [J].
+/// Returns the kinetic energy of chassis, load, and both wheels with their motors [J].
 double kineticEnergy(const Fleet& f, int i) {
   const Robot& r = f.robots[i];
   const double v2 = f.vx[i] * f.vx[i] + f.vy[i] * f.vy[i], w = f.yaw_rate[i];
@@ -63,7 +64,7 @@ double kineticEnergy(const Fleet& f, int i) {
          2;
 }
 
-/// Notes the wheel angles from which the next rolling resistance is counted.
+/// Stores the wheel angles from which rolling resistance is counted next.
 void markWheels(FleetState& f, int i) {
   for (int wheel = 0; wheel < 2; ++wheel) {
     f.battery[i].wheel_angle[wheel] = f.wheel_angle[wheel][i];
@@ -95,8 +96,8 @@ void show(FleetState& f, const EnergyRealism& e, int i) {
   f.charge[i] = static_cast<float>(charge);
 }
 
-/// Drains what one step of motion takes: speeding up less what braking gives back, and lifting.
-/// Each step counts, since a turn lasts only a few battery readings, and taking up a load only one.
+/// Drains the energy of one step of motion: acceleration less recovered braking, and lifting. Each
+/// step counts, since a turn lasts only a few battery readings, and taking up a load only one.
 void drainForMotion(RobotView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
@@ -115,7 +116,7 @@ void drainForMotion(RobotView& world, int i) {
   show(world.fleet, world.settings.realism.energy, i);
 }
 
-/// Returns what electronics and rolling took since the last reading [J].
+/// Returns the consumption of electronics and rolling since the last reading [J].
 double drawnSteadily(const Scene& world, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
   const FleetState& f = world.fleet;
@@ -131,7 +132,7 @@ double drawnSteadily(const Scene& world, int i, double seconds) {
   return e.electronics * seconds + rolling / e.drive_efficiency;
 }
 
-/// Returns what a charger puts into the battery in that time [J].
+/// Returns the energy that a charger puts into the battery in that time [J].
 double takenUp(const Scene& world, const Chargers& chargers, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
   if (!isOnCharger(chargers, world.fleet, i)) return 0;

@@ -59,7 +59,7 @@ std::string within(double seconds) {
   return text;
 }
 
-/// Replans the robot's motion with what it can do now; a robot at rest has nothing to replan.
+/// Plans the robot's motion again with its present abilities; a robot at rest has nothing to plan.
 void adapt(RobotView& world, int robot) {
   FleetState& f = world.fleet;
   const Phase phase = f.tasks[robot].phase;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Breaks and repairs parts of robots, by order or by chance. A sound fleet without failures costs a
-// comparison a step.
+// Failures and repairs of robots, ordered or random. A fleet without failures costs a comparison a
+// step.
 #pragma once
 
 #include "core/state/robots/failure_state.h"
@@ -15,9 +15,9 @@ void injectFailure(TaskView& world, FailureState& failures, int kiva_id, Failure
 void repair(TaskView& world, FailureState& failures, int kiva_id);
 std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& failures, int robot);
 
-/// Repairs the robots that are due, and draws the next failures by chance, for one step of time.
+/// Repairs the robots that are due, and draws the next random failures, for one step of time.
 void sampleFailures(TaskView& world, FailureState& failures);
-/// Returns whether a part is broken, or may break by chance.
+/// Returns whether a robot has a failure, or may get one at random.
 bool mayFail(const Realism& realism, const FailureState& failures);
 /// Gives robots their defects again, after a checkpoint was read.
 void restoreDefects(FleetState& fleet, const Realism& realism, const FailureState& failures);

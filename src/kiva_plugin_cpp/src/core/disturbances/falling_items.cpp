@@ -15,21 +15,21 @@
 namespace kiva {
 namespace {
 
-constexpr double kClear = 0.002;   // [m] between an item that falls and the edge
+constexpr double kClear = 0.002;   // [m] between a falling item and the edge
 constexpr double kSlip = 0.001;    // [m/s]
-constexpr double kWaits = 0.5;     // [s] for which an item waits while its landing place is taken
-constexpr double kUpright = 0.99;  // cosine of the tilt of a unit up to which items stay on it
-constexpr double kNextTry = 10;    // [s] between attempts to put items back on a unit that lies
+constexpr double kWaits = 0.5;     // [s] that an item waits while its landing place is taken
+constexpr double kUpright = 0.99;  // cosine of the largest tilt of a unit that keeps its items
+constexpr double kNextTry =
+    10;  // [s] between attempts to put items back on a unit that does not stand
 
-/// Returns the friction of an item on its board, the same each time it slides.
+/// Returns the friction of an item on its board, the same at each slide.
 double frictionOf(const WorldSettings& settings, const Item& item) {
   const LoadRealism& r = settings.realism.loads;
   RandomStream random(settings.options.seed, Matter::kItem, item.id, 0);
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
 }
 
-/// Returns the distance from `at` to the end of `box` in the direction of `way`, a level unit
-/// vector.
+/// Returns the distance from `at` to the boundary of `box` along `way`, a horizontal unit vector.
 double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
   const auto along = [](double from, double min, double max, double step) {
     return step == 0 ? 1e9 : ((step > 0 ? max : min) - from) / step;
@@ -38,7 +38,7 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
                   along(at.Y(), box.min.Y(), box.max.Y(), way.Y()));
 }
 
-/// Calls visit(item) for the items that stand still on that unit.
+/// Calls visit(item) for the items at rest on that unit.
 template <typename Visit>
 void forEachOn(const Scene& world, const Model& unit, Visit visit) {
   const std::vector<int> on = world.storage.items_on[unit.index];  // visits may take some off
@@ -48,8 +48,8 @@ void forEachOn(const Scene& world, const Model& unit, Visit visit) {
   }
 }
 
-/// Lets items slide off a unit whose velocity suddenly changes by v: against friction they slide
-/// v² / 2 μ g far.
+/// Slides items on a unit whose velocity suddenly changes by v: friction stops them after v² / 2 μ
+/// g.
 void slide(const Scene& world, FallenItems& fallen, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
@@ -69,7 +69,7 @@ void slide(const Scene& world, FallenItems& fallen, const Jolt& jolt) {
   });
 }
 
-/// Lets items slide over the lower edge of boards that are steeper than friction holds.
+/// Slides items over the lower edge of boards that are too steep for their friction.
 void tilt(const Scene& world, FallenItems& fallen, const Model& unit) {
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.settings.gravity);
   const double down = -way.Z();
@@ -91,7 +91,8 @@ void tiltAll(const Scene& world, FallenItems& fallen) {
   }
 }
 
-/// Returns whether only its unit is near that pose, which lies above the floor.
+/// Returns whether the place at that pose, above the floor, is free of models other than the item's
+/// unit.
 bool isFree(const Scene& world, const Model& item, const Pose& pose, int unit) {
   bool is_free = true;
   for (const Link& link : item.description->links) {
@@ -147,7 +148,7 @@ bool isUpright(const Scene& world, const OffShelf& off) {
   return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
 }
 
-/// Puts an item back from the floor in its place.
+/// Puts an item from the floor back into its place.
 void lift(ModelView& world, const OffShelf& off) {
   Model& item = *world.models[off.item];
   const Model& unit = *world.models[off.unit];
@@ -157,7 +158,8 @@ void lift(ModelView& world, const OffShelf& off) {
                    item.name + " is picked up at " + from + " and is back on " + unit.name);
 }
 
-/// Does what is due for one item. Returns whether the item is back, or stays where it was.
+/// Performs the action that is due for one item. Returns whether the item is back, or stays where
+/// it was.
 bool attend(ModelView& world, OffShelf& off) {
   if (!off.lies) {
     if (off.due > world.clock.total_steps || dropOverEdge(world, off)) return false;

@@ -11,17 +11,17 @@
 namespace kiva {
 namespace {
 
-constexpr double kTips = 0.1;  // [rad] from which on Bullet steps the load
+constexpr double kTips = 0.1;  // [rad] of tilt from which Bullet steps the load
 
-/// Returns the angular acceleration about the edge towards which the load leans [rad/s²]: a rigid
-/// body on a base that moves.
+/// Returns the angular acceleration about the edge towards which the load leans [rad/s²]: that of a
+/// rigid body on an accelerated base.
 double tiltAcceleration(const Robot& r, double gravity, double tilt, double pushed) {
   const double h = r.load_height, d = r.load_foothold, c = std::cos(tilt), s = std::sin(tilt);
   const double torque = pushed * (h * c + d * s) - gravity * (d * c - h * s);
   return r.load_mass * torque / r.load_tipping_inertia;
 }
 
-/// Leans the load against the acceleration of its feet.
+/// Tilts the load against the acceleration of its feet.
 void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, double dt) {
   if (sway->tilt == 0) {
     const double size = std::hypot(ax, ay);
@@ -36,7 +36,7 @@ void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, doub
   sway->tilt = sway->rate = 0;
 }
 
-/// Hands the load over to Bullet as it is: tilted about the edge of its plate, and turning.
+/// Passes the load to Bullet with its tilt about the edge of the plate, and its rate.
 void tipOff(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   const Sway sway = f.sway[robot];
@@ -58,8 +58,8 @@ void tipOff(ModelView& world, int robot) {
   haltRobot(world, robot, unit.name, "has lost its load");
 }
 
-/// Lets a load fall whose centre of mass is no longer above the plate, since items were added or
-/// taken away.
+/// Drops a load whose centre of mass is no longer above the plate, since items were added or
+/// removed.
 void dropOverhung(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   const double* centre = f.robots[robot].load_centre;
@@ -79,7 +79,7 @@ void stepOne(ModelView& world, int robot) {
   sway.vx = f.vx[robot];
   sway.vy = f.vy[robot];
   sway.step = world.clock.total_steps;
-  if (!is_next) return;  // the robot stood, or cruised
+  if (!is_next) return;  // the robot stood or cruised
   lean(&sway, f.robots[robot], world.settings.gravityDown(), ax, ay, world.clock.dt);
   if (sway.tilt > kTips) tipOff(world, robot);
 }
@@ -89,7 +89,7 @@ void stepOne(ModelView& world, int robot) {
 void stepLoadTipping(ModelView& world) {
   const bool leans = world.settings.realism.loads.enabled;
   const std::vector<int> stepped =
-      world.schedule.stepped_singly;  // a robot that loses its load may be deleted by that
+      world.schedule.stepped_singly;  // a robot that loses its load may be deleted then
   for (const int robot : stepped) {
     if (robot >= world.fleet.size() || world.fleet.unit[robot] < 0) continue;
     if (world.fleet.robots[robot].load_foothold <= 0) {

@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// Leans the loads by the robots' motion in the last step. A load that goes over its edge becomes a
+/// Tilts the loads by the robots' motion in the last step. A load that tips over its edge becomes a
 /// body of its own (TIPPED), and its robot stops.
 void stepLoadTipping(ModelView& world);
 

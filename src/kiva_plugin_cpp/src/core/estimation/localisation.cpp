@@ -9,7 +9,7 @@ namespace kiva {
 namespace {
 
 constexpr int kN = Localisation::kStates;
-constexpr double kWear = 1e-5;  // by which a radius may become another, over a metre, as a share
+constexpr double kWear = 1e-5;  // possible relative change of a radius over a metre
 
 using Square = double[kN][kN];
 
@@ -18,7 +18,7 @@ PlanarPose onArc(const PlanarPose& from, double way, double turn) {
   return {from.x + way * std::cos(middle), from.y + way * std::sin(middle), from.yaw + turn};
 }
 
-/// How the errors of the state go on to those after a way [m] and a turn [rad].
+/// Computes how errors of the state propagate over a way [m] and a turn [rad].
 void transition(const PlanarPose& at, const DriveSizes& drive, double way, double turn, Square& f) {
   const double middle = at.yaw - turn / 2;
   const double c = std::cos(middle), s = std::sin(middle);
@@ -37,7 +37,7 @@ void transition(const PlanarPose& at, const DriveSizes& drive, double way, doubl
   }
 }
 
-/// Inverts a symmetric matrix of 3 x 3, which has an inverse.
+/// Inverts a symmetric, regular 3 x 3 matrix.
 void invert(const double (&m)[3][3], double (&out)[3][3]) {
   const double a = m[0][0], b = m[0][1], c = m[0][2], d = m[1][1], e = m[1][2], g = m[2][2];
   const double aa = d * g - e * e, ab = c * e - b * g, ac = b * e - c * d;
@@ -103,14 +103,14 @@ void Localisation::propagate(double slip_noise, double separation_noise) {
   }
 
   const double apart = turn * believed.separation / 2;
-  const double rolled = std::abs(way - apart) + std::abs(way + apart);  // of both wheels [m]
+  const double rolled = std::abs(way - apart) + std::abs(way + apart);  // sum of both wheels [m]
   const double wheels = slip_noise * slip_noise * rolled;
   const double ahead = wheels / 4;
   const double yaw = wheels / (believed.separation * believed.separation) +
                      separation_noise * separation_noise * turn * turn;
   const double aside = yaw * way * way / 3, both = yaw * way / 2;
   const double c = std::cos(pose.yaw - turn / 2), s = std::sin(pose.yaw - turn / 2);
-  const double x[3] = {c, -s, 0}, y[3] = {s, c, 0};  // of ahead, aside
+  const double x[3] = {c, -s, 0}, y[3] = {s, c, 0};  // directions ahead and to the left
   const auto add = [this](int i, int j, double value) {
     covariance[i * kN + j] += value;
     if (i != j) covariance[j * kN + i] += value;
@@ -128,7 +128,7 @@ void Localisation::propagate(double slip_noise, double separation_noise) {
 void Localisation::measure(const double rates[2], double slip_noise, double slip_length,
                            double separation_noise, double speeds[2], double variances[4]) const {
   double rim[2];
-  double per_rim[2][2];  // of speed and turn rate
+  double per_rim[2][2];  // derivatives of speed and turn rate
   for (int wheel = 0; wheel < 2; ++wheel) {
     rim[wheel] = rates[wheel] * believed.radius[wheel] * (1 + slip[wheel]);
     per_rim[0][wheel] = 0.5;
@@ -153,7 +153,7 @@ void Localisation::measure(const double rates[2], double slip_noise, double slip
 }
 
 void Localisation::correct(const PlanarPose& reading, double position_noise, double angle_noise) {
-  // Even a perfect code is not believed wholly, so that there is an inverse.
+  // Even a perfect code has a small deviation, so that the matrix is regular.
   const double position = position_noise * position_noise + 1e-12;
   const double angle = angle_noise * angle_noise + 1e-12;
   const double noise[3] = {position, position, angle};

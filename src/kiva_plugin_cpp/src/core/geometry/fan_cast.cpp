@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A fan of rays at once: not what each ray meets on its way, cell by cell, but which rays each
-// obstacle is met by, which are few and lie side by side. Everything is seen from the laser: rays
-// begin at (0, 0), and x is the robot's heading.
+// Casts all rays of a fan at once. Instead of tracing each ray cell by cell, it determines for each
+// obstacle the rays that may meet it, which are few and adjacent. Coordinates are relative to the
+// laser: rays begin at (0, 0), and x is the robot's heading.
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
@@ -14,18 +14,18 @@
 namespace kiva {
 namespace {
 
-constexpr double kAngleError = 1e-3;  // [rad] that angleOf() may be off, with much to spare
-constexpr double kTouching = 1e-6;    // [m]: a laser as near to a surface may be in it
+constexpr double kAngleError = 1e-3;  // [rad] error of angleOf(), with a large margin
+constexpr double kTouching = 1e-6;    // [m]; a laser that close to a surface may be inside it
 
-/// Rays of a fan that lie side by side.
-struct Interval {
+/// Adjacent rays of a fan.
+struct RayInterval {
   int first = 0, last = -1;
 };
 
-/// A footprint as the laser sees it, and the rays that may meet it.
-struct Target : FlatPose {
+/// A footprint relative to the laser, and the rays that may meet it.
+struct RayTarget : FlatPose {
   const Footprint* shape = nullptr;
-  Interval rays[3];  // of a whole circle, one end of the fan and the other
+  RayInterval rays[3];  // the whole circle, and both ends of the fan
   int parts = 0;
 };
 
@@ -39,9 +39,9 @@ double angleOf(double x, double y) {
   return y < 0 ? -angle : angle;
 }
 
-/// Returns the directions from the laser in which a target lies, counterclockwise; they may go on
-/// beyond ±π. Returns false if it is all around.
-bool anglesTo(const Target& t, double* from, double* to) {
+/// Returns the directions from the laser in which a target lies, counterclockwise; they may exceed
+/// ±π. Returns false if the target surrounds the laser.
+bool anglesTo(const RayTarget& t, double* from, double* to) {
   const Footprint& f = *t.shape;
   if (f.kind != Footprint::Kind::kBox) {
     const double radius = radiusOf(f), square = t.x * t.x + t.y * t.y - radius * radius;
@@ -51,7 +51,7 @@ bool anglesTo(const Target& t, double* from, double* to) {
     *to = middle + half;
     return true;
   }
-  // Between two of its corners: which, depends on from where it is seen.
+  // The target lies between two of its corners, which depend on the direction of view.
   const double px = -(t.x * t.c + t.y * t.s), py = t.x * t.s - t.y * t.c;
   const bool beside_x = std::abs(px) > f.hx + kTouching, beside_y = std::abs(py) > f.hy + kTouching;
   if (!beside_x && !beside_y) return false;
@@ -66,27 +66,27 @@ bool anglesTo(const Target& t, double* from, double* to) {
   return true;
 }
 
-/// The rays between two angles [rad], which may go on beyond ±π.
-void findRays(const RayFan& fan, double from, double to, Target* target) {
+/// Determines the rays between two angles [rad], which may exceed ±π.
+void findRays(const RayFan& fan, double from, double to, RayTarget* target) {
   const double span = fan.max_angle - fan.min_angle;
   const double per = span > 0 ? (fan.rays - 1) / span : 0;
   for (const double turn : {-2 * M_PI, 0.0, 2 * M_PI}) {
     const double first = std::ceil((from + turn - kAngleError - fan.min_angle) * per);
     const double last = std::floor((to + turn + kAngleError - fan.min_angle) * per);
-    const Interval rays{static_cast<int>(std::max(first, 0.0)),
-                        static_cast<int>(std::min(last, fan.rays - 1.0))};
+    const RayInterval rays{static_cast<int>(std::max(first, 0.0)),
+                           static_cast<int>(std::min(last, fan.rays - 1.0))};
     if (rays.first <= rays.last) target->rays[target->parts++] = rays;
   }
 }
 
-void findRays(const RayFan& fan, Target* target) {
+void findRays(const RayFan& fan, RayTarget* target) {
   double from = 0, to = 0;
   if (anglesTo(*target, &from, &to)) return findRays(fan, from, to, target);
   target->rays[target->parts++] = {0, fan.rays - 1};
 }
 
-/// The slab test (Kay and Kajiya 1986) in the box's own axes, for several rays at a time.
-__attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, const double* c,
+/// Casts rays by the slab test (Kay and Kajiya 1986) in the box's own axes, several at a time.
+__attribute__((target_clones("avx2", "default"))) void meetBox(const RayTarget& t, const double* c,
                                                                const double* s, int rays,
                                                                double* range, std::int64_t* model) {
   const double tc = t.c, ts = t.s, hx = t.shape->hx, hy = t.shape->hy;
@@ -110,8 +110,8 @@ __attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, 
   }
 }
 
-/// The same of any other footprint.
-void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Interval& rays,
+/// Does the same for any other footprint.
+void meetOther(const RayTarget& t, const Sensor& from, const RayFan& fan, const RayInterval& rays,
                FanHits* hits) {
   const Footprint& f = *t.shape;
   const double radius = radiusOf(f);
@@ -130,7 +130,7 @@ void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Int
   }
 }
 
-void meet(const Target& target, const Sensor& from, const RayFan& fan, const Interval& rays,
+void meet(const RayTarget& target, const Sensor& from, const RayFan& fan, const RayInterval& rays,
           FanHits* hits) {
   if (target.shape->kind != Footprint::Kind::kBox) {
     return meetOther(target, from, fan, rays, hits);
@@ -139,7 +139,7 @@ void meet(const Target& target, const Sensor& from, const RayFan& fan, const Int
   meetBox(target, &fan.c[k], &fan.s[k], rays.last - k + 1, &hits->range[k], &hits->model[k]);
 }
 
-/// The floor that a fan's rays cover, as a box along the heading [m].
+/// The area of a fan's rays, as a box along the heading [m].
 struct Sector {
   double back, ahead, aside;
 
@@ -149,25 +149,25 @@ struct Sector {
     ahead = reach.range;
     aside = std::min(reach.range, reach.aside);
   }
-  /// Returns whether a circle around (x, y) may be met.
+  /// Returns whether rays may meet a circle around (x, y).
   bool mayHold(double x, double y, double radius) const {
     return x + radius >= -back && x - radius <= ahead && std::abs(y) - radius <= aside;
   }
 };
 
-/// Seen from the laser.
+/// Returns a pose relative to the laser.
 FlatPose seenFrom(const Sensor& from, double x, double y, double c, double s) {
   const double dx = x - from.x, dy = y - from.y;
   return {from.c * dx + from.s * dy, from.c * dy - from.s * dx, from.c * c + from.s * s,
           from.c * s - from.s * c};
 }
 
-/// Rays that may meet anything go as far as they are of interest, so far.
+/// Casts the rays that may meet targets up to their reach, or up to the nearest hit so far.
 template <typename Targets>
 void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, FanHits* hits) {
   hits->first = fan.rays;
   hits->last = -1;
-  for (const Target& target : targets) {
+  for (const RayTarget& target : targets) {
     for (int k = 0; k < target.parts; ++k) {
       hits->first = std::min(hits->first, target.rays[k].first);
       hits->last = std::max(hits->last, target.rays[k].last);
@@ -186,13 +186,13 @@ void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, Fan
 void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
                      FanHits* hits) const {
   const Sector sector(fan, reach);
-  boost::container::small_vector<Target, 32> targets;
+  boost::container::small_vector<RayTarget, 32> targets;
   const auto isAtHeight = [&](const Footprint& f) {
     return f.z_min <= from.z && from.z <= f.z_max;
   };
   const auto add = [&](const Footprint& f, const FlatPose& pose) {
     if (!sector.mayHold(pose.x, pose.y, radiusOf(f))) return;
-    Target target;
+    RayTarget target;
     static_cast<FlatPose&>(target) = pose;
     target.shape = &f;
     findRays(fan, &target);
@@ -209,7 +209,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
                       s * f.c + c * f.s));
     }
   };
-  // Along the world's axes, of that floor.
+  // The area along the world's axes.
   const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
   const double x = from.x + from.c * middle, y = from.y + from.s * middle;
   const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;
@@ -225,7 +225,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
     return false;
   });
   begin(fan, reach, targets, hits);
-  for (const Target& target : targets) {
+  for (const RayTarget& target : targets) {
     for (int k = 0; k < target.parts; ++k) meet(target, from, fan, target.rays[k], hits);
   }
 }

@@ -7,7 +7,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kUpright = 1 - 1e-9;  // cosine of a tilt that is none
+constexpr double kUpright = 1 - 1e-9;  // cosine of the largest tilt that counts as none
 
 /// Returns half extents along the world's axes.
 Vector3 halfExtents(const Shape& shape, const Quaternion& rotation) {
@@ -49,8 +49,8 @@ Vector3 halfExtents(const Shape& shape, const Quaternion& rotation) {
   return half;
 }
 
-/// Makes the outline of a box that stands upright on one of its faces: that of the other two axes.
-/// Returns false if it does not.
+/// Makes the outline of a box that stands on one of its faces: that of the other two axes. Returns
+/// false if the box is tilted.
 bool makeBoxOutline(const Shape& shape, const Quaternion& rotation, Footprint* out) {
   const Vector3 axes[3] = {rotation.XAxis(), rotation.YAxis(), rotation.ZAxis()};
   for (int up = 0; up < 3; ++up) {

@@ -50,7 +50,8 @@ double castSolid(const Footprint& f, const FlatPose& at, double x, double y, dou
                        {dx * at.c + dy * at.s, -dx * at.s + dy * at.c, 0});
 }
 
-/// Bullet sees bodies from outside; from inside one looks back from the far end.
+/// Casts at a hull, which Bullet hits from outside only: from inside, the ray is cast back from its
+/// far end.
 double castHull(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
                 double range) {
   const double outside = castBody(body, from, direction, range);
@@ -81,7 +82,7 @@ double castFootprint(const Footprint& f, const FlatPose& at, double x, double y,
       return castTriangle(*f.triangle, x, y, z, dx, dy);
     case Footprint::Kind::kOther:
       if (f.solid) return castSolid(f, at, x, y, z, dx, dy);
-      // A model without a body now, such as a unit with no robot near, is seen as its circle.
+      // A model that has no body now, such as a unit with no robot near, counts as its circle.
       if (!f.body) return castCircle(at, f.hx, x, y, dx, dy);
       return castHull(*f.body, {x, y, z}, {dx, dy, 0}, range);
   }

@@ -5,18 +5,18 @@
 
 namespace kiva {
 
-/// Where a footprint is and how it is turned, as cosine and sine, seen from where rays are [m].
+/// The pose of a footprint relative to the rays' frame, with cosine and sine [m].
 struct FlatPose {
   double x = 0, y = 0, c = 1, s = 0;
 };
 
-/// Returns whether its pose is its own, in world, and no other.
+/// Returns whether the footprint has a fixed pose in world.
 bool isFixed(const Footprint& footprint);
 
-/// Returns the distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) to
-/// the surface of what has that footprint, is at that pose, and at the ray's height, from outside
-/// or inside [m]; +inf = none. What is fixed is where it is. Bodies of any form are asked within
-/// `range` [m] only.
+/// Returns the distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) to a
+/// surface, from outside or inside [m]; +inf = none. The surface is that of the shape with that
+/// footprint at that pose, at the ray's height. A fixed footprint ignores `at`. Bodies of any form
+/// are hit within `range` [m] only.
 double castFootprint(const Footprint& footprint, const FlatPose& at, double x, double y, double z,
                      double dx, double dy, double range);
 

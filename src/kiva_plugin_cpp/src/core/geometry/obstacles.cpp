@@ -12,9 +12,10 @@ namespace kiva {
 namespace {
 
 constexpr double kCell = 1.0;           // [m]
-constexpr int kMaxCells = 2048;         // a side; farther out nothing is indexed by cell
-constexpr long kMostCellsEach = 16384;  // what covers more is asked for everywhere
-// What single precision may lose of a place and a radius: so much, and a share of their size.
+constexpr int kMaxCells = 2048;         // a side; entries farther out are not indexed by cell
+constexpr long kMostCellsEach = 16384;  // larger entries are checked by every query
+// Error of a position and a radius in single precision: an absolute part, and a share of their
+// size.
 constexpr double kSpotMargin = 0.001;  // [m]
 constexpr double kFloatMargin = 2.4e-7;
 
@@ -27,7 +28,7 @@ double halfY(const Footprint& f) {
                                                 : f.hx;
 }
 
-/// Separation of two boxes along the two axes of `a`: the larger gap of both.
+/// Returns the separation of two boxes along the two axes of `a`: the larger of both gaps.
 double gapAlongAxes(const Footprint& a, const Footprint& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double cos = std::abs(a.c * b.c + a.s * b.s), sin = std::abs(a.s * b.c - a.c * b.s);
@@ -113,7 +114,7 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   }
   Mover& mover = movers_[robot];
   mover.world = local;
-  mover.world_x = kInfinity;  // to be worked out
+  mover.world_x = kInfinity;  // not computed yet
   mover.local = std::move(local);
   linkMover(robot);
 }
@@ -242,7 +243,7 @@ void Obstacles::unlink(int handle, Place& place) {
 }
 
 void Obstacles::cover(const Box& box) {
-  const double margin = 8 * kCell;  // so that a driver at the rim does not make the grid grow often
+  const double margin = 8 * kCell;  // so that a driver at the rim seldom makes the grid grow
   const bool empty = columns_ == 0;
   if (!empty && isInside(box)) return;
   const double x0 = std::floor(std::min(empty ? box.min_x : origin_x_, box.min_x - margin));
@@ -271,7 +272,7 @@ void Obstacles::cover(const Box& box) {
 
 void Obstacles::castMover(int robot, double x, double y, double z, double dx, double dy,
                           RayHit* hit) const {
-  // Most rays pass the circle around the mover: that costs no work on its footprints.
+  // Most rays miss the circle around the mover, so that its footprints need not be computed.
   const double ox = fleet_.x[robot] - x, oy = fleet_.y[robot] - y;
   const double radius = radius_[robot];
   const double along = ox * dx + oy * dy, across = ox * dy - oy * dx;
@@ -298,7 +299,7 @@ RayHit Obstacles::cast(double x, double y, double z, double dx, double dy, doubl
   };
   for (int handle : everywhere_) test(handle);
 
-  // Cell by cell along the ray (Amanatides and Woo 1987), in units of cells.
+  // Traverses the cells along the ray (Amanatides and Woo 1987), in units of cells.
   const double px = (x - origin_x_) / kCell, py = (y - origin_y_) / kCell;
   int cx = static_cast<int>(std::floor(px)), cy = static_cast<int>(std::floor(py));
   const int step_x = dx < 0 ? -1 : 1, step_y = dy < 0 ? -1 : 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that stands or moves on the floor, seen from above: footprints in a grid of cells.
-// It answers two questions quickly: what is near, and what does a horizontal ray meet.
+// All models on the floor, seen from above: footprints in a grid of cells. Answers two queries
+// quickly: what is near, and what a horizontal ray meets.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace kiva {
 /// Returns a lower bound of the distance between two outlines [m]; negative where they overlap.
 double gap(const Footprint& a, const Footprint& b);
 
-/// Returns whether the gap may be less than `distance`: cheap, and true for some whose gap is not.
+/// Returns whether the gap may be less than `distance`: a fast test with false positives.
 inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double reach = radiusOf(a) + radiusOf(b) + distance;
@@ -29,45 +29,47 @@ inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b)
 struct RayHit {
   double range = 0;  ///< [m]; +inf = nothing
   int model = -1;
-  /// Something is at that distance: the nearest counts, of several as near the first model, so that
-  /// it is the same in whatever order they come.
+  /// Adds a hit at that distance. The nearest hit counts; of equally near ones that of the first
+  /// model, so that the order of calls does not matter.
   void meet(double distance, int other) {
     const bool is_nearer = distance < range || (distance == range && model >= 0 && other < model);
     if (is_nearer) *this = {distance, other};
   }
 };
 
-/// A robot and what it carries are a mover: footprints that move as one with it. They are indexed
-/// by a circle around the robot with some slack, so that the index changes seldom, and are worked
-/// out in world on demand.
+/// The obstacles of a world. A robot with its load is a mover: footprints that move together. A
+/// mover is indexed by a circle around its robot with some slack, so that the index changes seldom.
+/// Its footprints in world are computed on demand.
 class Obstacles {
  public:
-  static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is reindexed.
+  static constexpr double kSlack =
+      0.25;  ///< Distance that a mover may move before it is reindexed [m].
 
-  /// Movers are at the poses of that fleet's robots.
+  /// Movers are at the poses of the fleet's robots.
   explicit Obstacles(const Fleet& fleet) : fleet_(fleet) {}
 
   void clear();
-  /// Returns a handle, valid until removed.
+  /// Adds a footprint. Returns a handle, valid until remove().
   int add(const Footprint& footprint);
   void update(int handle, const Footprint& footprint);
   void remove(int handle);
   const Footprint& operator[](int handle) const { return entries_[handle].footprint; }
 
-  /// The footprints of robot `robot`, in its frame; instead of those it had.
+  /// Replaces the footprints of a robot, given in its frame.
   void setMover(int robot, std::vector<Footprint> local);
-  /// What belongs to `model` of those is higher by so much [m].
+  /// Raises those of its footprints that belong to `model` by `by` [m].
   void raise(int robot, int model, double by);
-  /// Returns the same, as they were set.
+  /// Returns a mover's footprints in the robot's frame.
   const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
-  /// The last mover takes its index, as in the fleet.
+  /// Removes a mover. The last mover takes its index, as in the fleet.
   void removeMover(int robot);
-  /// Reindexes it if it is not, or within the next `way` [m] might not be, where it was.
+  /// Updates the index if the mover has left its circle, or might leave it within the next `way`
+  /// [m].
   void follow(int robot, double way = 0);
-  /// In world, now.
+  /// Returns a mover's present footprints in world.
   const std::vector<Footprint>& footprints(int robot) const;
 
-  /// Calls visit(footprint) for each one whose box lies within `reach` [m] of (x, y).
+  /// Calls visit(footprint) for each footprint whose box lies within `reach` [m] of (x, y).
   template <typename Visit>
   void near(double x, double y, double reach, Visit visit) const {
     const auto see = [&](const Footprint& footprint) {
@@ -76,16 +78,16 @@ class Obstacles {
     };
     any(x, y, reach, see, [&](int robot, double radius) {
       const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
-      const double farthest = radius + std::sqrt(2.0) * reach;  // in a corner of that square
+      const double farthest = radius + std::sqrt(2.0) * reach;  // to a corner of that square
       if (dx * dx + dy * dy > farthest * farthest) return false;
       for (const Footprint& footprint : footprints(robot)) visit(footprint);
       return false;
     });
   }
 
-  /// Returns whether meets(footprint), of what is no mover, or approaches(robot, radius) is true
-  /// for any within `reach` of (x, y). `radius` is that of the circle around the robot that holds
-  /// its mover.
+  /// Returns whether any obstacle within `reach` of (x, y) satisfies its condition:
+  /// meets(footprint) for entries, approaches(robot, radius) for movers. `radius` is that of the
+  /// circle around the robot that contains its mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
     const CellRange cells = range({x - reach, x + reach, y - reach, y + reach});
@@ -95,8 +97,8 @@ class Obstacles {
     });
   }
 
-  /// Returns the same of what has a point within the circle `reach` around (x, y), and of movers
-  /// whose circle has one within `mover_reach`.
+  /// Does the same for entries with a point in the circle of radius `reach` around (x, y), and for
+  /// movers whose circle has a point in that of radius `mover_reach`.
   template <typename Meets, typename Approaches>
   bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
                  Approaches approaches) const {
@@ -115,7 +117,7 @@ class Obstacles {
       const double far = mover_reach;
       return anyHandle(near, range({x - far, x + far, y - far, y + far}), ask);
     }
-    // Few are gone through more quickly than the cells in which they may be.
+    // A few movers are faster to test than the cells in which they may be.
     for (int robot = 0; robot < movers; ++robot) {
       if (moves(robot)) return true;
     }
@@ -123,16 +125,16 @@ class Obstacles {
   }
 
   /// Returns the first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy),
-  /// but for those of `group`: of what it begins in, the inside.
+  /// except those of `group`. A ray that starts inside a shape meets it from inside.
   RayHit cast(double x, double y, double z, double dx, double dy, double range, int group) const;
-  /// The same for the rays of a fan.
+  /// Does the same for the rays of a fan.
   void cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
             FanHits* hits) const;
 
  private:
   static constexpr int kFew = 32;  // movers
 
-  struct CellRange {  // of cells, inclusive
+  struct CellRange {  // range of cells, inclusive
     int x0 = 0, x1 = -1, y0 = 0, y1 = -1;
     bool operator==(const CellRange& o) const {
       return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
@@ -142,7 +144,7 @@ class Obstacles {
   struct Box {  // along the world's axes [m]
     double min_x, max_x, min_y, max_y;
   };
-  struct Place {  // in the index
+  struct Place {  // position in the index
     CellRange range;
     bool everywhere = false;
     bool linked = false;
@@ -152,13 +154,14 @@ class Obstacles {
     Place place;
     bool used = false;
   };
-  struct Corner {  // of a CellRange: where it begins
+  struct Corner {  // first cell of a CellRange
     std::int16_t x0 = 0, y0 = 0;
   };
-  /// Most of what is near a robot is not near enough: to see that costs no look at all of it.
+  /// A circle around an entry. Most obstacles near a robot are ruled out by it, without a look at
+  /// their footprints.
   struct Spot {
     Corner corner;
-    float x = 0, y = 0, radius = 0;  // of a circle that holds it [m]
+    float x = 0, y = 0, radius = 0;  // circle that contains it [m]
 
     bool isWithin(double reach, double from_x, double from_y) const {
       const double dx = x - from_x, dy = y - from_y, most = reach + radius;
@@ -168,21 +171,21 @@ class Obstacles {
   struct Mover {
     std::vector<Footprint> local;  // in the robot's frame
     Place place;
-    double x = 0, y = 0;  // around which it is indexed
+    double x = 0, y = 0;  // centre of the indexed circle
     mutable std::vector<Footprint> world;
-    mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
+    mutable double world_x = 0, world_y = 0, world_yaw = 0;  // pose at which `world` was computed
   };
 
-  /// Returns whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any
-  /// other in one of `near`, asked once each.
+  /// Returns whether ask(handle) is true for any mover indexed in a cell of `far`, or any entry in
+  /// one of `near`; each is asked once.
   template <typename Ask>
   bool anyHandle(const CellRange& near, const CellRange& far, Ask ask) const {
     for (int cy = far.y0; cy <= far.y1; ++cy) {
       for (int cx = far.x0; cx <= far.x1; ++cx) {
         const bool is_near = near.holds(cx, cy);
         for (int handle : cells_[cell(cx, cy)]) {
-          if (handle >= 0 && !is_near) break;  // so are all that follow
-          // In the first of its cells that is one of these.
+          if (handle >= 0 && !is_near) break;  // all further ones are entries as well
+          // Asked in the first of its cells within the range.
           const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
           const CellRange& r = handle >= 0 ? near : far;
           const bool is_first =
@@ -209,13 +212,13 @@ class Obstacles {
 
   const Fleet& fleet_;
   std::vector<Entry> entries_;
-  std::vector<Spot> spots_;  // of each entry
+  std::vector<Spot> spots_;  // by entry
   std::vector<Mover> movers_;
   std::vector<Corner> mover_corner_;
-  std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
+  std::vector<double> radius_;  // by mover [m]; most rays need no more
   std::vector<int> free_;
-  // Handles; ~robot for a mover, which come first: a query for movers far away passes the rest.
-  // Few a cell: beside each other in memory, which is most of a ray.
+  // Handles of each cell; ~robot for a mover. Movers come first, so that a query for distant movers
+  // skips the rest. Few handles are stored inline: reading them is most of a ray's time.
   std::vector<boost::container::small_vector<int, 4>> cells_;
   std::vector<int> everywhere_;  // too large for cells
   double origin_x_ = 0, origin_y_ = 0;

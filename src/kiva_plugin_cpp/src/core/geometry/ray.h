@@ -7,8 +7,8 @@ class btCollisionObject;
 
 namespace kiva {
 
-/// Returns the distance [m] along the unit vector `direction` at which a ray meets that one body,
-/// +inf = not within `range`.
+/// Returns the distance [m] along the unit vector `direction` at which a ray meets that body, +inf
+/// = not within `range`.
 double castBody(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
                 double range);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A laser's rays, all cast at once.
+// A laser's rays, cast together.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +8,31 @@
 
 namespace kiva {
 
-/// Directions of a laser's rays in the frame of its robot, as (cos, sin), evenly spread.
+/// Directions of a laser's rays in its robot's frame, as (cos, sin), evenly spaced.
 struct RayFan {
   int rays = 0;
   double min_angle = 0, max_angle = 0;  ///< [rad], within ±π.
   std::vector<double> c, s;
-  std::vector<double> per_aside;  ///< How far a ray goes for a metre off the heading.
+  std::vector<double> per_aside;  ///< Length of a ray for a metre to the side of the heading.
 };
 
-/// Where a robot's laser is, and its heading, in world.
+/// The pose of a robot's laser in world.
 struct Sensor {
   double x = 0, y = 0, z = 0;  ///< [m]
   double c = 1, s = 0;         ///< Cosine and sine of the heading.
 };
 
-/// How far a fan's rays are of interest [m]: each ends at `range`, or where it is `aside` off the
-/// heading.
+/// The reach of a fan's rays [m]: each ends at `range`, or at the distance `aside` from the
+/// heading's line.
 struct FanReach {
   double range = 0, aside = 0;
 };
 
-/// What each ray of a fan meets.
+/// The hit of each ray of a fan.
 struct FanHits {
-  std::vector<double> range;        ///< [m], where `model` is one.
+  std::vector<double> range;        ///< [m], valid if `model` is.
   std::vector<std::int64_t> model;  ///< -1 = nothing within reach.
-  int first = 0, last = -1;         ///< Others have met nothing, and are not told.
+  int first = 0, last = -1;         ///< Range of rays that may have hits; others are not written.
 };
 
 }  // namespace kiva

@@ -12,10 +12,10 @@ struct PlanarVector {
   double x, y;
 };
 
-/// A rectangle and the other one, seen from its middle along its own axes.
+/// The other rectangle in the frame of the first one.
 struct View {
-  double x, y;  // of the other's middle [m]
-  double c, s;  // of its heading
+  double x, y;  // centre of the other [m]
+  double c, s;  // cosine and sine of its heading
 };
 
 View view(const Rectangle& from, const Rectangle& to) {
@@ -24,7 +24,8 @@ View view(const Rectangle& from, const Rectangle& to) {
           from.c * to.s - from.s * to.c};
 }
 
-/// The side of a rectangle that faces the other, and how far that is beyond it [m].
+/// The side of a rectangle that faces the other, and its distance from the other's nearest point
+/// [m].
 struct Face {
   double apart = -std::numeric_limits<double>::infinity();
   int axis = 0;
@@ -39,12 +40,12 @@ Face nearestFace(const Rectangle& own, const Rectangle& other, const View& v) {
   return {across, 1, v.y < 0 ? -1.0 : 1.0};
 }
 
-/// Seen from a face: `out` of it, and along it.
+/// A point relative to a face: distance out of it, and position along it.
 struct FromFace {
   double out, along;
 };
 
-/// Both ends of the other's side that turns most to the face.
+/// Returns both ends of the other's side that faces this face most.
 std::array<FromFace, 2> opposingSide(const Rectangle& own, const Rectangle& other, const View& v,
                                      const Face& face) {
   const auto fromFace = [&](double x, double y) -> FromFace {
@@ -60,7 +61,7 @@ std::array<FromFace, 2> opposingSide(const Rectangle& own, const Rectangle& othe
   return {fromFace(-other.hx, y), fromFace(other.hx, y)};
 }
 
-/// Cuts off what of the side lies beside the face. Returns false if that is all of it.
+/// Clips the side to the width of the face. Returns false if nothing is left.
 bool clip(std::array<FromFace, 2>* side, double half) {
   auto& [p, q] = *side;
   if (p.along > q.along) std::swap(p, q);
@@ -79,7 +80,7 @@ PlanarVector inWorld(const Rectangle& own, double x, double y) {
   return {own.x + own.c * x - own.s * y, own.y + own.s * x + own.c * y};
 }
 
-/// Contacts of the face's rectangle `own`; the normal leads out of the face.
+/// Returns contacts of the face's rectangle `own`; the normal points out of the face.
 OutlineContacts atFace(const Rectangle& own, const Face& face, std::array<FromFace, 2> side,
                        double reach, bool own_is_first) {
   OutlineContacts out;

@@ -5,18 +5,18 @@
 
 namespace kiva {
 
-/// On the floor, turned by (c, s). In world [m].
+/// A rectangle on the floor, rotated by (c, s). In world [m].
 struct Rectangle {
   double x = 0, y = 0;
   double c = 1, s = 0;
   double hx = 0, hy = 0;
 };
 
-/// Where two outlines touch, or may touch soon.
+/// A point where two outlines touch, or may touch soon.
 struct OutlineContact {
-  double x = 0, y = 0;    ///< On the second one, in world [m].
+  double x = 0, y = 0;    ///< Position on the second one, in world [m].
   double nx = 0, ny = 0;  ///< Unit normal, from the second to the first.
-  double distance = 0;    ///< Along it [m]; negative where they overlap.
+  double distance = 0;    ///< Distance along the normal [m]; negative where they overlap.
 };
 
 struct OutlineContacts {
@@ -24,11 +24,11 @@ struct OutlineContacts {
   std::array<OutlineContact, 2> at;
 };
 
-/// Returns where two rectangles are no farther apart than `reach` [m]: both ends of the stretch
-/// along which a side of the one faces a side of the other, or the two corners that are nearest.
+/// Returns the contacts of two rectangles within `reach` [m]: both ends of the stretch along which
+/// their sides face each other, or their two nearest corners.
 OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reach);
 
-/// Returns whether they are seen to be farther apart than that [m], at a glance.
+/// Returns whether a quick test shows that they are farther apart than `distance` [m].
 bool areFarther(double distance, const Rectangle& a, const Rectangle& b);
 
 }  // namespace kiva

@@ -9,7 +9,7 @@
 namespace kiva {
 namespace {
 
-/// Where a line is inside something: from `enter` to `leave`, nowhere if that is before.
+/// The part of a line inside a shape, from `enter` to `leave`; empty if `leave` is less.
 struct Span {
   double enter = kInfinity, leave = -kInfinity;
   bool empty() const { return enter > leave; }
@@ -19,19 +19,19 @@ Span common(const Span& a, const Span& b) {
   return {std::max(a.enter, b.enter), std::min(a.leave, b.leave)};
 }
 
-/// Returns the span around both, of one convex body's parts.
+/// Returns the span that covers both, which are parts of one convex body.
 Span around(const Span& a, const Span& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
   return {std::min(a.enter, b.enter), std::max(a.leave, b.leave)};
 }
 
-/// Returns where a t² + 2 b t + c <= 0.
+/// Returns the span where a t² + 2 b t + c <= 0.
 Span within(double a, double b, double c) {
   if (a < 1e-300) return c <= 0 ? Span{-kInfinity, kInfinity} : Span{};
   const double discriminant = b * b - a * c;
   if (discriminant < 0) return {};
-  // The root that has no cancellation first, the other by their product.
+  // The first root has no cancellation; the other follows from their product.
   const double far = -(b + std::copysign(std::sqrt(discriminant), b));
   const double t0 = far / a, t1 = far == 0 ? 0 : c / far;
   return {std::min(t0, t1), std::max(t0, t1)};
@@ -41,7 +41,7 @@ Span inSphere(const Vector3& from, const Vector3& way, double radius) {
   return within(way.Dot(way), way.Dot(from), from.Dot(from) - radius * radius);
 }
 
-/// In a cylinder without ends along z.
+/// Returns the span in an infinite cylinder along z.
 Span inTube(const Vector3& from, const Vector3& way, double radius) {
   return within(way.X() * way.X() + way.Y() * way.Y(), way.X() * from.X() + way.Y() * from.Y(),
                 from.X() * from.X() + from.Y() * from.Y() - radius * radius);
@@ -68,7 +68,7 @@ Span inside(Shape::Kind kind, const Vector3& half, const Vector3& from, const Ve
       return around(
           tube, around(inSphere(from - end, way, half.X()), inSphere(from + end, way, half.X())));
     }
-    default:  // an ellipsoid: a unit sphere, seen along its radii
+    default:  // an ellipsoid: a unit sphere after scaling by its radii
       return inSphere(from / half, way / half, 1);
   }
 }

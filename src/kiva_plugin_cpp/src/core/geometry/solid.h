@@ -5,10 +5,10 @@
 
 namespace kiva {
 
-/// A box, cylinder, capsule or ellipsoid in any position, as rays see it.
+/// A box, cylinder, capsule or ellipsoid in any orientation, for rays.
 struct Solid {
   Solid() = default;
-  /// `rotation`: of the shape, in the frame that rays are told in.
+  /// `rotation`: that of the shape, in the frame of the rays.
   Solid(const Shape& shape, const Quaternion& rotation);
 
   static bool canBe(Shape::Kind kind);

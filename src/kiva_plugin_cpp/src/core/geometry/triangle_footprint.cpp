@@ -33,7 +33,7 @@ Interval project(const Footprint& f, double nx, double ny) {
   return {centre - half, centre + half};
 }
 
-/// Gap along one axis of any length; none along an axis of no length.
+/// Returns the gap along an axis of any length; -inf for length 0.
 double gapAlong(const Triangle& triangle, const Footprint& other, double nx, double ny) {
   const double length = std::hypot(nx, ny);
   if (length < 1e-12) return -kInfinity;
@@ -46,7 +46,7 @@ struct CutEnd {
   double x = 0, y = 0;
 };
 
-/// Finds where the triangle is cut at height z. Returns false if it is not.
+/// Computes the line in which the triangle is cut at height z. Returns false if it is not cut.
 bool slice(const Triangle& triangle, double z, CutEnd* from, CutEnd* to) {
   CutEnd* const ends[] = {from, to};
   int count = 0;
@@ -110,7 +110,7 @@ double gapToTriangle(const Triangle& triangle, const Footprint& other) {
     const Vector3& a = triangle[i];
     const Vector3 edge = triangle[(i + 1) % 3] - a;
     test(-edge.Y(), edge.X());
-    test(edge.X(), edge.Y());  // seen from above, an upright triangle is a line with two ends
+    test(edge.X(), edge.Y());  // from above, a vertical triangle is a line with two ends
     if (other.kind != Footprint::Kind::kBox) test(other.x - a.X(), other.y - a.Y());
   }
   if (other.kind == Footprint::Kind::kBox) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The geometry of a static mesh is that of its triangles, one by one: a building is hollow, and
-// what hangs from its roof is in no robot's way.
+// The geometry of a static mesh is that of its single triangles: a building is hollow, and objects
+// that hang from its roof block no robot.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@ namespace kiva {
 /// Corners in world [m].
 using Triangle = std::array<Vector3, 3>;
 
-/// One of a mesh that stands at that pose in world.
+/// Returns a triangle of a mesh at that pose in world.
 Triangle cornersOf(const Mesh& mesh, int triangle, const Pose& pose);
 
-/// Returns what it covers on the floor. The triangle must outlive the footprint.
+/// Returns its footprint. The triangle must outlive the footprint.
 Footprint makeFootprint(const Triangle& triangle);
 
-/// Returns the distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) at
-/// which it meets the triangle from either side [m]; +inf = not at all.
+/// Returns the distance at which the horizontal ray from (x, y, z) along the unit vector (dx, dy)
+/// meets the triangle from either side [m]; +inf = not at all.
 double castTriangle(const Triangle& triangle, double x, double y, double z, double dx, double dy);
 
 /// Returns a lower bound of the distance between the triangle, seen from above, and another
-/// geometry [m]; negative where they overlap.
+/// footprint [m]; negative where they overlap.
 double gapToTriangle(const Triangle& triangle, const Footprint& other);
 
 }  // namespace kiva

@@ -17,9 +17,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kJoint = 0.1;       // [m]: narrower gaps are joints of slabs
-constexpr double kMostCells = 1e5;   // among which gaps are looked for
-constexpr double kLeastGrip = 1e-3;  // Coulomb coefficient with which a cell takes half a minute
+constexpr double kJoint = 0.1;       // [m]; narrower gaps are joints of slabs
+constexpr double kMostCells = 1e5;   // largest floor that is searched for gaps
+constexpr double kLeastGrip = 1e-3;  // Coulomb coefficient at which a cell takes half a minute
 
 void widen(FloorExtent* floor, const LevelSurface& surface) {
   floor->min_x = std::min(floor->min_x, surface.min_x);
@@ -28,7 +28,7 @@ void widen(FloorExtent* floor, const LevelSurface& surface) {
   floor->max_y = std::max(floor->max_y, surface.max_y);
 }
 
-/// Calls visit(model, surface) for the level surfaces of all that stands.
+/// Calls visit(model, surface) for the level surfaces of all static models.
 template <typename Visit>
 void forSurfaces(const Scene& world, Visit visit) {
   for (const auto& model : world.models) {
@@ -37,23 +37,22 @@ void forSurfaces(const Scene& world, Visit visit) {
   }
 }
 
-/// Returns whether wheels get from the floor onto it.
+/// Returns whether wheels can drive from the floor onto it.
 bool isAtFloor(const FloorState& floor, const LevelSurface& surface) {
   return std::abs(surface.z - floor.extent.z) <= kStep + 1e-9;
 }
 
-/// Returns by which the floor's own surface is chosen among those near its height; 0 for all
-/// others.
+/// Returns the rank of a surface near that height, by which the floor's own is chosen; 0 elsewhere.
 double extentAt(double height, const LevelSurface& surface) {
   if (std::abs(surface.z - height) > kSameHeight) return 0;
   return surface.is_plane ? std::numeric_limits<double>::infinity() : surface.area;
 }
 
-/// Returns the height of the largest surface. Of two about as large, the undersides of slabs for
-/// one, the upper one.
+/// Returns the height of the largest surface; the higher one of two about as large, such as the two
+/// sides of a slab.
 std::optional<double> floorHeight(const Scene& world) {
   std::optional<double> plane;
-  std::map<long long, std::pair<double, double>> bounded;  // by height: area, height
+  std::map<long long, std::pair<double, double>> bounded;  // by rounded height: area, height
   forSurfaces(world, [&](const LevelSurface& surface) {
     if (surface.is_plane) {
       plane = std::max(plane.value_or(surface.z), surface.z);
@@ -78,11 +77,11 @@ void warnOfSlipperyFloor(EventLog& log, double friction) {
   std::ostringstream text;
   text << "the floor: its friction for wheels is " << friction << "; below " << kLeastGrip
        << " robots take minutes for a cell or can't move at all. The <mu> of the floor's <surface> "
-          "and the <friction> of the robots' motion plugin tell it";
+          "and the <friction> of the robots' motion plugin set it";
   log.warn("floor friction", text.str());
 }
 
-/// What is low enough counts as floor: wheels cross it without a bump.
+/// Warns of low surfaces that count as floor: wheels cross them without a bump.
 void warnOfBumps(const Scene& world, EventLog& log) {
   for (const auto& model : world.models) {
     if (!model) continue;
@@ -97,8 +96,7 @@ void warnOfBumps(const Scene& world, EventLog& log) {
   }
 }
 
-/// Returns the first grid point from which a grid line leads over a gap in the floor to a next
-/// point that lies on the floor.
+/// Returns the first grid point from which a grid line crosses a gap to another point on the floor.
 std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
   const FloorExtent& extent = world.floor.extent;
   const double cell = world.settings.grid_spacing;
@@ -124,8 +122,8 @@ std::optional<PathPoint> findGap(const Scene& world, const FloorCover& cover) {
   return std::nullopt;
 }
 
-/// Returns whether gaps are looked for: not in planes, nor where the floor is so large that the
-/// search takes long.
+/// Returns whether to search for gaps: not in planes, nor where a floor is so large that the search
+/// takes long.
 bool mayHaveGaps(const Scene& world) {
   int parts = 0;
   bool has_plane = false;
@@ -150,7 +148,8 @@ void warnOfGaps(const Scene& world, EventLog& log, const FloorCover& cover) {
   log.warn("floor gaps", text.str());
 }
 
-/// Static models have other low parts, robots and storage units stand higher or lower.
+/// Fits all models to the floor's height. Static models get other low parts; robots and storage
+/// units move up or down.
 void fitToFloor(ContactView& world) {
   for (const auto& model : world.models) {
     if (!model || !model->isStatic() || !model->in_physics) continue;
@@ -197,7 +196,7 @@ void measureFloor(ModelView& world) {
 void findFloorParts(const Scene& world, FloorState& floor, EventLog& log) {
   if (!floor.cover_due) return;
   floor.cover_due = false;
-  double holds = 0;  // what the best wheels grip with where the floor lets them
+  double holds = 0;  // best grip of all wheels on a perfect floor
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
   const double usual = std::min(holds, floor.friction);
   if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(log, usual);

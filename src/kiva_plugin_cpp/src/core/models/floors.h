@@ -5,13 +5,14 @@
 
 namespace kiva {
 
-/// Finds height, extent and friction of the floor in the level surfaces of all static models. The
-/// largest tells height and friction; a plane only where nothing large lies on it. If the height is
-/// another than it was, everything is fitted to it: robots and storage units stand on it.
+/// Determines height, extent and friction of the floor from the level surfaces of all static
+/// models. The largest surface determines height and friction; a plane only if there is no large
+/// surface. If the height has changed, robots and storage units are moved to it.
 void measureFloor(ModelView& world);
 
-/// Finds the surfaces that grip otherwise than the largest one, if the floor or the robots have
-/// changed since the last time. Surfaces on which every robot's wheels hold as well are no others.
+/// Determines the surfaces that grip differently from the largest one, if the floor or the robots
+/// have changed since the last call. A surface on which every robot's wheels hold as well does not
+/// count.
 void findFloorParts(const Scene& world, FloorState& floor, EventLog& log);
 
 }  // namespace kiva

@@ -22,8 +22,8 @@ auto& unitBelow(View& world, const Model& model) {
   return *world.models[world.storage.units[world.storage.items[model.index].unit].model];
 }
 
-/// Returns the unit that an item lies on. One that was raised onto the floor takes along what would
-/// lie on it had the floor been where it was thought to be.
+/// Returns the unit that an item lies on. A unit that was raised onto the floor takes along the
+/// items that would lie on it without that.
 int findUnit(const Scene& world, Model& item) {
   const Vector3 lift(0, 0, std::max(0.0, world.floor.extent.z));
   const int raised = unitAt(world, item.pose.Pos() + lift);
@@ -61,7 +61,7 @@ void Items::add(ModelView& world, Model& model) const {
 
 void Items::remove(ModelView& world, Model& model) const {
   OrdinaryModels::remove(world, model);
-  if (model.index < 0) return;  // it never joined
+  if (model.index < 0) return;  // it never joined the items
   const Item gone = world.storage.items[model.index];
   const int last = static_cast<int>(world.storage.items.size()) - 1;
   world.storage.take(model.index);
@@ -82,7 +82,7 @@ void Items::place(ModelView& world, Model& model, const EntityState& state) cons
   item.pose_in_unit = unitPose(world, item.unit).Inverse() * state.pose;
 }
 
-/// One that lies on a unit goes where that goes.
+/// An item on a unit follows the unit.
 void Items::reset(ModelView& world, Model& model) const {
   if (!liesOnUnit(world.storage, model)) return OrdinaryModels::reset(world, model);
   Item& item = world.storage.items[model.index];
@@ -141,7 +141,7 @@ void putBack(ModelView& world, Model& model, const Model& unit) {
   addMass(world, item.unit, item.mass);
   world.storage.noteMove();
   invalidateClearance(world.fleet);
-  wakeBodies(world.models);  // what lies on it falls
+  wakeBodies(world.models);  // bodies on top of it fall
   ++world.models.revision;
 }
 

@@ -18,8 +18,8 @@ constexpr char kTowerLink[] = "tower";
 constexpr double kGuided =
     0.02;  // largest offset [m] and angle [rad] that the tower's guide corrects
 
-/// Returns the smallest distance from the middle to an edge of the plate on which loads stand, or
-/// of the chassis without a plate [m].
+/// Returns the shortest distance from the centre to an edge of the plate that loads stand on, or of
+/// the chassis without a plate [m].
 double plateReach(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   Bounds box;
@@ -67,8 +67,8 @@ void loadRobot(RobotView& world, int robot, int unit) {
   r.load_half_width = std::max(box.max.Y(), -box.min.Y());
 }
 
-/// Robots that don't know exactly where they are would carry a unit a little farther off its place
-/// each time, if the guide on the tower did not centre it.
+/// Centres a unit on the tower by its guide. Robots with estimated poses would otherwise put it
+/// down a little farther off its place each time.
 void centre(Pose* on_tower) {
   const double square = std::round(on_tower->Rot().Yaw() / (M_PI / 2)) * M_PI / 2;
   const double off = std::hypot(on_tower->X(), on_tower->Y());
@@ -83,7 +83,8 @@ void takeUp(ContactView& world, int robot, int unit) {
   Model& model = *world.models[u.model];
   if (model.in_physics) deactivate(world, model);
   u.pose_on_carrier = towerPose(world, robot).Inverse() * unitPose(world, unit);
-  u.pose_on_carrier.Pos().Z() = -underside(world, unit);  // however far the tower went in a step
+  u.pose_on_carrier.Pos().Z() =
+      -underside(world, unit);  // even if the tower has moved farther within a step
   if (world.fleet.localises) centre(&u.pose_on_carrier);
   u.carrier = robot;
   u.claimed_by = -1;

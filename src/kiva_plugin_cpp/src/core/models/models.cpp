@@ -23,7 +23,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kMaxCoordinate = 1e5;  // [m]; beyond, a double grows too coarse for contacts
+constexpr double kMaxCoordinate = 1e5;  // [m]; beyond, doubles are too coarse for contacts
 constexpr double kMaxSpeed = 1e4;       // [m/s, rad/s]; bodies beyond pass through each other
 
 [[noreturn]] void refuse(const ModelInstance& instance, const std::string& why) {
@@ -74,7 +74,7 @@ Model& addModel(ModelTable& models, const ModelInstance& instance) {
   return models.add(std::move(model));
 }
 
-/// Returns whether a plugin of that file comes with the world and is dealt with elsewhere.
+/// Returns whether a plugin of that file comes with the world and is loaded elsewhere.
 bool isOurs(const Plugins& plugins, const Model& model, const PluginDescription& plugin) {
   const std::string& where = plugin.parameters.where();
   if (const FleetPlugin* ours = findFleetPlugin(plugins, plugin.filename)) {
@@ -116,7 +116,7 @@ void dismantle(ModelView& world, Model& model) {
   model.owner->remove(world, model);
   hideFootprints(world.obstacles, model);
   world.models.remove(model.slot);
-  wakeBodies(world.models);  // what sleeps on something falls once that is gone
+  wakeBodies(world.models);  // sleeping bodies on top of it fall once it is gone
 }
 
 void loadAllPlugins(ContactView& world, Model& model) {
@@ -124,14 +124,15 @@ void loadAllPlugins(ContactView& world, Model& model) {
   if (!model.plugins.empty()) world.models.with_plugins.push_back(model.slot);
 }
 
-/// Others notice that a model was put somewhere.
+/// Updates all that depends on a model's place.
 void placed(MotionView& world, Model& model) {
   moved(world, model);
   invalidateClearance(world.fleet);
   wakeBodies(world.models);
 }
 
-/// `model::link::collision` of a part. A body of several links' parts knows their names only.
+/// Returns `model::link::collision` of a part. A body with parts of several links only has their
+/// names.
 std::string collisionName(const ModelTable& models, const btCollisionObject* body,
                           const BodyPart* part) {
   const Model& model = *models[part ? part->model : body->getUserIndex()];
@@ -175,7 +176,7 @@ const ModelOwner& ownerOf(ModelKind kind) {
 }
 
 void loadPlugins(TaskView& world, Model& model) {
-  const auto description = model.description;  // a plugin may give the model another
+  const auto description = model.description;  // a copy, since a plugin may replace it
   for (const PluginDescription& plugin : description->plugins) {
     loadPlugin(world, model, plugin, nullptr);
   }

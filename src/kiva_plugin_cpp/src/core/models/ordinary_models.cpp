@@ -86,7 +86,7 @@ void OrdinaryModels::place(ModelView& world, Model& model, const EntityState& st
 
 void OrdinaryModels::reset(ModelView& world, Model& model) const {
   if (!followsBodies(model)) return place(world, model, {model.spawn_pose, {}});
-  world.physics.remove(model.bodies);  // joints too: the model is rebuilt
+  world.physics.remove(model.bodies);  // with its joints: the model is rebuilt
   model.pose = model.spawn_pose;
   insertBodies(world, world.physics, model);
   initJoints(model);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models that are in Bullet for as long as they exist: obstacles, belts, floors, and machines with
-// joints of their own.
+// Models that always are in Bullet: obstacles, belts, floors, and machines with joints.
 #pragma once
 
 #include "core/state/views/model_view.h"
@@ -26,7 +25,7 @@ class OrdinaryModels : public ModelOwner {
   int group(const Model& model) const override { return kMaxKivaId + 1 + model.slot; }
 };
 
-/// Obstacles that robots are meant to drive up to.
+/// Obstacles up to which robots are meant to drive.
 class ConveyorBelts : public OrdinaryModels {
  public:
   std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {
@@ -35,7 +34,7 @@ class ConveyorBelts : public OrdinaryModels {
   int group(const Model& /*model*/) const override { return -1; }
 };
 
-/// What wheels roll on. All floors together make the ground that robots may stand on.
+/// Models on which wheels roll. All floors together are the ground on which robots may stand.
 class Floors : public OrdinaryModels {
  public:
   bool isFloor() const override { return true; }
@@ -44,10 +43,10 @@ class Floors : public OrdinaryModels {
   }
 };
 
-/// Puts a model's bodies there, at that velocity.
+/// Moves a model's bodies to a pose, with that velocity.
 void moveBodies(Model& model, const EntityState& to);
-/// Changes the velocity of all its bodies as that of one rigid body, until its canonical link has
-/// this one.
+/// Changes the velocity of all bodies as that of one rigid body, so that the canonical link gets
+/// `twist`.
 void setModelTwist(Model& model, const Twist& twist);
 void setBodyState(LinkBody& link, const EntityState& to);
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr char kMotionPlugin[] = "libkiva_motion.so";
 constexpr double kUprightAngle = 1e-3;  // [rad]
-constexpr double kNearFloor = 1.0;      // [m]: from where a spawned robot is put on the floor
+constexpr double kNearFloor = 1.0;  // [m] above the floor up to which a spawned robot is put on it
 
 int idIn(const std::string& name) {
   const int id = numberIn(name, "kiva");
@@ -62,17 +62,17 @@ Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   return shape;
 }
 
-/// Returns what its motion plugin says of the real world, if it says anything.
+/// Returns the realism in the parameters of a motion plugin, if there is any.
 std::optional<Realism> realismOf(const Parameters& parameters) {
   const auto below = parameters.values().lower_bound("realism");
   if (below == parameters.values().end() || below->first.rfind("realism", 0) != 0) {
     return std::nullopt;
   }
-  parameters.text("realism", "");  // around its sections: blank
+  parameters.text("realism", "");  // blanks around its sections
   return readRealism(parameters, "realism/");
 }
 
-/// Throws DescriptionError if robots of this world are told otherwise already.
+/// Throws DescriptionError if the world has another realism already.
 void checkRealism(const Scene& world, const Parameters& parameters) {
   const std::optional<Realism> asked = realismOf(parameters);
   if (!asked || world.settings.options.realism || !world.settings.realism_of_models) return;
@@ -82,7 +82,7 @@ void checkRealism(const Scene& world, const Parameters& parameters) {
                          "the same");
 }
 
-/// The world's is that of the first robot whose file says anything of it, unless it was given.
+/// Adopts the realism of the first robot whose file has one, unless the world's options do.
 void adoptRealism(const Scene& world, FleetState& fleet, WorldSettings& settings,
                   const ModelDescription& description) {
   if (settings.options.realism || settings.realism_of_models) return;
@@ -107,7 +107,7 @@ void configure(const Scene& world, const ModelDescription& description, Robot* r
   if (world.settings.options.drive) robot->drive.drive = *world.settings.options.drive;
 }
 
-/// What is stored by index follows a robot that got another one.
+/// Updates all that is stored by a robot's index after a change of that index.
 void reindexRobot(MotionView& world, int from, int to) {
   Model& model = world.models.of(world.fleet.robots[to]);
   model.index = to;
@@ -127,7 +127,7 @@ void weigh(const ModelDescription& description, Robot* robot) {
   robot->centre[1] = whole.centre().Y();
 }
 
-/// Reads the tyres' friction, where the model has wheels.
+/// Sets the tyres' friction, if the model has wheels.
 void setTyres(const ModelDescription& description, Robot* robot) {
   const char* const wheels[] = {"left_wheel", "right_wheel"};
   for (int side = 0; side < 2; ++side) {
@@ -145,9 +145,9 @@ void stand(FleetState& f, int robot, const EntityState& at) {
   f.yaw_rate[robot] = at.twist.angular.Z();
 }
 
-/// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
+/// Varies motors and tyres a little from the values in the file, by which plans are made.
 void setSpread(const WorldSettings& settings, Robot* robot) {
-  constexpr double kMost = 3;  // deviations that are delivered
+  constexpr double kMost = 3;  // limit in standard deviations
   const ActuationRealism& real = settings.realism.actuation;
   if (!real.enabled) return;
   RandomStream random(settings.options.seed, Matter::kActuation, robot->id, 0);
@@ -187,12 +187,12 @@ void Robots::add(ModelView& world, Model& model) const {
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (world.fleet.localises) calibrate(world, model.index);
   moved(world, model);
-  if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
+  if (jointed) jointedBody(world, model.index);  // throws if a wheel is missing
 }
 
 void Robots::remove(ModelView& world, Model& model) const {
   const int robot = model.index, last = world.fleet.size() - 1;
-  if (robot < 0) return;  // it never joined
+  if (robot < 0) return;  // it never joined the fleet
   if (world.fleet.unit[robot] >= 0) putDown(world, robot);
   for (StorageUnit& unit : world.storage.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
@@ -236,14 +236,14 @@ void Robots::reset(ModelView& world, Model& model) const {
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
-  if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
+  if (fleet.localises) relocate(world, robot);  // its wheels are at 0 now
 }
 
 EntityState Robots::state(const Scene& world, const Model& model) const {
   return robotState(world, model.index);
 }
 
-/// Wheels turned and tower raised.
+/// Returns a link's pose, with wheels turned and tower raised.
 Pose Robots::linkPose(const Scene& world, const Model& model, int link) const {
   const Fleet& fleet = world.fleet;
   const int robot = model.index;
@@ -255,7 +255,7 @@ Pose Robots::linkPose(const Scene& world, const Model& model, int link) const {
   for (int wheel = 0; wheel < 2; ++wheel) {
     if (description.name != (wheel == 0 ? "left_wheel" : "right_wheel")) continue;
     const double angle = wrapAngle(fleet.wheel_angle[wheel][robot]);
-    // The axle is the chassis' y axis, however the wheel's own frame is turned.
+    // The axle is the chassis' y axis, whatever the wheel's own frame.
     const Vector3 axle = description.pose_in_model.Rot().RotateVectorReverse(Vector3::UnitY);
     return pose * Pose(Vector3::Zero, Quaternion(axle, angle));
   }
@@ -268,7 +268,7 @@ void Robots::reweigh(ContactView& world, Model& model, double /*added*/) const {
   rebuildBody(world, model);
 }
 
-/// Pushes the robot; the grip of its wheels answers in the same step.
+/// Pushes the robot; the grip of its wheels counteracts in the same step.
 bool Robots::push(ContactView& world, Model& model, int /*link*/, const Vector3& at,
                   const Vector3& force, const Vector3& torque) const {
   FleetState& f = world.fleet;

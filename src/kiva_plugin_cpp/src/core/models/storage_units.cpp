@@ -16,11 +16,11 @@
 namespace kiva {
 namespace {
 
-// A unit that is slower, more upright and no higher than this stands on its legs again.
+// Limits within which a unit stands on its legs again: speed, tilt and height above the floor.
 constexpr double kStill = 1e-3;     // [m/s]
 constexpr double kTilt = 1 - 5e-5;  // cosine
 constexpr double kAbove = 0.002;    // [m]
-constexpr double kResting = 0.05;   // [s] for which Bullet has found it at rest
+constexpr double kResting = 0.05;   // [s] at rest in Bullet
 
 bool standsStill(const Scene& world, const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
@@ -72,7 +72,7 @@ void StorageUnits::add(ModelView& world, Model& model) const {
 }
 
 void StorageUnits::remove(ModelView& world, Model& model) const {
-  if (model.index < 0) return;  // it never joined
+  if (model.index < 0) return;  // it never joined the units
   const int index = model.index, last = static_cast<int>(world.storage.units.size()) - 1;
   const StorageUnit& unit = world.storage.units[index];
   if (unit.carrier >= 0) unload(world, unit.carrier);
@@ -98,7 +98,7 @@ std::vector<int> StorageUnits::passengers(const Scene& world, const Model& model
 void StorageUnits::place(ModelView& world, Model& model, const EntityState& state) const {
   takeAway(world, model);
   model.pose = state.pose;
-  letFall(world, model);  // one that is moved by hand may float: let Bullet tell
+  letFall(world, model);  // a unit placed by hand may float: Bullet decides
   moveBodies(model, state);
 }
 
@@ -140,7 +140,7 @@ bool StorageUnits::push(ContactView& world, Model& model, int link, const Vector
   return OrdinaryModels().push(world, model, link, at, force, torque);
 }
 
-/// With the mass of its items.
+/// Builds the body with the mass of the unit's items.
 ModelBodies StorageUnits::build(const Scene& world, const Model& model) const {
   const StorageUnit& unit = world.storage.units[model.index];
   ModelDescription loaded = *model.description;
@@ -160,7 +160,7 @@ bool StorageUnits::mayBeUpright(const Scene& world, const Model& model) const {
   return canSlideUpright(world, model) && standsUpright(world, model.index);
 }
 
-/// Takes over where Bullet left the unit, upright on its legs.
+/// Takes the unit over from Bullet, upright on its legs.
 void StorageUnits::deactivated(RobotView& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
@@ -169,7 +169,7 @@ void StorageUnits::deactivated(RobotView& world, Model& model) const {
   model.disturbed = false;
 }
 
-/// One that was pushed leaves as soon as it has come to rest: else it and a robot beside it would
+/// A unit that was pushed leaves as soon as it is at rest: otherwise it and a robot beside it would
 /// keep each other in Bullet.
 bool StorageUnits::mayLeaveBullet(const Scene& world, const Model& model, bool is_alone) const {
   if (!model.disturbed) return is_alone;
@@ -177,7 +177,7 @@ bool StorageUnits::mayLeaveBullet(const Scene& world, const Model& model, bool i
   return (is_alone || rests) && standsStill(world, model);
 }
 
-/// From now on it is where its body is.
+/// Makes the pose of its body the unit's own from now on.
 void StorageUnits::touched(MotionView& world, Model& model) const {
   if (model.disturbed || world.storage.units[model.index].carrier >= 0) return;
   model.disturbed = true;
@@ -188,7 +188,8 @@ int StorageUnits::robot(const Scene& world, const Model& model) const {
   return world.storage.units[model.index].carrier;
 }
 
-/// Returns whether the unit stops that robot: one without a load passes beneath a standing unit.
+/// Returns whether the unit stops that robot: a robot without a load passes beneath a standing
+/// unit.
 bool StorageUnits::stops(const Scene& world, const Model& model, int robot) const {
   return world.fleet.unit[robot] >= 0 || world.storage.units[model.index].carrier >= 0;
 }

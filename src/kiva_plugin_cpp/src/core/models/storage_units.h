@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage units: they stand on their legs, lie where they were thrown, or rest on a robot.
+// Storage units: they stand on their legs, lie on the floor, or rest on a robot.
 #pragma once
 
 #include "core/state/views/model_view.h"
@@ -24,7 +24,7 @@ class StorageUnits : public ModelOwner {
   bool mayBeUpright(const Scene& world, const Model& model) const override;
   void deactivated(RobotView& world, Model& model) const override;
   bool mayLeaveBullet(const Scene& world, const Model& model, bool is_alone) const override;
-  bool tellsCollisions() const override { return true; }
+  bool reportsCollisions() const override { return true; }
   void touched(MotionView& world, Model& model) const override;
   int robot(const Scene& world, const Model& model) const override;
   bool stops(const Scene& world, const Model& model, int robot) const override;

@@ -16,8 +16,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// Returns the folders that KIVA_PLUGIN_PATH lists, then those of the libraries of sourced
-/// workspaces.
+/// Returns the folders of KIVA_PLUGIN_PATH, then the library folders of sourced workspaces.
 std::vector<std::filesystem::path> libraryFolders() {
   std::vector<std::filesystem::path> out;
   const auto add = [&out](const char* list, const char* below) {
@@ -31,8 +30,8 @@ std::vector<std::filesystem::path> libraryFolders() {
   return out;
 }
 
-/// Returns the library's path; empty, with the reason, if there is none. A document from anywhere
-/// names it, so it does not get to choose the folder.
+/// Returns the library's path; empty, with the reason, if there is none. An untrusted document may
+/// name the library, so it can't choose the folder.
 std::string locate(const std::string& filename, std::string* why) {
   if (filename.find('/') != std::string::npos) {
     *why = "'" + filename + "' is a path; a library's name was expected";
@@ -73,15 +72,15 @@ std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::stri
                          (others.empty() ? "" : "; it has " + others));
 }
 
-/// Returns what is left out, and why: `where` names the model as its file does, and here as it is
-/// called.
+/// Returns a warning that a plugin is left out, with the reason. `where` names the model as in its
+/// file, `model` as it is called here.
 std::string leftOut(const std::string& where, const std::string& model, std::string why) {
   if (why.rfind(where + ": ", 0) == 0) why.erase(0, where.size() + 2);
   const bool is_named = model.empty() || where.find("'" + model + "'") != std::string::npos;
   return where + (is_named ? "" : " of '" + model + "'") + ": the plugin is left out: " + why;
 }
 
-/// What is misspelt is an error, but for plugins that take the parameters of others.
+/// Throws for a misspelt parameter, unless the plugin takes those of another.
 void checkUnread(EventLog& log, const Plugin& plugin, const std::string& filename,
                  const Parameters& parameters) {
   if (plugin.isStrict()) return parameters.rejectUnread();

@@ -8,11 +8,11 @@
 
 namespace kiva {
 
-/// Makes the plugin of that file name and loads it: the table of the world's options is asked, then
-/// a user's library is looked for, by its bare name, in the folders of KIVA_PLUGIN_PATH and in lib/
-/// of the workspaces that were sourced. Null, with a warning, if there is none. `model` is empty
-/// for a plugin of the world, `sensor` null for one that sits in none. Throws DescriptionError if
-/// it is there but can't be loaded, or refuses.
+/// Makes and loads the plugin of that file name. The plugin table of the world's options precedes
+/// users' libraries, which are searched for by file name in the folders of KIVA_PLUGIN_PATH, then
+/// in lib/ of the sourced workspaces. Returns null, with a warning, if there is none. `model` is
+/// empty for a plugin of the world; `sensor` is null unless the plugin sits in one. Throws
+/// DescriptionError if it can't be loaded, or refuses.
 std::shared_ptr<Plugin> loadPlugin(TaskView& world, const std::string& model,
                                    const std::string& filename, const Parameters& parameters,
                                    const SensorDescription* sensor);

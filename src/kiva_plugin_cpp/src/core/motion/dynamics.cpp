@@ -19,7 +19,7 @@
 namespace kiva {
 namespace {
 
-constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking another
+constexpr int kDrivesTogether = 128;  // on one thread: fewer do not justify waking another
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
@@ -39,7 +39,7 @@ void pushBody(const Scene& world, int robot) {
 void readBody(RobotView& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
-  // The robot's origin before it moved, as the integration in arrays leaves it.
+  // The robot's origin before its motion, to which the integration in arrays refers.
   const btVector3 arm = toBullet(centreFromOrigin(f, robot));
   const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
   const btTransform pose =
@@ -56,27 +56,27 @@ void readBody(RobotView& world, int robot) {
   }
 }
 
-/// Puts a robot at rest to sleep, until a command or another model moves it.
+/// Returns whether a robot at rest has no work until a command or another model moves it.
 bool hasNothingToDo(const FleetState& f, int robot) {
   const Phase phase = f.tasks[robot].phase;
   if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;
   return isHeld(f, robot) && (phase == Phase::kStarting || f.reference_speed[robot] == 0);
 }
 
-/// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
-/// to go on, or is hit.
+/// Puts a robot to sleep that stands without a command, waits, or is stopped, until it goes on or
+/// is hit.
 void letRest(FleetState& f, int robot) {
   const bool is_settled = atRest(f, robot) && f.sway[robot].tilt == 0;
   if (!hasNothingToDo(f, robot) || f.activated[robot] || !is_settled) return;
   if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
-  // An empty tower still comes down.
+  // A tower without a load still comes down.
   f.awake[robot] = f.tasks[robot].phase == Phase::kIdle && f.tower[robot] > 0 &&
                    f.unit[robot] < 0 && !isHeld(f, robot);
 }
 
-/// Each by itself, on all threads.
+/// Drives each robot by itself, on all threads.
 void driveByTraction(RobotView& world) {
   FleetState& f = world.fleet;
   const std::vector<int>& robots = world.schedule.stepped_singly;
@@ -100,7 +100,7 @@ void integrateRobots(MotionView& world) {
       integrate(f, i, world.clock.dt);
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
-    followRobot(world, i);
+    followRobot(f, world.obstacles, world.storage, i);
     if (f.localises) track(world, i);
     if (f.tasks[i].follows() && f.tasks[i].drives()) countPoints(world, i, alongSegment(f, i));
     letRest(f, i);

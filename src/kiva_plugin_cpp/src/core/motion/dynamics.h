@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The motion of a step: robots by arrays or by Bullet, storage units and other bodies by Bullet.
+// The motion of a step: robots in arrays or in Bullet, storage units and other bodies in Bullet.
 #pragma once
 
 #include "core/state/views/motion_view.h"
 
 namespace kiva {
 
-/// Applies motors, floor and joints: velocities change, positions stay.
+/// Applies motors, floor and joints: changes velocities, and no positions.
 void actuate(MotionView& world);
-/// Updates all poses after Bullet's step, by arrays or from bodies.
+/// Updates all poses after Bullet's step, in arrays or from bodies.
 void integrate(MotionView& world);
 
 /// Wakes sleeping bodies.

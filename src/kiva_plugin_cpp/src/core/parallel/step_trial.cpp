@@ -6,8 +6,7 @@
 namespace kiva {
 namespace {
 
-// Threads that wait for each other take their cores' time as if they worked: steps that are hardly
-// quicker by it are dear.
+// Speed-up from which threads are worth it: waiting threads use their cores as if they worked.
 constexpr double kWorth = 1.35;
 
 double median(std::vector<double>& values) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether other threads are worth their time in the steps of a world: tried now and then, since it
-// depends on how much of a step is loops, on the cores and on what else runs on them.
+// Periodic trials of whether threads speed up the steps of a world. That depends on the share of
+// loops in a step, on the cores and on their other load.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace kiva {
 
-/// Times some steps with other threads and some without, and has loops shared until the next trial
-/// if that makes steps quicker by enough. Only the time that a step takes depends on it.
+/// Times some steps with other threads and some without, and lets loops be shared until the next
+/// trial if that is faster by enough. Only the duration of steps depends on it.
 class StepTrial {
  public:
   static constexpr int kFirst = 500;      // steps until the first trial, when caches are warm
-  static constexpr int kSteps = 128;      // of a trial
+  static constexpr int kSteps = 128;      // steps of a trial
   static constexpr int kBetween = 20000;  // steps from trial to trial
 
   bool shares() const { return shares_; }
@@ -30,13 +30,15 @@ class StepTrial {
   using Clock = std::chrono::steady_clock;
   void decide();
 
-  static constexpr int kTurn = 8;  // steps of a trial with other threads, then as many without
+  static constexpr int kTurn =
+      8;  // consecutive steps of a trial with other threads, then as many without
 
   bool shares_ = true;
   bool tries_ = false;
   int left_ = kFirst;  // steps until the trial begins, or ends
   Clock::time_point begin_;
-  std::array<std::vector<double>, 2> times_;  // of steps without and with other threads [s]
+  std::array<std::vector<double>, 2>
+      times_;  // durations of steps without and with other threads [s]
 };
 
 }  // namespace kiva

@@ -18,16 +18,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::microseconds;
 
-// Between two loops a thread stays awake for so long: to wake it takes 20 µs, and costs its waker
-// 7, and the loops of a step, with what lies between them, last no longer.
+// Time for which a thread stays awake between two loops. Waking takes 20 µs and costs the waker 7
+// µs; the loops of a step, with the time between them, last no longer.
 constexpr microseconds kPatience{50};
-// A program that is offered the core and takes it for longer than an interrupt wants it: it is
-// left to others at once for so many times what they took.
+// Longest duration of an interrupt. A longer absence means that a program needs the core, which is
+// then left to it for kLeft times that duration.
 constexpr microseconds kInterrupt{100};
 constexpr int kLeft = 5;
-constexpr int kPieces = 4;  // that a thread takes its turns in, at least
+constexpr int kPieces = 4;  // least number of pieces in which a thread takes its turns
 
-/// Returns whether others want the calling thread's core.
+/// Returns whether other programs need the calling thread's core.
 bool isCoreWanted() {
   static thread_local Clock::time_point left_until;
   const auto before = Clock::now();
@@ -38,7 +38,7 @@ bool isCoreWanted() {
   return taken > kInterrupt;
 }
 
-/// Awake, for as long as patience lasts; whether it is over by then.
+/// Waits actively until is_over() or until the patience ends. Returns whether it is over.
 template <typename IsOver>
 bool awaitAwake(IsOver isOver) {
   const auto latest = Clock::now() + kPatience;
@@ -50,8 +50,8 @@ bool awaitAwake(IsOver isOver) {
 
 }  // namespace
 
-/// The part of a loop that one thread begins with, before it goes on with another's. So the same
-/// robots mostly stay in the same core's cache. In a cache line of its own.
+/// The part of a loop with which one thread begins, before it helps with another's. So the same
+/// robots mostly stay in the same core's cache. Each part has a cache line of its own.
 struct alignas(64) Workers::Part {
   std::atomic<int> next{0};
   int end = 0;
@@ -61,12 +61,12 @@ struct Workers::Job {
   const Loop& loop;
   const int piece;
   Part* const parts;
-  const int count;   // of the parts
-  std::mutex mutex;  // of the error
+  const int count;   // number of parts
+  std::mutex mutex;  // guards the error
   std::exception_ptr error = nullptr;
 };
 
-/// What the threads read; it lives until the last of them has left.
+/// The state shared by the threads; it lives until the last of them has left.
 struct Workers::Board {
   explicit Board(int others) : hands(others), parts(others + 1) {}
 
@@ -79,27 +79,29 @@ struct Workers::Board {
 
   static constexpr unsigned kOpen = 1u << 31;
 
-  const int hands;  // threads beside the caller
+  const int hands;  // number of threads besides the caller
   std::vector<Part> parts;
-  Job* job = nullptr;              // while `state` is not 0
-  std::atomic<unsigned> state{0};  // how many of the others are at it; kOpen: more may join
+  Job* job = nullptr;              // valid while `state` is not 0
+  std::atomic<unsigned> state{0};  // number of other threads in the job; kOpen: more may join
   std::atomic<bool> quits{false};
 
-  std::mutex mutex;  // of those that sleep
+  std::mutex mutex;  // guards sleeping threads
   std::condition_variable posted, left;
   std::atomic<int> asleep{0};
   std::atomic<bool> caller_sleeps{false};
 };
 
-/// Opens the job for others, and wakes so many of them if they sleep.
+/// Opens the job to other threads, and wakes `others` of them if they sleep.
 void Workers::Board::post(int others) {
   state = kOpen;
   if (asleep == 0) return;
-  { const std::lock_guard<std::mutex> lock(mutex); }  // a thread that did not see it sleeps by then
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+  }  // a thread that missed the change sleeps by now
   for (int i = 0; i < others; ++i) posted.notify_one();
 }
 
-/// Until there may be a job to join, or to quit.
+/// Waits until there may be a job to join, or the program ends.
 void Workers::Board::await() {
   const auto isOver = [&] { return isOpen() || quits; };
   if (!isCoreWanted() && awaitAwake(isOver)) return;
@@ -117,7 +119,7 @@ bool Workers::Board::join() {
   return false;
 }
 
-/// Nothing of the job is left to take.
+/// Leaves a job without remaining turns.
 void Workers::Board::leave() {
   state &= ~kOpen;
   if (--state > 0 || !caller_sleeps) return;
@@ -125,7 +127,7 @@ void Workers::Board::leave() {
   left.notify_one();
 }
 
-/// Waits for those that have joined by now. The others sleep on.
+/// Closes the job and waits for the threads that have joined. Sleeping ones stay asleep.
 void Workers::Board::finish() {
   state &= ~kOpen;
   const auto isOver = [&] { return state == 0; };
@@ -150,7 +152,7 @@ void Workers::quit() {
   board_->posted.notify_all();
 }
 
-/// Starts detached threads: in a forked child there are none to join.
+/// Starts detached threads, since a forked child could not join them.
 void Workers::start(int others) {
   if (board_ && process_ == getpid() && board_->hands >= others) return;
   quit();
@@ -159,13 +161,13 @@ void Workers::start(int others) {
   for (int place = 1; place <= others; ++place) std::thread(serve, board_, place).detach();
 }
 
-/// Returns whether a loop that is worth other threads is shared out.
+/// Returns whether loops that are worth it are shared now.
 bool Workers::mayShare() const { return !in_step_ || shares_all_ || trial_.shares(); }
 
 void Workers::share(int count, int worth, const Loop& loop) {
   if (count <= 0) return;
   if (shares_all_) worth = 1;
-  if (count <= worth) return loop(0, count);  // as in each step of a small fleet
+  if (count <= worth) return loop(0, count);  // the usual case for a small fleet
   const int others = std::min(count / worth, static_cast<int>(threads_)) - 1;
   has_loops_ = has_loops_ || (in_step_ && others > 0);
   if (others > 0 && mayShare()) return shareOut(count, (worth - 1) / kPieces + 1, others, loop);
@@ -202,7 +204,7 @@ void Workers::serve(const std::shared_ptr<Board>& board, int place) {
   }
 }
 
-/// Each thread begins with its own part, by its place among them.
+/// Takes turns, from the thread's own part on; `place` is its index among the threads.
 void Workers::work(Job& job, int place) {
   for (int k = 0; k < job.count; ++k) {
     Part& part = job.parts[(place + k) % job.count];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The threads that share loops: over the robots of a world, or over many worlds. A loop's turns
-// touch nothing that another one reads, so that its result does not depend on how many threads
-// there are or which of them takes a turn.
+// Threads that share loops: over the robots of a world, or over many worlds. A turn of a loop
+// writes nothing that another turn reads, so that the result does not depend on the number of
+// threads, or on which of them takes a turn.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace kiva {
 
-/// The caller and `threads` − 1 others, which are started when there is work for them. Between the
-/// loops of a step they stay awake, for microseconds and if no other program wants their core,
-/// since a step is over before one has woken; then they sleep. In a forked child, where they are
-/// gone, others are started.
+/// The caller and `threads` − 1 other threads, which are started on demand. Between the loops of a
+/// step they stay awake, for microseconds and only while no other program needs their core, since a
+/// step is over before a thread has woken; then they sleep. In a forked child, where they are gone,
+/// others are started.
 class Workers {
  public:
-  /// A callable (int begin, int end), referred to for as long as it is called: a world makes
-  /// several of them in a step of some microseconds, and a std::function would be on the heap.
+  /// A reference to a callable (int begin, int end), valid during the call. A world makes several
+  /// of them in a step of a few microseconds; a std::function would allocate.
   class Loop {
    public:
     template <typename Callable>
@@ -33,7 +33,7 @@ class Workers {
     void (*call_)(const void* of, int begin, int end);
   };
 
-  /// 0: as many as the machine has cores.
+  /// `threads`: 0 = as many as the machine has cores.
   explicit Workers(unsigned threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -42,12 +42,12 @@ class Workers {
   unsigned threads() const { return threads_; }
 
   /// Calls loop(begin, end) until all of [0, count) is done, on as many threads as have `worth`
-  /// turns each: for fewer it is not worth waking one. If some throw, the others are done
-  /// nevertheless, and what the first of them threw is thrown then.
+  /// turns each. If calls throw, the others are still made, and the first exception is thrown at
+  /// the end.
   void share(int count, int worth, const Loop& loop);
 
-  /// While it lives, the loops of a world's step are shared out only if a trial has shown that this
-  /// is worth it.
+  /// During its life, the loops of a world's step are shared only if a trial has shown that it is
+  /// faster.
   class Step {
    public:
     explicit Step(Workers& workers) : workers_(workers) { workers.beginStep(); }
@@ -59,7 +59,7 @@ class Workers {
     Workers& workers_;
   };
 
-  /// For tests: one turn is worth it, so that a small fleet is shared too.
+  /// Shares every loop, so that tests can share those of a small fleet.
   void shareAll() { shares_all_ = true; }
 
  private:
@@ -83,9 +83,9 @@ class Workers {
 
   const unsigned threads_;
   bool shares_all_ = false;
-  bool in_step_ = false, has_loops_ = false;  // that step had some to share
+  bool in_step_ = false, has_loops_ = false;  // the present step had loops to share
   StepTrial trial_;
-  int process_ = 0;  // that board_ and its threads belong to
+  int process_ = 0;  // process that board_ and its threads belong to
   std::shared_ptr<Board> board_;
 };
 

@@ -12,39 +12,39 @@ namespace kiva {
 namespace {
 
 constexpr double kPace = 0.25;                 // [m] between two neighbouring places
-constexpr int kMostPlaces = 20000;             // that a search visits
-constexpr int kDiagonal = 99, kStraight = 70;  // costs as whole numbers, so that none is rounded
+constexpr int kMostPlaces = 20000;             // limit of places that a search visits
+constexpr int kDiagonal = 99, kStraight = 70;  // integer costs, without rounding errors
 constexpr int kFarthest = 1000;                // paces from the person
 
-struct Place {
-  int i = 0, j = 0;  // [paces] from the person
-  bool operator==(const Place& o) const { return i == o.i && j == o.j; }
+struct PacePlace {
+  int i = 0, j = 0;  // position relative to the person [paces]
+  bool operator==(const PacePlace& o) const { return i == o.i && j == o.j; }
 };
 
-int keyOf(const Place& p) { return (p.i + kFarthest) * (2 * kFarthest + 1) + p.j + kFarthest; }
+int keyOf(const PacePlace& p) { return (p.i + kFarthest) * (2 * kFarthest + 1) + p.j + kFarthest; }
 
 /// Returns a lower bound of the cost from one place to another.
-int estimate(const Place& a, const Place& b) {
+int estimate(const PacePlace& a, const PacePlace& b) {
   const int di = std::abs(a.i - b.i), dj = std::abs(a.j - b.j);
   return kStraight * std::max(di, dj) + (kDiagonal - kStraight) * std::min(di, dj);
 }
 
 /// Searches a detour by A* over places a pace apart (Hart, Nilsson, Raphael 1968).
-class Search {
+class DetourSearch {
  public:
-  Search(const Scene& world, const Walker& walker, double x, double y)
+  DetourSearch(const Scene& world, const Walker& walker, double x, double y)
       : world_(world), walker_(walker), from_(world.models[walker.model]->pose) {
     goal_ = {static_cast<int>(std::lround((x - from_.X()) / kPace)),
              static_cast<int>(std::lround((y - from_.Y()) / kPace))};
   }
 
-  /// Returns the places from the goal back to the person, the last one left out; empty: there is no
-  /// way.
-  std::vector<Place> run() {
+  /// Returns the places from the goal back to the person, without the last one; empty if there is
+  /// no way.
+  std::vector<PacePlace> run() {
     if (std::max(std::abs(goal_.i), std::abs(goal_.j)) >= kFarthest) return {};
     reach({0, 0}, {0, 0}, 0);
     while (!open_.empty() && static_cast<int>(known_.size()) < kMostPlaces) {
-      const Place at = open_.top().place;
+      const PacePlace at = open_.top().place;
       open_.pop();
       if (at == goal_) return wayTo(at);
       Known& here = known_.at(keyOf(at));
@@ -56,43 +56,43 @@ class Search {
     return {};
   }
 
-  PathPoint pointOf(const Place& p) const {
+  PathPoint pointOf(const PacePlace& p) const {
     return {from_.X() + kPace * p.i, from_.Y() + kPace * p.j};
   }
 
  private:
   struct Known {
-    Place from;
+    PacePlace from;
     int cost = 0;
     bool is_done = false;
   };
   struct Open {
     int estimate;
-    Place place;
-    bool operator<(const Open& o) const {  // the cheapest is the greatest, of several one for sure
+    PacePlace place;
+    bool operator<(const Open& o) const {  // the cheapest is the greatest; ties have a fixed order
       return estimate != o.estimate ? estimate > o.estimate : keyOf(place) > keyOf(o.place);
     }
   };
 
-  void expand(const Place& at, int cost) {
+  void expand(const PacePlace& at, int cost) {
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {
-        const Place next{at.i + di, at.j + dj};
+        const PacePlace next{at.i + di, at.j + dj};
         if (next == at || std::max(std::abs(next.i), std::abs(next.j)) >= kFarthest) continue;
         reach(next, at, cost + (di != 0 && dj != 0 ? kDiagonal : kStraight));
       }
     }
   }
 
-  void reach(const Place& place, const Place& from, int cost) {
+  void reach(const PacePlace& place, const PacePlace& from, int cost) {
     const auto at = known_.find(keyOf(place));
     if (at != known_.end() && (at->second.is_done || at->second.cost <= cost)) return;
-    if (at == known_.end() && !(place == Place()) && !hasRoom(place)) return;
+    if (at == known_.end() && !(place == PacePlace()) && !hasRoom(place)) return;
     known_[keyOf(place)] = {from, cost, false};
     open_.push({cost + estimate(place, goal_), place});
   }
 
-  bool hasRoom(const Place& place) {
+  bool hasRoom(const PacePlace& place) {
     const auto [at, is_new] = has_room_.try_emplace(keyOf(place), false);
     if (is_new) {
       const PathPoint p = pointOf(place);
@@ -101,34 +101,34 @@ class Search {
     return at->second;
   }
 
-  std::vector<Place> wayTo(Place at) const {
-    std::vector<Place> way;
-    for (; !(at == Place()); at = known_.at(keyOf(at)).from) way.push_back(at);
+  std::vector<PacePlace> wayTo(PacePlace at) const {
+    std::vector<PacePlace> way;
+    for (; !(at == PacePlace()); at = known_.at(keyOf(at)).from) way.push_back(at);
     return way;
   }
 
   const Scene& world_;
   const Walker& walker_;
   const Pose from_;
-  Place goal_;
-  // For lookups only: their order is undefined.
+  PacePlace goal_;
+  // Used for look-ups only, since the order is undefined.
   std::unordered_map<int, Known> known_;
   std::unordered_map<int, bool> has_room_;
   std::priority_queue<Open> open_;
 };
 
-bool isStraight(const Place& a, const Place& b, const Place& c) {
+bool isStraight(const PacePlace& a, const PacePlace& b, const PacePlace& c) {
   return b.i - a.i == c.i - b.i && b.j - a.j == c.j - b.j;
 }
 
 }  // namespace
 
 std::vector<PathPoint> findDetour(const Scene& world, const Walker& walker, double x, double y) {
-  Search search(world, walker, x, y);
-  const std::vector<Place> way = search.run();
+  DetourSearch search(world, walker, x, y);
+  const std::vector<PacePlace> way = search.run();
   std::vector<PathPoint> points;
   for (std::size_t k = 0; k < way.size(); ++k) {
-    const Place after = k + 1 < way.size() ? way[k + 1] : Place();
+    const PacePlace after = k + 1 < way.size() ? way[k + 1] : PacePlace();
     if (k > 0 && isStraight(way[k - 1], way[k], after)) continue;
     points.push_back(k == 0 ? PathPoint{x, y} : search.pointOf(way[k]));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds a way for a person around an obstacle.
+// Searches a way for a person around an obstacle.
 #pragma once
 
 #include <vector>

@@ -9,8 +9,8 @@
 namespace kiva {
 namespace {
 
-constexpr double kFromRobots = 0.1;   // [m] that people keep from robots,
-constexpr double kFromOthers = 0.05;  // and from all else [m]
+constexpr double kFromRobots = 0.1;   // [m] of clearance that people keep from robots
+constexpr double kFromOthers = 0.05;  // [m] of clearance that people keep from all else
 constexpr double kFar = 1;            // [m] beyond which distances do not matter
 
 Footprint discOf(const ModelTable& models, const Walker& walker, double x, double y) {

@@ -17,25 +17,25 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMargin = 0.15;      // [m] ahead of the point where the robot stops
 constexpr double kTurnMargin = 0.05;  // [m] around its turning circle
-constexpr double kBeside = 2;         // [m] beyond the reach of any robot's corners
-constexpr double kCreep = 0.05;       // [m/s]: a robot that may only be slower stops,
+constexpr double kBeside = 2;         // [m] from the reach of any robot's corners
+constexpr double kCreep = 0.05;       // [m/s]; a robot that may only be slower stops,
 constexpr double kSetOff = 0.15;      // [m/s] and starts again from this speed on
-constexpr int kHalvings = 20;         // of the top speed: to a micrometre a second
+constexpr int kHalvings = 20;         // steps of the search for a speed, to a micrometre a second
 
-/// Reaction time and deceleration with which a robot stops.
+/// The reaction time and deceleration of a robot that stops.
 struct Braking {
-  double reaction = 0;      // before it brakes [s]
+  double reaction = 0;      // time before it brakes [s]
   double deceleration = 0;  // [m/s²]; +inf = stops at once
   double way(double speed) const { return speed * reaction + speed * speed / (2 * deceleration); }
   double time(double speed) const { return reaction + speed / deceleration; }
 };
 
-/// A person seen from a robot that drives.
+/// A person relative to a driving robot.
 struct Seen {
   double ahead = 0;   // distance ahead of its front [m]
   double beside = 0;  // distance from its sides [m]; 0 = within its lane
   double radius = 0;  // [m]
-  /// Returns the distance between the person and the floor that the robot sweeps within `way` [m];
+  /// Returns the distance of the person from the area that the robot sweeps within `way` [m];
   /// negative: they overlap.
   double distance(double way) const {
     const double along = ahead < 0 ? -ahead : std::max(0.0, ahead - way);
@@ -117,7 +117,7 @@ double allowedSpeed(const Scene& world, int robot) {
   return least < (stands ? kSetOff : kCreep) ? 0 : least;
 }
 
-/// Applies `change` to what the robot may do, and lets it replan if it may go on.
+/// Applies `change` to the robot's allowed speed, and lets the robot replan if it may go on.
 template <typename Change>
 void restrain(RobotView& world, int robot, Change change) {
   FleetState& f = world.fleet;
@@ -132,7 +132,7 @@ void allow(RobotView& world, int robot, double speed) {
   if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
 }
 
-/// Holds turns at once, since a turn is over before the next scan.
+/// Holds turns immediately, since a turn is over before the next scan.
 void holdTurns(RobotView& world) {
   const FleetState& f = world.fleet;
   for (const Walker& walker : world.people.walkers) {

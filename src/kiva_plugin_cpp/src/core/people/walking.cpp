@@ -16,11 +16,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kLargest = 1;        // [m]: a longer or wider model is not a person
+constexpr double kLargest = 1;        // [m]; a longer or wider model is not a person
 constexpr double kLook = 0.02;        // [s] between two looks ahead,
-constexpr double kLookAhead = 0.35;   // [m] that they reach: half a pace
+constexpr double kLookAhead = 0.35;   // [m] of each look: half a pace
 constexpr double kPatience = 2;       // [s] before the first search for a detour,
-constexpr double kMostPatience = 30;  // [s] at most before a later one
+constexpr double kMostPatience = 30;  // [s], the longest time before a later one
 constexpr double kThere = 1e-9;       // [m]
 
 [[noreturn]] void refuse(const std::string& person, const std::string& why) {
@@ -73,7 +73,7 @@ Walker& walkerOf(People& people, const Model& model) {
   return people.walkers.back();
 }
 
-/// Starts the walk; robots that counted on a person at rest look around again.
+/// Starts the walk; robots that relied on a person at rest test their ways again.
 void startWalk(FleetState& fleet, Walker* walker, const Walk& walk) {
   walker->walk = walk;
   walker->next = 0;
@@ -86,12 +86,12 @@ void startWalk(FleetState& fleet, Walker* walker, const Walk& walk) {
 
 // --- a step
 
-/// Returns the share of the way (dx, dy) [m] that `metres` make up, at most 1.
+/// Returns the share of the vector (dx, dy) [m] that `metres` are, at most 1.
 double partOf(double metres, double dx, double dy) {
   return std::min(1.0, metres / std::max(std::hypot(dx, dy), kThere));
 }
 
-/// Returns whether there is room half a pace ahead, or at least more of it than here.
+/// Returns whether there is room half a pace ahead, or at least more than here.
 bool isFreeAhead(const Scene& world, const Walker& walker, const Pose& at, const PathPoint& to) {
   const double dx = to.x - at.X(), dy = to.y - at.Y();
   const double part = partOf(kLookAhead, dx, dy);

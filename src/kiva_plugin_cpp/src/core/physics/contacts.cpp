@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Bullet's contacts mean to models: impacts, pushes and points of touch.
+// Bullet's contacts as models see them: impacts, pushes and contact points.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,7 +13,8 @@
 namespace kiva {
 namespace {
 
-// Cosine to the vertical of a contact's normal, of which one body lies on the other.
+// Cosine of the largest angle between a contact's normal and the vertical at which one body lies on
+// the other.
 constexpr double kLyingOn = 0.5;
 
 bool isFloor(const btCollisionObject& body) {
@@ -41,7 +42,7 @@ void Physics::noteMotions(double dt) {
     btRigidBody& body = *bodies[i];
     body.setUserIndex2(i);
     const Velocity driven{body.getLinearVelocity(), body.getAngularVelocity()};
-    // Bullet keeps the velocity that a step ended with beside that which may be set.
+    // Bullet keeps the velocity at a step's end separately from the one that may be set.
     const Velocity ended{body.getInterpolationLinearVelocity(),
                          body.getInterpolationAngularVelocity()};
     const btVector3 force =
@@ -68,8 +69,8 @@ double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint
   return std::max(0.0, relative.dot(point.m_normalWorldOnB));
 }
 
-/// What share of the contact's impulse ended approach from before the step, and not what motors and
-/// forces added in it: the contact let pass what closes the gap.
+/// Returns the share of the contact's impulse that ended an approach from before the step,
+/// excluding what motors and forces added in it. A contact permits the speed that closes the gap.
 double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const {
   const double closing = std::max(0.0, point.getDistance()) / dt_;
   const double was = approach(pair, point, &BodyMotion::before) - closing;
@@ -93,7 +94,7 @@ void Physics::forEachTouch(Visit visit) const {
 
 void Physics::contacts(std::vector<Contact>* out) const {
   out->clear();
-  std::unordered_map<std::uint64_t, std::size_t> place;  // of a pair; for looking up only
+  std::unordered_map<std::uint64_t, std::size_t> place;  // index of a pair; for look-up only
   forEachTouch([&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a,
                    int b) {
     const double sign = a > b ? -1 : 1;

@@ -10,10 +10,10 @@
 namespace kiva {
 namespace {
 
-// The solver ends when an iteration changes no velocity by more than the root of this.
+// Square of the change of velocity at which the solver ends.
 constexpr double kSolved = 1e-12;  // [m2/s2]
 
-// Cosine of the angle at which an unbounded plane is not level any more.
+// Cosine of the largest tilt of a level unbounded plane.
 constexpr double kLevel = 1 - 1e-12;
 
 bool isUnevenFloor(const LinkBody& link) {
@@ -24,15 +24,15 @@ bool isUnevenFloor(const LinkBody& link) {
   return (link.body->getWorldTransform().getBasis() * normal).z() < kLevel;
 }
 
-/// Returns whether anything of it stands for good.
+/// Returns whether a part of the model is static.
 bool isFixture(const ModelBodies& bodies) {
   return !bodies.surfaces.empty() ||
          std::any_of(bodies.links.begin(), bodies.links.end(),
                      [](const LinkBody& link) { return link.body->isStaticObject(); });
 }
 
-/// Contacts for which there is room from the start; more find theirs in the heap. To lay out
-/// Bullet's own 4,096 takes longer than all else that makes a small world, or restores one.
+/// Reserves room for a few contacts; more are allocated on demand. Bullet's own 4,096 take longer
+/// than all the rest of creating or restoring a small world.
 btDefaultCollisionConstructionInfo smallPools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 64;
@@ -53,13 +53,13 @@ Physics::Physics(const Vector3& gravity)
   broadphase_.getOverlappingPairCache()->setOverlapFilterCallback(&own_parts_filter_);
   world_.setGravity(toBullet(gravity));
   world_.setForceUpdateAllAabbs(false);
-  // A fixed distance at which contacts are foreseen; the relative one would be less than a thin
-  // segment's way in a step, and bodies would sink in before they touch.
+  // Contacts are foreseen at a fixed distance. A relative one would be less than a thin part's
+  // motion in a step, and bodies would sink in before they touch.
   dispatcher_.setDispatcherFlags(
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
-  static PlanarContacts::Creator planar_contacts;  // keeps nothing
+  static PlanarContacts::Creator planar_contacts;  // stateless
   dispatcher_.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE,
                                           &planar_contacts);
   for (int round : {CYLINDER_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
@@ -68,14 +68,14 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_.registerCollisionCreateFunc(flat, round, &swapped_round_contacts_);
     }
   }
-  // All corners of what lands on a plane at once: one a step would tip it over.
+  // Adds all corners of a body that lands on a plane at once: one a step would tip it over.
   configuration_.setPlaneConvexMultipointIterations(4, 4);
   btContactSolverInfo& solver = world_.getSolverInfo();
   solver.m_splitImpulse = true;
-  solver.m_splitImpulsePenetrationThreshold = 0;  // no overlap, however small, becomes a velocity
+  solver.m_splitImpulsePenetrationThreshold = 0;  // overlaps of any size do not change velocities
   solver.m_numIterations = 20;
   solver.m_leastSquaresResidualThreshold = kSolved;
-  solver.m_minimumSolverBatchSize = 1;  // each island until that, not all until the last one
+  solver.m_minimumSolverBatchSize = 1;  // each island is iterated until that, not all together
 }
 
 Physics::~Physics() = default;
@@ -132,7 +132,7 @@ void Physics::step(double dt) {
 }
 
 void Physics::setGravity(const Vector3& gravity) {
-  world_.setGravity(toBullet(gravity));  // of bodies that are awake
+  world_.setGravity(toBullet(gravity));  // applies to bodies that are awake
   auto& bodies = world_.getNonStaticRigidBodies();
   for (int i = 0; i < bodies.size(); ++i) {
     if ((bodies[i]->getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0) {

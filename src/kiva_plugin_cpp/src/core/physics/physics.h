@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet, wrapped: bodies move, and their contacts become pairs of models.
+// A wrapper of Bullet: bodies move, and their contacts become pairs of models.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -16,14 +16,14 @@
 
 namespace kiva {
 
-/// Two models that touch; the point, the normal and the speed are those of the hardest contact.
+/// Two models in contact; point, normal and speed are those of the hardest contact.
 struct Contact {
   int model_a = -1, model_b = -1;
   Vector3 point;       ///< Point of contact in world.
   Vector3 normal;      ///< Unit vector from b to a.
   double speed = 0;    ///< Speed of approach before the step [m/s].
   double impulse = 0;  ///< Impulse of all their contacts that ended an approach from before the
-                       ///< step, without forces that hold against pushes [Ns].
+                       ///< step, without forces that resist pushes [Ns].
   double most = -1;    ///< Impulse of the hardest contact [Ns].
   double nearing = 0;  ///< Largest `speed` of all contacts [m/s].
 };
@@ -50,32 +50,33 @@ class Physics {
   explicit Physics(const Vector3& gravity);
   ~Physics();
 
-  /// Returns bodies of all links and joints at `pose`, not yet in the world; `model` marks them.
+  /// Returns bodies of all links and joints at `pose`, not yet in the world, and marked with
+  /// `model`.
   ModelBodies build(const ModelDescription& description, const Pose& pose, int model, int group,
                     int mask) const;
   void insert(ModelBodies& bodies);
   void remove(ModelBodies& bodies);
-  /// Moves the bodies of a model that does not move by itself to the model's present pose.
+  /// Moves the bodies of an immobile model to the model's present pose.
   void shift(ModelBodies& bodies, const ModelDescription& description, const Pose& pose);
 
-  /// Returns a number that grows whenever something static comes, goes or is moved.
+  /// Returns a number that grows whenever a static model is added, removed or moved.
   std::uint64_t fixtureChanges() const { return fixture_changes_; }
 
-  /// Advances by one step, at no cost where no body is awake.
+  /// Advances by one step; free of cost if no body is awake.
   void step(double dt);
   /// Sets the gravity of present and future bodies.
   void setGravity(const Vector3& gravity);
-  /// Finds pairs of models that touch now, each once, the lower index first.
+  /// Writes the pairs of models in contact, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
-  /// Returns Bullet's cached contacts, in an order that follows from the bodies.
+  /// Returns Bullet's cached contacts, in an order that depends on the bodies alone.
   std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
-  /// Makes a manifold, still without contacts, for every two parts near each other.
+  /// Makes a manifold without contacts for every two parts near each other.
   std::vector<btPersistentManifold*> makeManifolds();
-  /// Returns every point at which that model, as a, touches another now.
+  /// Returns every point at which that model, as a, touches another one.
   std::vector<TouchPoint> touchPoints(int model) const;
-  /// Returns pushes of every body that can move, by its second user index, without those of floors.
+  /// Returns the pushes on every movable body, by its second user index, without those of floors.
   std::vector<Push> pushes() const;
-  /// Returns whether all bodies at the floor are unbounded and level.
+  /// Returns whether all bodies of the floor are unbounded and level.
   bool hasPlainFloor() const { return uneven_floors_ == 0; }
   /// Returns the distance to the first body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
@@ -92,7 +93,7 @@ class Physics {
     Velocity pushed;  ///< `driven` with the effect of forces in this step.
   };
 
-  /// Calls visit(manifold, point, model_a, model_b) wherever parts of two models touch.
+  /// Calls visit(manifold, point, model_a, model_b) for all contact points of two models.
   template <typename Visit>
   void forEachTouch(Visit visit) const;
   void noteMotions(double dt);

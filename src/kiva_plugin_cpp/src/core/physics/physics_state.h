@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state that Bullet's next step follows from, read from bodies and joints and put back. In
+// The state that determines Bullet's next step, read from bodies and joints, and written back. In
 // world, SI units.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace kiva {
 
-/// A body as Bullet leaves it after a step.
+/// The state of a body after a step.
 struct BodyState {
   btTransform pose, predicted_pose;
   btVector3 velocity, angular_velocity;
@@ -22,7 +22,7 @@ struct BodyState {
   bool placed = false;             ///< Placed since the last step.
   double resting = 0;              ///< Time since its last motion [s].
   std::vector<btTransform> parts;  ///< Poses of the parts in the body.
-  std::vector<bool> faceted;       ///< Whose boxes know their faces and edges.
+  std::vector<bool> faceted;       ///< Whether each part's box has computed its faces and edges.
 };
 
 /// The last command of a joint's motor.
@@ -30,11 +30,11 @@ struct MotorState {
   bool powered = false;
   double speed = 0;  ///< [rad/s], [m/s]
   double effort =
-      0;  ///< Largest effort in Bullet's units: of a hinge a step [Nms], of a slider [N].
+      0;  ///< Largest effort in Bullet's units: [Nms] a step for a hinge, [N] for a slider.
 };
 
 BodyState readBody(const btRigidBody& body);
-/// Throws std::invalid_argument if that is the state of a body with other parts.
+/// Throws std::invalid_argument if the state belongs to a body with other parts.
 void writeBody(const BodyState& state, btRigidBody& body);
 
 MotorState readMotor(const btTypedConstraint& joint);

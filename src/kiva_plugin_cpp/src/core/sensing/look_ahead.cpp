@@ -15,22 +15,22 @@
 namespace kiva {
 namespace {
 
-// What the corridor is wider than the robot, a side. A loaded robot that turns in the next lane
+// Margin of the corridor on each side of the robot. A loaded robot that turns in the next lane
 // reaches to 1 − 0.566 m, which must stay outside.
 constexpr double kSideMargin = 0.03;  // [m]
-// Kept to what stands or turns beyond a path's released end; a loaded robot that turns in the next
-// cell comes as near as 1 − 0.566 − 0.4 m.
+// Margin to models that stand or turn beyond a path's released end. A loaded robot that turns in
+// the next cell comes as near as 1 − 0.566 − 0.4 m.
 constexpr double kEndMargin = 0.02;  // [m]
 constexpr int kLooksTogether = 16;   // on one thread
-constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
+constexpr double kFlat = 0.02;       // [m], largest difference of adjacent rays on a face
 
-/// Returns the margin at a path's end, less what noise alone may seem to bring nearer.
+/// Returns the margin at a path's end, less the noise by which an obstacle may seem nearer.
 double endMargin(const WorldSettings& settings) {
   const LaserRealism& real = settings.realism.lasers;
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
 
-/// Returns whether the model stops the robot: a unit that stands askew can't be passed beneath.
+/// Returns whether the model stops the robot: a robot can't pass beneath a unit that stands askew.
 bool stops(const Scene& world, int model, int robot) {
   const Model& other = *world.models[model];
   if (other.owner->stops(world, other, robot)) return true;
@@ -48,12 +48,12 @@ Sighting sightingOf(const Scene& world, const Scans& scans, int robot) {
   sighting.along = alongSegment(world.fleet, robot);
   const double reach = reachOfInterest(world, robot) - sighting.along - r.laser.x;
   const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
-  // A ray is of interest until it leaves the corridor.
+  // A ray matters until it leaves the corridor.
   castRays(world, scans, robot, {farthest, half}, &hits);
   sighting.distance = std::numeric_limits<double>::infinity();
-  int before = -1;  // what the ray before this one met
+  int before = -1;  // model that the previous ray met
   double before_distance = 0;
-  int stopping = -1, passed = -1;  // models of which that is known
+  int stopping = -1, passed = -1;  // models for which the answer is known
   for (int ray = hits.first; ray <= hits.last; ++ray) {
     int model = static_cast<int>(hits.model[ray]);
     if (model >= 0 && model != stopping) {
@@ -83,7 +83,7 @@ bool isOnGuard(const FleetState& f, int robot) {
          !task.segments.front().reverse;
 }
 
-/// Lets those of `robots` look that are on guard.
+/// Looks ahead of those of `robots` that drive and watch their way.
 void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   FleetState& f = world.fleet;
   std::vector<char> looked(robots.size(), 0);
@@ -102,7 +102,7 @@ void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   }
 }
 
-/// Those that have begun to drive look at once.
+/// Returns the robots that have begun to drive, which look at once.
 std::vector<int> beginners(const Scene& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;

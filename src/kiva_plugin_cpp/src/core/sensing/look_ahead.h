@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds what lies in a robot's way, as its laser sees it.
+// Looks for obstacles in a robot's way, as its laser sees them.
 #pragma once
 
 #include "core/state/robots/scans.h"
@@ -8,12 +8,12 @@
 
 namespace kiva {
 
-/// Lets robots look ahead after a step: those that drive and whose scan is due, and those that
-/// begin to drive. Fills Task::sighting, and Scans::sighted with their indices.
+/// Looks ahead after a step, for driving robots whose scan is due and for robots that begin to
+/// drive. Fills Task::sighting, and Scans::sighted with their indices.
 void lookAhead(RobotView& world, Scans& scans);
 
-/// Returns how far along its segment something is in the robot's way: on a path up to what it takes
-/// to stand at the end of the run as it is released [m]; +inf = wherever it is.
+/// Returns the distance along its segment up to which an obstacle is in the robot's way [m]; +inf =
+/// at any distance. On a path it is the room to stand at the released end of the run.
 double reachOfInterest(const Scene& world, int robot);
 
 }  // namespace kiva

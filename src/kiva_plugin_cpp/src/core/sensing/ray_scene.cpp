@@ -11,11 +11,12 @@
 namespace kiva {
 namespace {
 
-constexpr int kLeaf = 4;        // targets
+constexpr int kLeaf = 4;        // targets of a leaf
 constexpr int kDeepest = 64;    // levels of a tree that is halved at each node
-constexpr double kGrow = 1e-6;  // [m] that rounding may cost a box
+constexpr double kGrow = 1e-6;  // [m], margin of a box against rounding
 
-/// Returns where a ray enters a box, +inf = it does not within `range` (Kay and Kajiya 1986).
+/// Returns the distance at which a ray enters a box, +inf = not within `range` (Kay and Kajiya
+/// 1986).
 double enter(const Bounds& box, const Vector3& from, const Vector3& inverse, double range) {
   double first = 0, last = range;
   for (int i = 0; i < 3; ++i) {
@@ -121,7 +122,7 @@ void RayScene::addSurfaces(const Model& model) {
   }
 }
 
-/// `hull`: the body that a mesh that moves is part of; without one it is seen as its box.
+/// `hull`: the body of a movable mesh; without one the mesh counts as its box.
 void RayScene::add(const Shape& shape, const Pose& pose, const btCollisionObject* hull) {
   Target target;
   target.box = bounds(shape, pose);
@@ -145,7 +146,7 @@ void RayScene::add(Target target) {
   targets_.push_back(std::move(target));
 }
 
-/// Builds a tree of boxes, halved along the axis in which their middles are spread the most.
+/// Builds a tree of boxes, halved along the axis of the largest spread of their centres.
 int RayScene::build(int first, int count) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays in any direction meet: a depth camera's, say. Level rays of lasers have a quicker way,
-// by way of Obstacles, which sees no floor.
+// Casts rays in any direction, such as those of a depth camera. Level rays of lasers are faster by
+// Obstacles, which has no floor.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,10 @@
 
 namespace kiva {
 
-/// The collisions of all models within reach of one point, as they are now. Good for as long as
-/// nothing moves.
+/// The collisions of all models within reach of one point. Valid until something moves.
 class RayScene {
  public:
-  /// `but`: a model that rays pass, with its load; null = none.
+  /// `but`: a model that rays pass through, with its load; null = none.
   RayScene(const Scene& world, const Vector3& from, double range, const Model* but);
 
   /// Returns the distance [m] along that unit vector to the first surface; +inf = none within
@@ -28,7 +27,7 @@ class RayScene {
     Bounds box;
     Vector3 centre;  ///< The centre of `solid`.
     Solid solid;
-    const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is no solid.
+    const btCollisionObject* body = nullptr;  ///< In its place, for a shape that is no solid.
   };
   struct Plane {
     Vector3 normal;
@@ -51,7 +50,7 @@ class RayScene {
   const Vector3 from_;
   const double range_;
   std::vector<Target> targets_;
-  std::vector<Plane> planes_;  ///< Without bounds.
+  std::vector<Plane> planes_;  ///< Surfaces without bounds.
   std::vector<Node> nodes_;
 };
 

@@ -10,12 +10,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kLaneMargin = 0.005;  // [m] a side of a robot that drives on
-// A turn is looked at in such steps [rad]; what comes nearer than this in one [m] is touched:
-// between two of them a corner passes another by at most that.
+constexpr double kLaneMargin = 0.005;  // [m] on each side of a robot that drives on
+// Step of a simulated turn [rad]. A model counts as touched if it comes nearer by more than this in
+// a step [m]: between two steps a corner passes another by at most that.
 constexpr double kTurnStep = M_PI / 360;
 constexpr double kTouch = 0.001;
-constexpr double kFine = 1e-3;    // [rad] to which its end is known
+constexpr double kFine = 1e-3;    // [rad], precision of its end
 constexpr double kNearer = 1e-6;  // [m]
 
 /// Returns whether it is part of a storage unit that no robot carries.
@@ -36,7 +36,7 @@ double gapTo(const std::vector<Footprint>& all, const Footprint& other) {
   return least;
 }
 
-/// To which of the things the robot comes nearer, from `before` to `then`, than it may; -1 = none.
+/// Returns the model to which the robot comes too near from `before` to `then`; -1 = none.
 int touchedBy(const std::vector<Footprint>& then, const std::vector<Footprint>& before,
               const std::vector<Footprint>& things) {
   for (const Footprint& thing : things) {
@@ -46,7 +46,7 @@ int touchedBy(const std::vector<Footprint>& then, const std::vector<Footprint>& 
   return -1;
 }
 
-/// Returns what is within reach of its corners, or of its load's.
+/// Returns the footprints within reach of the robot's corners, or of its load's.
 std::vector<Footprint> thingsAround(const Scene& world, int robot, double x, double y,
                                     Among among) {
   std::vector<Footprint> things;
@@ -62,7 +62,7 @@ std::vector<Footprint> thingsAround(const Scene& world, int robot, double x, dou
   return things;
 }
 
-/// All that the robot covers which drives so far from there, from its middle on.
+/// Returns the area that the robot covers while it drives that distance from a pose.
 Footprint lane(const Scene& world, int robot, const PlanarPose& from, double way, double margin) {
   const Robot& r = world.fleet.robots[robot];
   Footprint out;
@@ -78,7 +78,7 @@ Footprint lane(const Scene& world, int robot, const PlanarPose& from, double way
   return out;
 }
 
-/// Returns where the robot would be, were it on the line of its segment.
+/// Returns the robot's pose if it were on the line of its segment.
 PlanarPose onLine(const FleetState& f, int robot) {
   const MotionSegment& segment = f.tasks[robot].segments.front();
   const PlanarPose at = f.believed(robot);

@@ -16,9 +16,9 @@ double rayAngle(const LaserParameters& laser, int ray) {
   return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
 }
 
-/// Returns how many robots with successive ids scan in the same step, where more than one has to:
-/// they mostly stand side by side and see the same, which then is in the processor's cache. A power
-/// of two, so that it seldom changes as robots come and go, and with it when a robot scans.
+/// Returns the number of robots with successive ids that scan in the same step, if several have to.
+/// They mostly stand side by side and see the same models, which then are in the processor's cache.
+/// It is a power of two, so that robots' schedules seldom change as robots come and go.
 int scanTogether(int robots, std::uint64_t period) {
   int together = 1;
   while (together < kMostTogether && 2 * together * period <= static_cast<std::uint64_t>(robots)) {
@@ -27,7 +27,7 @@ int scanTogether(int robots, std::uint64_t period) {
   return together;
 }
 
-/// Rebuilds the rounds after robots have come or gone.
+/// Rebuilds the rounds after robots were added or removed.
 void arrangeScans(const Scene& world, Scans& scans) {
   scans.rounds.clear();
   scans.rounds_revision = world.models.revision;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robots' lasers: when they scan, and what they see.
+// The robots' lasers: the schedule and the results of scans.
 #pragma once
 
 #include "core/state/robots/failure_state.h"
@@ -23,7 +23,7 @@ void setRays(Scans& scans, Robot* robot);
 
 Sensor sensorOf(const Scene& world, int robot);
 
-/// Casts the robot's rays; as far as lasers are real, with their noise.
+/// Casts the robot's rays, with noise if the realism has it.
 void castRays(const Scene& world, const Scans& scans, int robot, const FanReach& reach,
               FanHits* hits);
 

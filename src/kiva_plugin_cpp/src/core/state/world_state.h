@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The state of a world: its parts, each with a header of its own, in rooms by subject. The rooms of
-// core are functions over those parts; none includes a room that is named after it here, which
-// scripts/check_includes holds them to. src/README.md lists the rooms within these.
+// core are functions over those parts. A room in this list includes only rooms above it, which
+// scripts/check_includes verifies. src/README.md lists the rooms within these.
 //   parallel       the threads that share loops
 //   estimation     the Kalman filter by which a robot locates itself
-//   state          the parts, and what follows from them alone
-//   sensing        scans, and what lies ahead of a robot
+//   state          the parts, and functions of them alone
+//   sensing        scans, and obstacles ahead of a robot
 //   motion         wheels on the floor, references that drives follow, clearance of ways
-//   contact        which models Bullet steps, collisions, forces from outside
-//   models         robots, storage units, items and all else, which come and go
+//   contact        which models Bullet steps, collisions, external forces
+//   models         robots, storage units, items and others, added and removed
 //   control        commands, and the routes that robots take for them
 //   communication  the links by which commands reach robots and reports reach clients
 //   people         persons who walk, and robots that keep a distance from them
 //   disturbances   failures, batteries that run low, loads that tip, items that fall
-//   checkpoint     all of it as bytes, and back
+//   checkpoint     the whole state as bytes, and back
 #pragma once
 
 #include <memory>

@@ -24,7 +24,7 @@ kiva::Command fromMessage(const warehouse_msgs::Lift& message);
 kiva::Command fromMessage(const warehouse_msgs::Cancel& message);
 kiva::Command fromMessage(const warehouse_msgs::Stop& message);
 kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message);
-/// Returns an order for every robot; for arrays that don't agree, one that states this fault.
+/// Returns an order for every robot; if the arrays disagree, a single order that states this fault.
 Orders fromMessage(const warehouse_msgs::FleetFollow& message);
 /// Returns cancellations first, then paths, then lifts.
 Orders fromMessage(const warehouse_msgs::FleetOrders& message);
@@ -37,14 +37,14 @@ warehouse_msgs::Cancel toCancel(const kiva::Command& command);
 warehouse_msgs::Stop toStop(const kiva::Command& command);
 warehouse_msgs::FollowPath toMessage(const kiva::FollowPath& path);
 
-/// Names a type where a value is needed.
+/// Passes a type as a value.
 template <typename T>
 struct MessageType {
   using Message = T;
 };
 
-/// Calls `visit(MessageType<Message>(), topic, toOrders)` for each of the topics, whose names are
-/// those in the world's namespace, where toOrders(message) are Orders.
+/// Calls `visit(MessageType<Message>(), topic, toOrders)` for each of the topics, where
+/// toOrders(message) returns Orders. Topics are named relative to the world's namespace.
 template <typename Visit>
 void forEachCommandTopic(Visit visit) {
   using Kind = kiva::Command::Kind;

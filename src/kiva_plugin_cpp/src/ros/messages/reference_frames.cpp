@@ -16,8 +16,8 @@ ScopedName splitScoped(const std::string& name) {
 
 namespace {
 
-/// The links that plain names mean. They are looked for once a change of the models, since that
-/// takes milliseconds in a large warehouse.
+/// An index of links by plain names. It is rebuilt once a change of the models, since that takes
+/// milliseconds in a large warehouse.
 class PlainLinks {
  public:
   /// Returns the link that a name means, or nullptr where it means a model or nothing.
@@ -32,9 +32,9 @@ class PlainLinks {
     world_ = &world;
     revision_ = world.modelsRevision();
     first_.clear();
-    std::unordered_set<std::string> models;  // that came before
+    std::unordered_set<std::string> models;  // those before the present one
     std::shared_ptr<const kiva::ModelDescription>
-        last_description;  // instances of one file stand in a row
+        last_description;  // instances of one file mostly are consecutive
     for (const std::string& model : world.modelNames()) {
       models.insert(model);
       const auto description = world.description(model);
@@ -47,7 +47,7 @@ class PlainLinks {
     }
   }
 
-  /// Returns the name of a link without those of the models inside that it belongs to.
+  /// Returns the name of a link without the names of the nested models around it.
   static std::string withoutScope(const std::string& link) {
     const std::size_t at = link.rfind("::");
     return at == std::string::npos ? link : link.substr(at + 2);

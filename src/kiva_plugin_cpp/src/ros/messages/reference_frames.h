@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The entities and reference frames that Gazebo's services name: `model::link`, or the name of a
-// model or link alone. As frames empty, world, map and /map are inertial.
+// model or link alone. The frames "", world, map and /map are inertial.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ using ScopedName = std::pair<std::string, std::string>;
 /// Returns the two names in `model::link`, or a model's name alone.
 ScopedName splitScoped(const std::string& name);
 
-/// Returns the model or link that a name means, as Gazebo's World::EntityByName does: by its scoped
-/// name, or the first called so, each model before its links, models in the order in which they
-/// were added. Returns nullopt for an unknown name.
+/// Returns the model or link that a name means, as Gazebo's World::EntityByName does: the one with
+/// that scoped name, or the first with that name. Each model precedes its links, and models are in
+/// the order of their addition. Returns nullopt for an unknown name.
 std::optional<ScopedName> findEntity(const kiva::World& world, const std::string& name);
 
-/// Returns the model and the name in it of a joint, given as `model::joint` or by its name alone,
-/// of the first model with such a joint. Returns nothing if there is none.
+/// Returns the model of a joint and its name there. The joint is given as `model::joint`, or by its
+/// name alone for the first model that has it. Returns nothing if there is none.
 std::optional<ScopedName> findJoint(const kiva::World& world, const std::string& name);
 
 /// Returns whether a frame is the world's own.

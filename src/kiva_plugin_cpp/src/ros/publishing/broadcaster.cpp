@@ -11,14 +11,14 @@
 namespace kiva_ros {
 namespace {
 
-/// Queue size for a slow subscriber: several times all commands that may wait for one step, with an
-/// event each.
+/// Queue size for a slow subscriber: several times the commands that may be pending in a step, with
+/// an event each.
 constexpr int kEventQueue = 1000000;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
 constexpr auto kBatch = std::chrono::milliseconds(2);
 
-/// Topics are latched whose message new subscribers need while time stands still.
+/// Topics are latched if new subscribers need their message while time stands still.
 constexpr bool kLatched = true;
 
 std_msgs::String hashMessage(const std::string& hash) {
@@ -71,7 +71,7 @@ void Broadcaster::run() {
       bulk += snapshot.bulk();
     }
     events_.flush();
-    // Together rather than one by one, so that this thread and those of clients wake less often.
+    // Sends many messages together, so that this thread and those of clients wake less often.
     if (bulk >= kCrowd && !batch.back().reliable) std::this_thread::sleep_for(kBatch);
   }
 }
@@ -105,7 +105,7 @@ void Broadcaster::publish(const Snapshot& s) {
   if (s.links) publishLinks(*s.links);
   for (const PublishQueue::Publication& publication : s.publications) publication();
   if (!s.state_hash.empty()) hash_.publish(hashMessage(s.state_hash));
-  // roscpp's queues are short: the next message could push this one out.
+  // roscpp's queues are short: the next message could displace this one.
   if (s.reliable || s.published) {
     events_.flush();
     poll_thread_.flush();

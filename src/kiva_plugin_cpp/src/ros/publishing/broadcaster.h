@@ -25,7 +25,7 @@ namespace kiva_ros {
 /// messages and writes to sockets.
 class Broadcaster {
  public:
-  /// `node`: has the node's private names.
+  /// `node` holds the node's private names.
   Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, SubscriberCounts& subscribers,
               SnapshotQueue& snapshots);
   ~Broadcaster() { stop(); }
@@ -47,7 +47,7 @@ class Broadcaster {
   DirectPublisher events_;
   ros::Publisher collisions_, fleet_, objects_, units_, people_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
-  // Kept, since their names seldom change.
+  // Shared, since names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_,
       link_names_;  ///< The names in the next two.
   gazebo_msgs::ModelStates models_;

@@ -13,7 +13,8 @@ namespace kiva_ros {
 namespace {
 
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
-// Without pacing, a client that gets a thousand clocks a second does little else.
+// Least gap between clocks without pacing. A client that receives a thousand clocks a second does
+// little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
 constexpr double kStatusRate = 10;  // [Hz], while there are subscribers
 constexpr double kHashRate = 1;     // [Hz]
@@ -141,7 +142,7 @@ void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
   out.time = world.time();
   addNews(world, &out);
   updateSubscribedRobots();
-  // While time stands still, or after it jumped, subscribers must not have to wait for a step.
+  // Subscribers get the clock at once while time stands still, or after it jumped.
   const bool reset = world.steps() < last_steps_;
   if ((paused || reset) && world.steps() != clock_sent_steps_) {
     out.reliable_clock = true;
@@ -151,7 +152,7 @@ void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
     addStatuses(world, &out);
     addFleet(world, &out);
     addOdometry(world, &out);
-    if (reset) addTransforms(world, &out);  // a second one of the same time would be ignored
+    if (reset) addTransforms(world, &out);  // tf ignores a second one with the same time
   }
   if (paused) addForNewcomers(world, &out);
   addObjects(world, &out);
@@ -210,8 +211,8 @@ void Reporter::addClock(const kiva::World& world, bool reliable, Snapshot* out) 
   if (reliable) clock_sent_steps_ = world.steps();
 }
 
-/// Adds the status of robots with subscribers at kStatusRate, and of every robot once a simulated
-/// second, less often where that would be too often by the wall clock, to refresh latched messages.
+/// Adds the status of robots with subscribers at kStatusRate. Adds the status of every robot once a
+/// simulated second, to refresh latched messages, or less often if the wall clock requires it.
 void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   const std::uint64_t beat = world.steps() / heartbeat_every_;
   const int slot = static_cast<int>(beat % kHeartbeatSlots);
@@ -338,7 +339,7 @@ void Reporter::addObjects(const kiva::World& world, Snapshot* out, bool at_once)
     next_due_ = objects_sent_ + kObjectsInterval;
     return;
   }
-  // Together, since the second message uses the order of the first.
+  // Published together, since units refer to the order of objects.
   if (models) out->objects = warehouseObjects(world);
   out->units = unitStates(world);
   out->units->timeline = timeline_;

@@ -18,20 +18,19 @@
 
 namespace kiva_ros {
 
-/// Samples, on the step thread, what is due to be published and queues it for the broadcaster.
-///
-/// Rates are of simulated time and counted in steps; only the two latched messages of objects and
+/// Samples, on the step thread, the data that are due and queues them for the broadcaster.
+/// Rates are in simulated time and counted in steps. Only the two latched messages of objects and
 /// units are throttled by the wall clock, since models come and go while time stands still.
 class Reporter {
  public:
   struct Rates {
     double clock = 100;        ///< [Hz], 0 = every step.
     double model_states = 50;  ///< [Hz], 0 = every step.
-    double fleet = 10;         ///< [Hz], of FleetState.
+    double fleet = 10;         ///< Rate of FleetState [Hz].
   };
 
-  /// `rtf`: the target real-time factor; at 0, as fast as possible, the wall clock throttles
-  /// /clock.
+  /// `rtf`: the target real-time factor; at 0, as fast as possible, /clock is throttled by the wall
+  /// clock.
   Reporter(const kiva::World& world, const Rates& rates, double rtf, SubscriberCounts& subscribers,
            PublishQueue& publish_queue, SnapshotQueue& snapshots);
   void retime(double step_size, double rtf);
@@ -50,7 +49,7 @@ class Reporter {
   void restored(const kiva::World& world, const std::vector<std::string>& before);
   /// Calls `done`, on another thread, when everything reported so far has been written to sockets.
   void whenPublished(const kiva::World& world, std::function<void()> done);
-  /// Returns when afterRequests is to be called even without a request.
+  /// Returns the time by which afterRequests must be called even without a request.
   WallClock::time_point nextDue() const { return next_due_; }
 
  private:
@@ -78,12 +77,12 @@ class Reporter {
   SubscriberCounts& subscribers_;
   PublishQueue& publish_queue_;
   SnapshotQueue& snapshots_;
-  WallClock::duration clock_gap_{0};  ///< Least wall time between two /clock messages.
+  WallClock::duration clock_gap_{0};  ///< Minimum wall time between two /clock messages.
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
       hash_every_;  // steps
 
   std::uint32_t timeline_ = 1;
-  bool people_were_there_ = false;           ///< In the last People message.
+  bool people_were_there_ = false;           ///< Whether the last People message had any.
   std::uint64_t clock_sent_steps_ = kNever;  ///< At the last reliable clock.
   WallClock::time_point clock_sent_;
   std::uint64_t last_steps_ = kNever;

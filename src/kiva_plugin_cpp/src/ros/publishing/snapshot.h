@@ -35,13 +35,13 @@ struct Scan {
 
 struct RobotPose {
   int kiva_id = 0;
-  kiva::Pose base;                           ///< In world.
-  kiva::Twist twist;                         ///< In base_link.
-  bool is_exact = true;                      ///< What follows is 0 then: pose and twist are true.
+  kiva::Pose base;       ///< In world.
+  kiva::Twist twist;     ///< In base_link.
+  bool is_exact = true;  ///< Whether pose and twist are the true ones; then all that follows is 0.
   std::array<double, 9> pose_covariance{};   ///< Covariance of x, y, yaw.
-  std::array<double, 4> twist_covariance{};  ///< Of speed ahead and turn rate.
+  std::array<double, 4> twist_covariance{};  ///< Covariance of forward speed and turn rate.
   double wheel_angle[2] = {0, 0};            ///< Left, right [rad].
-  double tower = 0;                          ///< Above its rest [m].
+  double tower = 0;                          ///< Height above its rest [m].
 };
 
 /// The states of all models, or of all links.
@@ -51,7 +51,7 @@ struct ModelStates {
   std::vector<kiva::EntityState> states;
 };
 
-/// What is due to be published of one moment of the world.
+/// The data of one moment of the world that are due to be published.
 struct Snapshot {
   double time = 0;  ///< Simulated [s].
 
@@ -62,18 +62,18 @@ struct Snapshot {
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
-  std::vector<PublishQueue::Publication> publications;  ///< Of plugins.
-  std::string state_hash;                               ///< Empty: not due.
+  std::vector<PublishQueue::Publication> publications;  ///< Messages of plugins.
+  std::string state_hash;                               ///< Empty if it is not due.
   std::function<void()> published;  ///< Called when this snapshot is written to sockets.
-  bool reliable = false;            ///< Nothing may be dropped: a client waits for the step.
+  bool reliable = false;  ///< Whether nothing may be dropped, since a client waits for the step.
 
-  // Best-effort parts: dropped where the broadcaster lags, since the next ones replace them.
+  // Best-effort parts: dropped if the broadcaster lags, since the next ones replace them.
   bool clock = false;
   std::optional<warehouse_msgs::People> people;
   std::optional<warehouse_msgs::FleetState> fleet;
   std::optional<ModelStates> models;
   std::optional<ModelStates> links;
-  std::vector<kiva::StatusChange> heartbeats;  ///< Of robots with subscribers.
+  std::vector<kiva::StatusChange> heartbeats;  ///< Status of robots with subscribers.
   std::vector<Scan> scans;
   std::vector<RobotPose> odometry;
   std::vector<RobotPose> transforms;

@@ -13,7 +13,7 @@ namespace {
 
 using warehouse_msgs::KivaStatus;
 
-// Variance of what wheels do not measure, and a level floor leaves no room for [m², rad²].
+// Variance of motions that wheels do not measure and that a level floor prevents [m², rad²].
 constexpr double kOffTheFloor = 1e-6;
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
@@ -26,7 +26,7 @@ int shelfOf(const kiva::World& world, int robot) {
   return unit < 0 ? 0 : world.storageUnits()[unit].id;
 }
 
-/// Writes the covariance of some of x, y, z, roll, pitch, yaw, by their places among these.
+/// Writes the covariance of some of x, y, z, roll, pitch, yaw, given by their indices.
 template <std::size_t N, std::size_t Size>
 void write(const std::array<double, Size>& covariance, const std::array<int, N>& places,
            boost::array<double, 36>* out) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes messages of the state of robots and warehouse, and of events.
+// Converts the state of robots and warehouse, and events, to messages.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -25,7 +25,7 @@ warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
 sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser, double time);
 nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
 
-/// Returns a robot's status of now.
+/// Returns a robot's present status.
 kiva::StatusChange statusOf(const kiva::World& world, int robot);
 warehouse_msgs::FleetState fleetState(const kiva::World& world);
 /// Returns the people on the floor and the robots that slow down for them; empty without people.

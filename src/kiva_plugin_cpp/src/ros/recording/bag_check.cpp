@@ -17,8 +17,8 @@ namespace kiva_ros {
 namespace {
 
 constexpr rlim_t kMostMemory = 8ULL << 30;           // [bytes]
-constexpr rlim_t kLeastTime = 30;                    // [s], of the processor
-constexpr std::uintmax_t kBytesPerSecond = 4000000;  // read at least that fast
+constexpr rlim_t kLeastTime = 30;                    // [s] of processor time
+constexpr std::uintmax_t kBytesPerSecond = 4000000;  // minimum rate of reading
 
 void limit(int resource, rlim_t value) {
   const rlimit both{value, value};

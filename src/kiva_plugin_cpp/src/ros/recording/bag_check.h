@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// librosbag trusts what it reads: some damaged bags crash it, others let it ask for all memory. So
-// a bag is read once from its beginning to its end in a process of its own before this one opens
-// it.
+// Checks bags in a child process. librosbag trusts its input: some damaged bags crash it, others
+// make it allocate all memory. So a bag is read once, from beginning to end, in a process of its
+// own before this process opens it.
 #pragma once
 
 #include <string>
 
 namespace kiva_ros {
 
-/// The argument, before a path, that makes this program that process.
+/// The argument, before a path, with which this program is that child process.
 constexpr char kCheckBagOption[] = "--check-bag";
 
 /// Checks a bag. Throws std::runtime_error with its fault and a remedy.
 void checkBag(const std::string& path);
 
-/// Checks a bag in that process: prints its fault to stdout and returns the exit code.
+/// Checks a bag inside the child process: prints its fault to stdout and returns the exit code.
 int checkBagHere(const std::string& path);
 
 }  // namespace kiva_ros

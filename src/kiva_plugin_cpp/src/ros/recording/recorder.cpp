@@ -75,7 +75,7 @@ bool Recorder::beforeStep(kiva::World& world) {
     poses_every_ = stepsPer(kPoseRate, step_size_);
   }
   if (changed_) {
-    write(kKeyframeTopic, keyframe(world.checkpoint()));  // includes commands that wait
+    write(kKeyframeTopic, keyframe(world.checkpoint()));  // includes pending commands
   } else {
     for (const Order& order : commands_) {
       std::visit([this](const auto& asked) { write(asked); }, order);
@@ -115,13 +115,13 @@ void Recorder::attempt(Act act) {
         "the recording to %s ended at step %lu, the simulation goes on: %s. 'rosbag reindex %s' "
         "saves what was written",
         path_.c_str(), static_cast<unsigned long>(step_), error.what(), path_.c_str());
-    // Left as it is: its destructor would try to write the rest, and throw.
+    // Not closed: its destructor would try to write the rest, and throw.
     bag_.release();
   }
 }
 
-/// Writes the hash; once a second of the wall clock this closes the chunk of the bag, which until
-/// then is mostly in memory and of no use to `rosbag reindex`.
+/// Writes the hash. Once a second of the wall clock this closes the chunk of the bag, which until
+/// then is mostly in memory, where `rosbag reindex` can't reach it.
 void Recorder::writeHash(const kiva::World& world) {
   const auto now = WallClock::now();
   const bool closes = now >= saved_ + kSaveInterval;
@@ -156,7 +156,7 @@ void Recorder::write(const kiva::Command& command) {
     case kiva::Command::Kind::kGoOn:
       return write("/stop", toStop(command));
     case kiva::Command::Kind::kFollow:
-      break;  // written as what it stands for
+      break;  // written as the path that it stands for
   }
 }
 

@@ -14,9 +14,9 @@
 
 namespace kiva_ros {
 
-/// Records everything needed to run the world again; see recording_format.h. Of a node that
-/// crashes, all but the last second can be read after `rosbag reindex`. If the bag can't be written
-/// any more, the recording alone ends.
+/// Records everything needed to run the world again; see recording_format.h. After a crash of the
+/// node, all but the last second can be read after `rosbag reindex`. A failed write ends the
+/// recording alone.
 class Recorder : public StepHook {
  public:
   /// Opens the bag. Throws std::runtime_error if it can't be created.
@@ -49,7 +49,7 @@ class Recorder : public StepHook {
   double step_size_ = 1;
   std::uint64_t hash_every_ = 0, poses_every_ = 0;  ///< Steps.
   std::uint64_t step_ = 0;                          ///< Steps recorded so far.
-  std::uint32_t index_ = 0;                         ///< Of the next message within this step.
+  std::uint32_t index_ = 0;                         ///< Index of the next message within this step.
   Orders commands_;
   std::vector<std::function<void(rosbag::Bag&, const ros::Time&)>> inputs_;
   bool changed_ = true;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kBatch = 0.005;      // [s]
 constexpr double kMostArrears = 0.1;  // [s]
 constexpr int kUnpacedSteps = 1000;
-constexpr double kMostSteps = 1e6;  // at a time, whatever factor was asked for
+constexpr double kMostSteps = 1e6;  // in a batch, for any factor
 
 WallClock::duration seconds(double s) {
   return std::chrono::duration_cast<WallClock::duration>(std::chrono::duration<double>(s));
@@ -37,7 +37,7 @@ int Pacer::due(WallClock::time_point now) {
     origin_ += seconds(owed - most);
     owed = most;
   }
-  // A nanosecond of rounding must not put a step off to the next batch.
+  // Tolerates a nanosecond of rounding, which must not move a step to the next batch.
   return static_cast<int>(std::min(std::floor(owed / wall_per_step_ + 1e-3), kMostSteps));
 }
 

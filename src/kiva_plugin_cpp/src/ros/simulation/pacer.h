@@ -7,8 +7,7 @@
 
 namespace kiva_ros {
 
-/// Tells when steps are due so that simulated time follows the wall clock.
-///
+/// Decides when steps are due so that simulated time follows the wall clock.
 /// Steps come in batches, since waking up for each costs more than a small world's step; a batch is
 /// short against the reaction time of clients. Lost time is not caught up: a world that was too
 /// slow continues without a burst.

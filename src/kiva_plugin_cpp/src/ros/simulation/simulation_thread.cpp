@@ -28,7 +28,7 @@ void SimulationThread::start() {
   thread_ = std::thread([this] {
     try {
       loop();
-    } catch (const std::exception& error) {  // of a plugin, say
+    } catch (const std::exception& error) {  // from a plugin, for instance
       ROS_FATAL("%s", error.what());
       failed_ = true;
       refuseRequests();
@@ -139,7 +139,7 @@ void SimulationThread::restoreHere(kiva::World& world, const std::string& checkp
   reporter_.beginTimeline();
   reporter_.restored(world, before);
   refuseCommands("the world went back to a checkpoint before its next step");
-  retime(world.stepSize(), target_factor_);  // it may have another step
+  retime(world.stepSize(), target_factor_);  // its step size may differ
 }
 
 void SimulationThread::reset(bool time_too) {
@@ -186,7 +186,7 @@ void SimulationThread::loop() {
 }
 
 bool SimulationThread::waitForWork(Requests* requests) {
-  // Within an hour, since waiting until the end of all time overflows in some libraries.
+  // Waits an hour at most, since waiting until the end of all time overflows in some libraries.
   auto until = std::min(reporter_.nextDue(), WallClock::now() + std::chrono::hours(1));
   if (runs()) until = std::min(until, pacer_.next());
   if (!step_requests_.empty()) until = WallClock::time_point::min();
@@ -212,7 +212,7 @@ void SimulationThread::handleRequests(const Requests& requests) {
 void SimulationThread::advance() {
   const int due = pacer_.due(WallClock::now());
   int steps = 0;
-  // At least one, or a flood of requests would hold time up.
+  // At least one step, or a flood of requests would stop time.
   while (steps < due && (steps == 0 || !attention_)) {
     if (!stepOnce(false)) return;
     pacer_.stepped();

@@ -52,30 +52,29 @@ class SimulationThread {
   template <typename Request>
   auto move(Request request);
 
-  /// Runs a request like run() that changes the world otherwise, so that a recording notes it;
-  /// adding and removing models is noted anyway.
+  /// Runs a request like run() that changes the world otherwise, so that a recording includes the
+  /// change. Added and removed models are always recorded.
   template <typename Request>
   auto change(Request request);
-  /// Returns the number of the timeline: 1, and one more for each reset or restore. For the step
-  /// thread.
+  /// Returns the number of the timeline: it begins with 1 and grows with each reset or restore. For
+  /// the step thread.
   std::uint32_t timeline() const { return reporter_.timeline(); }
   /// Notes that a request changes the world. For the step thread.
   void noteChange() { changed_ = true; }
 
   /// Posts commands for the next step, without waiting for it. In lockstep the commands since the
-  /// last step are sorted by robot, since several connections have no common order. An event
-  /// refuses commands where too many wait already, and where a reset or a restore precedes that
-  /// step.
+  /// last step are sorted by robot, since several connections have no common order. Commands are
+  /// refused by an event if too many are pending, or if a reset or a restore precedes that step.
   void command(Orders orders);
   /// Posts commands that are valid in that timeline of the world, and refuses them in any other.
   void command(Orders orders, std::uint32_t timeline);
 
   struct Stepped {
     double time = 0;          ///< Simulated [s].
-    std::uint64_t steps = 0;  ///< Since time was 0.
+    std::uint64_t steps = 0;  ///< Steps since time was 0.
     std::size_t waiting = 0;  ///< Commands for the next step.
   };
-  /// Makes so many steps, paused or not, as fast as possible, and returns when all their messages
+  /// Makes `steps` steps, paused or not, as fast as possible, and returns when all their messages
   /// have been written to sockets. Calls `is_abandoned` meanwhile, on the caller's thread: once it
   /// returns true, the remaining steps are skipped. Not for the step thread.
   Stepped step(std::uint32_t steps, const std::function<bool()>& is_abandoned);
@@ -107,7 +106,7 @@ class SimulationThread {
     std::shared_ptr<std::atomic<bool>> is_cancelled = std::make_shared<std::atomic<bool>>(false);
   };
 
-  bool runs() const { return !paused_ && !lockstep_; }  ///< Without being asked for steps.
+  bool runs() const { return !paused_ && !lockstep_; }  ///< Whether time advances without step().
   void loop();
   void startClocks();
   bool waitForWork(Requests* requests);  ///< Returns false when the thread is to end.
@@ -141,7 +140,7 @@ class SimulationThread {
   std::uint64_t models_revision_ = 0;  ///< The revision that the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
-  Orders held_commands_;  ///< Until the next step.
+  Orders held_commands_;  ///< Commands for the next step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

@@ -6,8 +6,8 @@
 
 namespace kiva_ros {
 
-/// A callback queue with a thread of its own, for services whose calls may take long: it serves one
-/// call at a time, while other threads answer all others. Outlives what its node advertises.
+/// A callback queue with a thread of its own, for services whose calls may take long. It serves one
+/// call at a time; other threads answer all others. It must outlive what its node advertises.
 class CallbackThread {
  public:
   explicit CallbackThread(const ros::NodeHandle& node) : node_(node), spinner_(1, &queue_) {

@@ -15,10 +15,9 @@
 namespace kiva_ros {
 
 /// Publishes on one of thousands of topics, or many messages, from a single thread; not latched.
-///
-/// For each message roscpp compares the names of all topics and wakes its own thread, which
-/// searches all topics and waits for the socket by four system calls before it writes: with ten
-/// thousand messages a second that is most of their cost. This class keeps the topic and writes
+/// For each message, roscpp compares the names of all topics and wakes its own thread, which
+/// searches all topics and makes four system calls to wait for the socket before it writes. With
+/// ten thousand messages a second that is most of their cost. This class keeps the topic and writes
 /// itself.
 class DirectPublisher {
  public:
@@ -32,8 +31,8 @@ class DirectPublisher {
     add(message);
     flush();
   }
-  /// Publishes with the next flush(): several messages become one write, and one read of the
-  /// subscriber. `message` gets its sequence number.
+  /// Publishes with the next flush(): several messages become one write and one read. `message`
+  /// gets its sequence number.
   template <typename Message>
   void add(Message& message) {
     if (!topic_) return;

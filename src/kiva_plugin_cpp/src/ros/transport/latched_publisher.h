@@ -12,8 +12,8 @@
 
 namespace kiva_ros {
 
-/// A DirectPublisher whose last message a new subscriber gets at once. roscpp would serialise each
-/// message for that, even without a new subscriber.
+/// A DirectPublisher that sends its last message to each new subscriber. roscpp would serialise
+/// each message for that, even without a new subscriber.
 template <typename Message>
 class LatchedPublisher {
  public:
@@ -28,7 +28,7 @@ class LatchedPublisher {
       if (last->message) newcomer.publish(*last->message);
     };
     const auto part = [count](const ros::SingleSubscriberPublisher&) { count(-1); };
-    constexpr bool kLatched = true;  // which clients are told
+    constexpr bool kLatched = true;  // as new subscribers are informed
     publisher_ = DirectPublisher(
         node.advertise<Message>(topic, queue_size, welcome, part, ros::VoidConstPtr(), kLatched));
   }
@@ -47,7 +47,7 @@ class LatchedPublisher {
     std::optional<Message> message;
   };
 
-  std::shared_ptr<Last> last_;  ///< Which newcomers are told even as the topic goes.
+  std::shared_ptr<Last> last_;  ///< Shared with subscribers that connect while the topic ends.
   DirectPublisher publisher_;
 };
 

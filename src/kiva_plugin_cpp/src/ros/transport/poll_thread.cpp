@@ -25,7 +25,7 @@ PollThread::~PollThread() { ros::PollManager::instance()->removePollThreadListen
 
 void PollThread::flush() {
   std::unique_lock<std::mutex> lock(mutex_);
-  // The turn under way may have looked before; the next one empties the queues.
+  // The turn in progress may have passed the queues already; the next one empties them.
   const std::uint64_t enough = turns_ + 2;
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (turns_ < enough && std::chrono::steady_clock::now() < end) {

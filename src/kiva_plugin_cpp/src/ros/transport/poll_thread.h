@@ -19,7 +19,7 @@ class PollThread {
  private:
   std::mutex mutex_;
   std::condition_variable turned_;
-  std::uint64_t turns_ = 0;  ///< Of that thread; guarded by mutex_.
+  std::uint64_t turns_ = 0;  ///< Turns of that thread; guarded by mutex_.
   boost::signals2::connection connection_;
 };
 

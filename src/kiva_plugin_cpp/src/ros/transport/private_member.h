@@ -3,14 +3,14 @@
 
 namespace kiva_ros {
 
-/// What roscpp offers no way to ask for. An explicit instantiation may name private members:
+/// Access to private members of roscpp that has no public way. An explicit instantiation may name
+/// private members:
 ///
 ///   struct Links : PrivateMember<Links, ros::V_ServiceClientLink ros::ServicePublication::*> {};
 ///   template struct Reveal<Links, &ros::ServicePublication::client_links_>;
-///
-/// makes memberOf(Links()) point to it. Such names stand in this namespace, each once.
+/// makes memberOf(Links()) point to it. Such tags are in this namespace, each once.
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wnon-template-friend"  // one function for each name is meant
+#pragma GCC diagnostic ignored "-Wnon-template-friend"  // a function for each tag is intended
 template <typename Name, typename Pointer>
 struct PrivateMember {
   using Type = Pointer;

@@ -10,7 +10,7 @@
 
 namespace kiva_ros {
 
-// roscpp tells a service's callback nothing of the connection.
+// Access to the connection of a call, which roscpp does not pass to a service's callback.
 struct ServiceLinks
     : PrivateMember<ServiceLinks, ros::V_ServiceClientLink ros::ServicePublication::*> {};
 struct ServiceLinksMutex

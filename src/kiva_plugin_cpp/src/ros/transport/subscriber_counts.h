@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Counts subscribers as they connect and disconnect, so that the step thread never has to ask
-// roscpp, which takes a lock and walks a list for every answer.
+// Counts subscribers as they connect and disconnect. The step thread so never has to ask roscpp,
+// which takes a lock and walks a list for every answer.
 #pragma once
 
 #include <ros/ros.h>

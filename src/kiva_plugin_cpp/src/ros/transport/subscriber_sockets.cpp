@@ -45,10 +45,10 @@ namespace {
 
 using Messages = std::vector<ros::SerializedMessage>;
 
-constexpr std::size_t kMostParts = 64;  // of what one call writes
+constexpr std::size_t kMostParts = 64;  // buffers of one call
 
-/// Returns how many bytes the socket took: none where it is full, or broken, which roscpp's thread
-/// sees to.
+/// Returns how many bytes the socket took: 0 if it is full, or broken, which roscpp's thread
+/// handles.
 std::size_t write(int socket, const Messages& messages) {
   iovec parts[kMostParts];
   msghdr all{};
@@ -70,13 +70,13 @@ void finish(Link& link, const ros::SerializedMessage& message, std::size_t begin
               boost::bind(memberOf(OnMessageWritten()), &link, boost::placeholders::_1), false);
 }
 
-/// Returns how many of the messages are on their way: none where roscpp's thread has to send others
-/// first.
+/// Returns how many of the messages were written, at least in part: 0 if roscpp's thread has to
+/// send others first.
 std::size_t writeNow(Link& link, const Messages& messages) {
   const ros::TransportPtr transport = (link.*memberOf(LinkConnection()))->getTransport();
   auto* tcp = dynamic_cast<ros::TransportTCP*>(transport.get());
   if (!tcp) return 0;
-  // roscpp's thread holds the first while it looks after this socket, and takes the second then.
+  // roscpp's thread holds the first lock while it handles this socket, and takes the second then.
   const boost::recursive_mutex::scoped_lock open(tcp->*memberOf(TcpCloseMutex()));
   const boost::mutex::scoped_lock order(link.*memberOf(LinkOutboxMutex()));
   if (tcp->*memberOf(IsClosed()) || !(link.*memberOf(IsHeaderWritten()))) return 0;
@@ -98,7 +98,7 @@ void writeToSubscribers(ros::Publication& topic, const Messages& messages) {
     links = topic.*memberOf(TopicLinks());
   }
   for (const ros::SubscriberLinkPtr& link : links) {
-    auto* remote = dynamic_cast<Link*>(link.get());  // none: of a subscriber in this process
+    auto* remote = dynamic_cast<Link*>(link.get());  // null for a subscriber in this process
     const std::size_t done = remote ? writeNow(*remote, messages) : 0;
     for (std::size_t k = done; k < messages.size(); ++k) {
       link->enqueueMessage(messages[k], true, false);

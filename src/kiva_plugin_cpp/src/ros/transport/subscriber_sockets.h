@@ -8,9 +8,9 @@
 
 namespace kiva_ros {
 
-/// Writes messages of one topic, in their order, to all of its subscribers: at once and together,
-/// in the caller's thread. Where older messages wait, or the socket is full, roscpp's thread sends
-/// them, and drops the oldest beyond the topic's queue size. For one thread a topic.
+/// Writes messages of one topic, in order, to all of its subscribers: immediately and together, in
+/// the caller's thread. If older messages are queued, or the socket is full, roscpp's thread sends
+/// them, and drops the oldest beyond the topic's queue size. One thread a topic.
 void writeToSubscribers(ros::Publication& topic,
                         const std::vector<ros::SerializedMessage>& messages);
 

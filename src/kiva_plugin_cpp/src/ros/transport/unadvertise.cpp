@@ -32,10 +32,10 @@ void unadvertiseTopics() {
   for (std::size_t i = 0; i < names.size(); ++i) {
     calls[0][static_cast<int>(i)] = unregisterPublisher(names[i]);
   }
-  // Its answer is none of the master's usual triples, so what this returns says nothing.
+  // The return value is meaningless: the answer is not one of the master's usual triples.
   ros::master::execute("system.multicall", calls, response, payload, false);
   for (const std::string& name : names) {
-    // What is dropped already, roscpp leaves alone.
+    // roscpp ignores a topic that is dropped already.
     if (const ros::PublicationPtr topic = topics->lookupPublication(name)) topic->drop();
   }
 }

@@ -14,19 +14,19 @@
 namespace kiva {
 namespace {
 
-/// Names of what is in an element, by kind: links among links, models among models and so on. Of
-/// plugins several may have one name.
+/// A part's kind and name; a name is taken by parts of the same kind alone. Plugins may share a
+/// name.
 using KindAndName = std::pair<std::string, std::string>;
 struct Names {
   std::set<KindAndName> taken;
-  std::map<KindAndName, int> counts;  ///< Up to here `name_2`, `name_3` and so on were given out.
+  std::map<KindAndName, int> counts;  ///< Highest n of the names `name_n` that were added.
 
   bool add(const std::string& kind, const std::string& name) {
     return taken.emplace(kind, name).second;
   }
 };
 
-/// Two shapes of one name are told apart here; nothing refers to them by it.
+/// Makes a shape's name unique; nothing refers to shapes by name.
 void rename(XmlElement* part, Names* names, Faults* warnings) {
   const std::string name = attributeOf(*part, "name");
   std::string free;
@@ -119,7 +119,8 @@ std::string faultOfPlace(XmlElement* part) {
   return missing.empty() ? "" : "its " + missing + " is not there";
 }
 
-/// A model may do without these: its first link, its own frame are taken.
+/// Removes faulty references to frames that a model can do without: its first link and its own
+/// frame take their place.
 void dropWrongFrames(XmlElement* model, Faults* warnings) {
   for (const char* attribute : {"canonical_link", "placement_frame"}) {
     if (!model->Attribute(attribute)) continue;
@@ -168,7 +169,7 @@ std::string faultOf(XmlElement* part) {
   return fault;
 }
 
-/// Only a renderer could run it.
+/// Removes a script, which only a renderer could run.
 void dropScript(XmlElement* material) {
   if (XmlElement* const script = material->FirstChildElement("script"))
     material->DeleteChild(script);
@@ -180,7 +181,7 @@ void leaveOut(XmlElement* part, const std::string& fault, Faults* warnings) {
   part->Parent()->DeleteChild(part);
 }
 
-/// Parts and their parts, by themselves.
+/// Checks each part by itself, then its parts.
 void checkParts(XmlElement* element, Faults* warnings) {
   if (is(*element, "link")) repairInertial(element, warnings);
   if (is(*element, "material")) dropScript(element);
@@ -188,7 +189,7 @@ void checkParts(XmlElement* element, Faults* warnings) {
   XmlElement* next;
   for (auto child = element->FirstChildElement(); child; child = next) {
     next = child->NextSiblingElement();
-    if (is(*child, "plugin")) continue;  // What is inside is its own affair.
+    if (is(*child, "plugin")) continue;  // SDF does not define its content.
     checkParts(child, warnings);
     std::string fault = faultOf(child);
     if (fault.empty()) fault = faultOfName(child, &names, warnings);
@@ -196,7 +197,8 @@ void checkParts(XmlElement* element, Faults* warnings) {
   }
 }
 
-/// What is placed by something else; true if something was left out, which others may be placed by.
+/// Removes parts whose place depends on a missing frame. Returns whether one was removed, on which
+/// others may depend.
 bool checkPlaces(XmlElement* element, Faults* warnings) {
   bool has_changed = false;
   if (is(*element, "model")) dropWrongFrames(element, warnings);
@@ -220,7 +222,8 @@ bool checkPlaces(XmlElement* element, Faults* warnings) {
 
 void checkElements(XmlElement* root, Faults* warnings) {
   checkParts(root, warnings);
-  // What is left of longer chains costs the model that it is in when its frames are looked up.
+  // Number of rounds. A longer chain costs its model, whose frames are missing when they are looked
+  // up.
   constexpr int kMostRounds = 20;
   for (int round = 0; round < kMostRounds && checkPlaces(root, warnings); ++round) continue;
 }

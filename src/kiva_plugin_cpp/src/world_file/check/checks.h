@@ -5,8 +5,8 @@
 
 namespace kiva {
 
-/// Checks for faults that the format allows and no world can have: names that are taken, joints of
-/// missing links. Repairs or leaves out what the rest can do without, with a warning; throws
+/// Checks for faults that the format permits and no world can have, such as a name that is taken or
+/// a joint whose link is missing. Repairs or leaves out dispensable parts, with a warning; throws
 /// SdfError where nothing would be left.
 void checkElements(XmlElement* root, Faults* warnings);
 

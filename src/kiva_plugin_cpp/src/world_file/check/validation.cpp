@@ -14,7 +14,8 @@ XmlElement* parentOf(XmlElement* element) {
   return parent ? parent->ToElement() : nullptr;
 }
 
-/// A value without which its neighbours make no sense goes with the part that they are all of.
+/// Returns the part that a faulty value costs: the one around it if the other values there make no
+/// sense without it, else the value itself.
 XmlElement* wholeOf(XmlElement* faulty) {
   static const std::set<std::string> kWholes = {"sensor", "light",  "inertia", "include",
                                                 "plugin", "frame",  "gripper", "projector",
@@ -29,8 +30,8 @@ XmlElement* wholeOf(XmlElement* faulty) {
   return faulty;
 }
 
-/// A fault, the element that it is at, and the one that goes with it.
-struct Found {
+/// A fault, its element, and the element to leave out for it.
+struct LocatedFault {
   XmlElement* at = nullptr;
   Fault fault;
   XmlElement* out = nullptr;
@@ -40,58 +41,60 @@ bool isDispensable(const XmlElement& element) {
   return !is(element, "sdf") && !is(element, "world");
 }
 
-void drop(const Found& found, Faults* left_out) {
-  left_out->push_back(reworded(found.fault, "this " + std::string(found.out->Name()) +
-                                                " is left out: " + found.fault.message));
-  found.out->Parent()->DeleteChild(found.out);
+void drop(const LocatedFault& located, Faults* left_out) {
+  left_out->push_back(reworded(located.fault, "this " + std::string(located.out->Name()) +
+                                                  " is left out: " + located.fault.message));
+  located.out->Parent()->DeleteChild(located.out);
 }
 
-/// Looks for faults; with `left_out` it drops what is faulty, and goes on where that was.
+/// Searches for faults. With `left_out` it removes the faulty parts and continues after them.
 class Validation {
  public:
   explicit Validation(Faults* left_out) : left_out_(left_out) {}
 
-  /// The first fault in `element` or below it that costs the element itself, or one around it.
-  std::optional<Found> check(XmlElement* element, const ElementFormat& format, char count) {
-    if (auto found = checkOwn(element, format, count)) return found;
+  /// Returns the first fault in `element` or below it that costs the element itself or one around
+  /// it.
+  std::optional<LocatedFault> check(XmlElement* element, const ElementFormat& format, char count) {
+    if (auto located = checkOwn(element, format, count)) return located;
     if (format.is_open) return std::nullopt;
     XmlElement* next = nullptr;
     for (XmlElement* child = element->FirstChildElement(); child; child = next) {
       next = child->NextSiblingElement();
       const auto* const known = format.child(child->Name());
       if (!known) continue;
-      const auto found = check(child, *known->format, known->count);
-      if (!found) continue;
-      if (!left_out_ || found->out != child || !isDispensable(*child)) return found;
-      drop(*found, left_out_);
+      const auto located = check(child, *known->format, known->count);
+      if (!located) continue;
+      if (!left_out_ || located->out != child || !isDispensable(*child)) return located;
+      drop(*located, left_out_);
     }
     return std::nullopt;
   }
 
  private:
-  static std::optional<Found> at(XmlElement* element, const std::string& message) {
+  static std::optional<LocatedFault> at(XmlElement* element, const std::string& message) {
     if (message.empty()) return std::nullopt;
-    return Found{element, noteAt(*element, message), wholeOf(element)};
+    return LocatedFault{element, noteAt(*element, message), wholeOf(element)};
   }
 
-  std::optional<Found> checkOwn(XmlElement* element, const ElementFormat& format, char count) {
+  std::optional<LocatedFault> checkOwn(XmlElement* element, const ElementFormat& format,
+                                       char count) {
     if (format.value) {
-      if (auto found = at(element, faultOfText(*element, *format.value, count))) return found;
+      if (auto located = at(element, faultOfText(*element, *format.value, count))) return located;
     }
     for (const AttributeFormat& attribute : format.attributes) {
-      const char* const given = element->Attribute(attribute.name.c_str());
-      if (!given && attribute.is_required) {
+      const char* const content = element->Attribute(attribute.name.c_str());
+      if (!content && attribute.is_required) {
         return at(element, "Required attribute[" + attribute.name + "] in element[" + format.name +
                                "] is not specified in SDF");
       }
-      if (!given) continue;
-      const std::string text = trimmed(given);
+      if (!content) continue;
+      const std::string text = trimmed(content);
       if (text.empty() && attribute.is_required) {
         return at(element, "Empty string used when setting a required parameter. Key[" +
                                attribute.name + "]");
       }
-      if (auto found = at(element, faultOfValue(text, attribute.name, attribute.value)))
-        return found;
+      if (auto located = at(element, faultOfValue(text, attribute.name, attribute.value)))
+        return located;
     }
     const bool is_alone = !is(*element, "model") || !parentOf(element) ||
                           !is(*parentOf(element), "sdf") ||
@@ -112,7 +115,7 @@ class Validation {
                               : faultOfValue(text, element.Name(), format);
   }
 
-  /// SDF keeps some names to itself.
+  /// Returns the fault of a name that SDF reserves; empty if it is not reserved.
   static std::string faultOfName(const XmlElement& element) {
     static const std::set<std::string> kNamed = {"world", "model", "link",      "joint",
                                                  "frame", "light", "collision", "visual"};
@@ -127,13 +130,14 @@ class Validation {
   Faults* left_out_;
 };
 
-/// Tells of elements that SDF does not know; those with a namespace are for other programs.
-void tellUnknown(const XmlElement& element, const ElementFormat& format, Faults* unknown) {
+/// Reports elements that SDF does not know, except those with a namespace, which are for other
+/// programs.
+void reportUnknown(const XmlElement& element, const ElementFormat& format, Faults* unknown) {
   if (format.is_open) return;
   for (const XmlElement* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
     if (const auto* const known = format.child(child->Name())) {
-      tellUnknown(*child, *known->format, unknown);
+      reportUnknown(*child, *known->format, unknown);
     } else if (!std::strchr(child->Name(), ':')) {
       unknown->push_back(noteAt(*child, "XML Element[" + std::string(child->Name()) +
                                             "], child of element[" + format.name +
@@ -145,16 +149,16 @@ void tellUnknown(const XmlElement& element, const ElementFormat& format, Faults*
 }  // namespace
 
 std::optional<Fault> firstFault(XmlElement* sdf) {
-  auto found = Validation(nullptr).check(sdf, sdfFormat(), '!');
-  if (!found) return std::nullopt;
-  return found->fault;
+  auto located = Validation(nullptr).check(sdf, sdfFormat(), '!');
+  if (!located) return std::nullopt;
+  return located->fault;
 }
 
 void validate(XmlElement* sdf, Faults* left_out, Faults* unknown) {
-  if (const auto found = Validation(left_out).check(sdf, sdfFormat(), '!')) {
-    throw SdfError(found->fault);
+  if (const auto located = Validation(left_out).check(sdf, sdfFormat(), '!')) {
+    throw SdfError(located->fault);
   }
-  tellUnknown(*sdf, sdfFormat(), unknown);
+  reportUnknown(*sdf, sdfFormat(), unknown);
 }
 
 }  // namespace kiva

@@ -6,7 +6,7 @@
 namespace kiva {
 namespace {
 
-/// A name that comes again is `name[2]`, `name[3]`, …, so that no value is lost.
+/// Returns the key of a repeated name, `name[2]`, `name[3]`, …, so that no value is lost.
 std::string freeKey(const std::string& base, const Parameters& parameters) {
   std::string key = base;
   for (int count = 2; parameters.has(key); ++count) {
@@ -22,7 +22,7 @@ bool hasRequired(const ElementFormat& format) {
   return false;
 }
 
-/// Of an element that is not there, though SDF asks for it.
+/// Adds the defaults of a missing element that SDF requires.
 void addDefaults(const ElementFormat& format, const std::string& path, Parameters* parameters) {
   const std::string key = freeKey(path + format.name, *parameters);
   if (!hasRequired(format)) {
@@ -34,7 +34,8 @@ void addDefaults(const ElementFormat& format, const std::string& path, Parameter
   }
 }
 
-/// Text of `element` and of all below it; `format` null: SDF does not know the element.
+/// Adds the text of `element` and of all below it. `format` is null for an element that SDF does
+/// not know.
 void addParameters(const XmlElement& element, const ElementFormat* format, const std::string& path,
                    Parameters* parameters) {
   for (const XmlElement* child = element.FirstChildElement(); child;

@@ -13,8 +13,8 @@ namespace kiva {
 /// The `<plugin>` elements of a model or a world.
 std::vector<PluginDescription> readPlugins(const XmlElement& element, const std::string& where);
 
-/// The text of every element in `element`, by path, with the defaults of those that SDF asks for
-/// and are not there. `where` is put for the file of a document that was given as text.
+/// Returns the text of every element in `element`, by path, with the defaults of missing elements
+/// that SDF requires. `where` names a document that has no file.
 Parameters readParameters(const XmlElement& element, const std::string& where);
 
 /// Adds the defaults of `child`, if `element` has none.

@@ -11,9 +11,9 @@ namespace kiva {
 namespace {
 
 /// Reads the table; its elements live as long as the program.
-class Table {
+class FormatTable {
  public:
-  explicit Table(const char* at) : at_(at) {
+  explicit FormatTable(const char* at) : at_(at) {
     while (skipBlanks(), *at_ == '#') {
       ++at_;
       const std::string line = word();
@@ -116,8 +116,8 @@ const ElementFormat::Child* ElementFormat::child(const std::string& of_name) con
 }
 
 const ElementFormat& sdfFormat() {
-  // The line of <sdf> comes last in a table where each line names those before it alone.
-  static Table table(kFormatText);
+  // The line of <sdf> is the last of the table: each line refers only to those before it.
+  static FormatTable table(kFormatText);
   return table.root();
 }
 

@@ -3,11 +3,12 @@
 
 namespace kiva {
 
-/// Elements of SDF 1.9, one a line that begins with #, as name, how often (! once, ? at most once,
-/// + once or more, * any number, x not any more), `:type=default<least>most`, attributes behind @
-/// with ! if they are required, ~ if anything may be inside, and in parentheses what may be inside;
-/// &other is the element of that line, ^other the one around of that name. Types: b bool, c colour,
-/// d double, i and u integers, p pose, s string, t time, 2 and 3 vectors.
+/// Elements of SDF 1.9, one a line that begins with #. A line has the name; how often the element
+/// may occur (! once, ? at most once, + once or more, * any number, x no longer); its text as
+/// `:type=default<least>most`; attributes behind @, with ! if they are required; ~ if it may hold
+/// anything; and in parentheses its children, where &other is the element of that line, ^other the
+/// enclosing one of that name. Types: b bool, c colour, d double, i and u integers, p pose, s
+/// string, t time, 2 and 3 vectors.
 const char* const kFormatText = R"(
 #pose pose?:p='0 0 0 0 0 0' @relative_to?s='' @rotation_format?s=euler_rpy @degrees?b=false
 #plugin plugin* @name!s=__default__ @filename!s=__default__ ~

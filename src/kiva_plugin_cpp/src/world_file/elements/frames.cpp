@@ -6,7 +6,7 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostSteps = 1000;  // from frame to frame: more go in a circle
+constexpr int kMostSteps = 1000;  // limit from frame to frame; a longer chain counts as a circle
 
 const XmlElement& requiredPart(const XmlElement& scope, const std::string& name) {
   const XmlElement* const part = XmlDocument::findFrame(scope, name);
@@ -23,12 +23,12 @@ const XmlElement& scopeOf(const XmlElement& part) {
   return *node->ToElement();
 }
 
-/// Looks frames up, and knows how far it has come.
-class Search {
+/// Resolves frames and limits the number of its steps.
+class FrameSearch {
  public:
   Pose frame(const XmlElement& scope, const std::string& name) {
     if (++steps_ > kMostSteps)
-      failAt(scope, "its frames are told in a circle, or through more than 1000 others");
+      failAt(scope, "its frames refer to each other in a circle, or through more than 1000 others");
     if (name.empty() || name == "world" || name == "__root__" || name == "__model__")
       return Pose::Zero;
     const std::size_t colons = name.find("::");
@@ -52,7 +52,7 @@ class Search {
 
   std::string link(const XmlElement& model, const std::string& name) {
     if (++steps_ > kMostSteps)
-      failAt(model, "its frames are told in a circle, or through more than 1000 others");
+      failAt(model, "its frames refer to each other in a circle, or through more than 1000 others");
     if (name == "world") return name;
     if (name == "__model__") return canonicalLinkOf(model);
     const std::size_t colons = name.find("::");
@@ -67,7 +67,7 @@ class Search {
   }
 
  private:
-  /// What a pose without a frame is about, but for what is around the part.
+  /// Returns the default frame of a part's pose; empty for the frame of the part around it.
   static std::string usualFrame(const XmlElement& part) {
     if (is(part, "joint")) return contentOf(part.FirstChildElement("child"));
     if (is(part, "frame")) return attributeOf(part, "attached_to");
@@ -83,18 +83,18 @@ Pose poseAround(const XmlElement& part) {
   const XmlElement* const pose_element = part.FirstChildElement("pose");
   const std::string name = pose_element ? attributeOf(*pose_element, "relative_to") : "";
   const XmlElement* const link = part.Parent()->ToElement();
-  if (!link || !is(*link, "link")) return Search().around(part);
+  if (!link || !is(*link, "link")) return FrameSearch().around(part);
   if (name.empty()) return valueOfPose(pose_element);
   const XmlElement& scope = scopeOf(part);
-  return Search().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(pose_element));
+  return FrameSearch().around(*link).Inverse() * (frameIn(scope, name) * valueOfPose(pose_element));
 }
 
 Pose frameIn(const XmlElement& scope, const std::string& name) {
-  return Search().frame(scope, name);
+  return FrameSearch().frame(scope, name);
 }
 
 std::string linkOf(const XmlElement& model, const std::string& name) {
-  return Search().link(model, name);
+  return FrameSearch().link(model, name);
 }
 
 std::string canonicalLinkOf(const XmlElement& model) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames, by whose names SDF gives the poses of the parts of a model or a world.
+// The frames by whose names SDF gives poses of the parts of a model or a world.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace kiva {
 
 /// Returns the pose of a link, joint, frame, light, collision, visual, sensor or model in the model
-/// or the world around it; for parts of a link, in the link. Throws SdfError where frames refer to
-/// each other in a circle or are missing.
+/// or world around it; the pose of a link's part in the link. Throws SdfError where a frame is
+/// missing or frames refer to each other in a circle.
 Pose poseAround(const XmlElement& part);
 
 /// Returns the frame of that name in the model or world `scope`. Throws SdfError.

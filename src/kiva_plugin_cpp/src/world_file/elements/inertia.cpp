@@ -7,13 +7,14 @@
 namespace kiva {
 namespace {
 
-// Beyond, impulses are no finite numbers any more.
+// Limits beyond which impulses are not finite.
 constexpr double kMostMass = 1e9;     // [kg]
 constexpr double kMostMoment = 1e12;  // [kg m²]
 
 bool isMass(double mass) { return mass > 0 && mass <= kMostMass; }
 
-/// A body's moments are positive, and none exceeds the sum of the other two.
+/// Returns whether a body can have it: moments are positive, and none exceeds the sum of the other
+/// two.
 bool isPossible(double mass, const InertiaTensor& inertia) {
   return inertia.moments.IsFinite() && inertia.products.IsFinite() &&
          inertia.principalMoments().Min() > 0 && inertia.principalMoments().Max() <= kMostMoment &&

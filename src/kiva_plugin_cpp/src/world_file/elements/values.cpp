@@ -8,7 +8,7 @@
 namespace kiva {
 namespace {
 
-/// The numbers that a text begins with; what follows them is left.
+/// Returns the numbers at the beginning of a text and ignores what follows them.
 std::vector<double> numbersOf(const std::string& text) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());

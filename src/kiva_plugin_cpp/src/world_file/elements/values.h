@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texts of elements and attributes as values: numbers as C writes them, flags as true, false, 1, 0.
+// Values of elements and attributes: numbers as C writes them, flags as true, false, 1, 0.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace kiva {
 
-/// Returns the fault of a text as a value of that format, in words, or "". `name` is that of the
-/// element or the attribute.
+/// Returns the fault of a text as a value of that format, in words, or "". `name` is the name of
+/// its element or attribute.
 std::string faultOfValue(const std::string& text, const std::string& name,
                          const ValueFormat& format);
 /// Does the same for the text of a `<pose>` with its attributes.
@@ -23,7 +23,7 @@ std::optional<bool> readFlag(const std::string& text);
 std::optional<Vector3> readVector(const std::string& text);
 std::optional<std::vector<double>> readColour(const std::string& text);  ///< Four of 0…1.
 
-/// Returns the value of a child that the format knows, checked before, or `otherwise`.
+/// Returns the value of a child that the format knows and that was checked before, or `otherwise`.
 double numberIn(const XmlElement& element, const char* child, double otherwise);
 bool flagIn(const XmlElement& element, const char* child, bool otherwise);
 Vector3 vectorIn(const XmlElement& element, const char* child, const Vector3& otherwise);

@@ -10,7 +10,7 @@
 
 namespace kiva {
 
-/// Shared, immutable values by text. Thread-safe. The oldest goes when it is full.
+/// A cache of shared, immutable values by text. Thread-safe. A full cache drops its oldest value.
 template <typename Value>
 class BoundedCache {
  public:

@@ -10,12 +10,12 @@
 
 namespace kiva {
 
-/// A text as SDF 1.9 without faults in form: what it includes is in it.
+/// An SDF 1.9 document without formal faults, its includes expanded.
 struct SdfDocument {
   std::unique_ptr<XmlDocument> xml;
-  std::deque<Source> sources;  ///< Files of its includes, and of URDF.
+  std::deque<Source> sources;  ///< Files of its includes, and of a URDF.
   Faults warnings;
-  /// Those of the models that the text includes, and where it looked for those that are missing.
+  /// Files of the included models, and those that would make a missing model available.
   std::set<std::string> files;
 
   const XmlElement& root() const { return *xml->RootElement(); }

@@ -32,8 +32,8 @@ class SdfError : public std::exception {
 /// Returns another message at the address of `fault`.
 Fault reworded(Fault fault, const std::string& message);
 
-/// `file:line: model 'm', link 'l'`; `where` is put for the file of a document that was given as
-/// text. If that is empty, the entity alone.
+/// Returns `file:line: model 'm', link 'l'`. `where` names a document that has no file; if it is
+/// empty, the result is the entity alone.
 std::string address(const Fault& fault, const std::string& where);
 /// Returns the address and the message.
 std::string describe(const Fault& fault, const std::string& where);

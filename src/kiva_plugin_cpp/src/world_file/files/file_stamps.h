@@ -7,8 +7,8 @@
 
 namespace kiva {
 
-/// The files that a description was read from, as they were then: a model that is edited while the
-/// world runs is read again.
+/// The files that a description was read from, with their state at that time. A model that is
+/// edited while the world runs is read again.
 class FileStamps {
  public:
   FileStamps() = default;

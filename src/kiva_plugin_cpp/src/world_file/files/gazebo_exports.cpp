@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 4;  // folders in folders
+constexpr int kDeepest = 4;  // levels of folders
 constexpr std::size_t kMostPackageBytes = 100'000;
 constexpr char kPrefix[] = "${prefix}";
 
@@ -41,7 +41,7 @@ void addExports(const fs::path& package, ModelPaths* paths) {
     const std::string text = readText((package / "package.xml").string(), kMostPackageBytes);
     if (document.Parse(text.c_str()) != tinyxml2::XML_SUCCESS) return;
   } catch (const DescriptionError&) {
-    return;  // Not ours to tell.
+    return;  // Another tool reports it.
   }
   const XmlElement* const root = document.RootElement();
   const XmlElement* const exports = root ? root->FirstChildElement("export") : nullptr;

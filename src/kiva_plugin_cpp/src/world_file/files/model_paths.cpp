@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFoldersAbove = 2;  // of the one that a file lies in
+constexpr int kFoldersAbove = 2;  // above the folder of a file
 
-/// `uri` without that scheme; empty if it has another.
+/// Returns `uri` without that scheme; empty if it has another one.
 std::string after(const char* scheme, const std::string& uri) {
   return startsWith(uri, scheme) ? uri.substr(std::string(scheme).size()) : "";
 }
@@ -31,7 +31,8 @@ bool isFile(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// What a uri names: a path, absolute or to be looked up; empty for what is on no disk here.
+/// Returns the path in a uri, absolute or to be searched for; empty if it names no file on this
+/// disk.
 std::string pathIn(const std::string& uri) {
   for (const char* scheme : {"model://", "package://", "file://"}) {
     if (startsWith(uri, scheme)) return after(scheme, uri);
@@ -66,10 +67,10 @@ ModelPaths foldersFor(const std::string& uri, const fs::path& folder, const Mode
   return folders;
 }
 
-/// A file without a folder lies in the current one.
+/// Returns the folder, or the current one for a file without a folder.
 fs::path folderOr(const std::string& folder) { return folder.empty() ? "." : folder; }
 
-/// The file at `path`, or one whose ending differs from it in case; empty if there is none.
+/// Returns the file at `path`, or one whose ending differs in case; empty if there is none.
 std::string existing(const fs::path& path) {
   if (isFile(path)) return path.lexically_normal().string();
   for (const bool upper : {false, true}) {
@@ -94,10 +95,10 @@ bool isModel(const fs::path& path) {
   return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
 }
 
-/// The newest file of those that a model.config names for versions of SDF. Throws SdfError.
+/// Returns the newest of the files that a model.config names for versions of SDF. Throws SdfError.
 std::string newestFile(const std::string& config) {
   static const std::regex kVersion("[0-9]{0,4}(\\.[0-9]{1,4}){0,2}");
-  constexpr double kNewest = 1.91;  // 1.10 and 1.11 count as less
+  constexpr double kNewest = 1.91;  // for 1.10 and 1.11, which as numbers are less than 1.9
   const auto document = parseXml(readText(config, kMostBytes));
   const XmlElement* const model = document->FirstChildElement("model");
   if (!model) throw SdfError({"expected a <model>", "", "", 0});

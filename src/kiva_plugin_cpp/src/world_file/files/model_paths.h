@@ -8,15 +8,15 @@
 
 namespace kiva {
 
-/// The folder, or the file, that the uri of an include names: an absolute path, with `file://` or
-/// without; else `model://name`, `model://name/file` or a relative path, looked up in the paths.
-/// Empty if there is none.
+/// Returns the folder or file that the uri of an include names; empty if there is none. The uri is
+/// an absolute path, with or without `file://`; or `model://name`, `model://name/file` or a
+/// relative path, which is searched for in the paths.
 std::string findModel(const std::string& uri, const ModelPaths& paths);
 
-/// The file that the uri of a mesh names: an absolute path; `model://` and `package://`, looked up
-/// in the paths; or a relative path, with `file://` or without, looked up in `folder`, in those
-/// above it, in the paths and in the folders that hold them. Its ending may differ in case. Empty
-/// if there is none.
+/// Returns the file that the uri of a mesh names; empty if there is none. The uri is an absolute
+/// path; `model://` or `package://`, searched for in the paths; or a relative path, with or without
+/// `file://`, searched for in `folder`, in its parents, in the paths and in the parents of these.
+/// The ending may differ in case.
 std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths);
 
 /// Returns the message for a file that is in none of the folders.
@@ -33,7 +33,7 @@ std::string leftOut(const std::string& uri, const ModelPaths& paths);
 /// Returns the SDF file of the model in `folder`, by its model.config. Throws SdfError.
 std::string modelFile(const std::string& folder);
 
-/// Adds the files that would make `uri` a model: a missing one may be added later.
+/// Adds the files that would make `uri` a model: a missing one may appear later.
 void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files);
 
 }  // namespace kiva

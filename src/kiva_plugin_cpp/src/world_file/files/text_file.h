@@ -6,7 +6,7 @@
 
 namespace kiva {
 
-/// The text of a file. Throws DescriptionError, also if it has more bytes than `most`.
+/// Returns the text of a file. Throws DescriptionError, also if it has more than `most` bytes.
 std::string readText(const std::string& path, std::size_t most);
 
 }  // namespace kiva

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kBlanks[] = " \t\r\n";
 
-/// tinyxml2's printer forgets where things were.
+/// Prints elements on their original lines, which tinyxml2's printer does not.
 class LinePrinter : public tinyxml2::XMLPrinter {
  public:
   LinePrinter() : XMLPrinter(nullptr, true) {}
@@ -31,11 +31,11 @@ class LinePrinter : public tinyxml2::XMLPrinter {
   bool Visit(const tinyxml2::XMLComment&) override { return true; }
 
  private:
-  int line_ = 1;             // of the output's end
-  std::size_t counted_ = 0;  // Up to here lines are counted.
+  int line_ = 1;             // at the end of the output
+  std::size_t counted_ = 0;  // length of the output whose lines are counted
 };
 
-/// Text on one line, as it is compared.
+/// Prints on one line, for comparisons.
 class FlatPrinter : public tinyxml2::XMLPrinter {
  public:
   explicit FlatPrinter(const XmlElement* but) : XMLPrinter(nullptr, true), but_(but) {}
@@ -58,7 +58,7 @@ class FlatPrinter : public tinyxml2::XMLPrinter {
   const XmlElement* but_;
 };
 
-/// Whether poses can be told in it.
+/// Returns whether the element is a frame that poses may refer to.
 bool isFrame(const XmlElement& element) {
   return is(element, "link") || is(element, "joint") || is(element, "frame") ||
          is(element, "model");
@@ -69,14 +69,15 @@ const XmlElement* elementAround(const XmlElement& element) {
   return parent ? parent->ToElement() : nullptr;
 }
 
-/// Whether an element stands in another file than the one around it: what it is called begins here.
+/// Returns whether an element comes from another file than the one around it, so that its address
+/// begins here.
 bool beginsFile(const XmlElement& element, const XmlElement& around) {
   const Source* const own = sourceOf(element);
   const Source* const other = sourceOf(around);
   return own && !own->file.empty() && (!other || own->file != other->file);
 }
 
-/// `model 'm', link 'l', inertial/mass`
+/// Returns `model 'm', link 'l', inertial/mass`.
 std::string entityOf(const XmlElement& element) {
   const std::string kind = element.Name();
   if (kind == "sdf") return "";
@@ -89,8 +90,8 @@ std::string entityOf(const XmlElement& element) {
   return before + (around->Attribute("name") || name ? ", " : "/") + own;
 }
 
-/// `Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=3: XMLElement name=link` to
-/// "the XML is ill-formed: mismatched element (XMLElement name=link)".
+/// Rewords `Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=3: XMLElement
+/// name=link` as "the XML is ill-formed: mismatched element (XMLElement name=link)".
 Fault faultOfXml(const XmlDocument& document) {
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
     return {"elements nest deeper than " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH), "", "",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// World files as trees, and elements as text again with each on the line where it was.
+// World files as trees, and elements as text on their original lines.
 #pragma once
 
 #include <tinyxml2.h>
@@ -21,11 +21,11 @@ using XmlElement = tinyxml2::XMLElement;
 /// A document that can look up the frames of its models.
 class XmlDocument : public tinyxml2::XMLDocument {
  public:
-  /// Ends changes: nothing in it is renamed, moved or removed from now on.
+  /// Ends changes: from now on no element is renamed, moved or removed.
   void setFinal() { is_final_ = true; }
 
-  /// Returns the link, joint, frame or model of that name right below `scope`, an element of an
-  /// XmlDocument; null if there is none. Makes an index of all names once the document is final.
+  /// Returns the link, joint, frame or model of that name directly below `scope`, an element of an
+  /// XmlDocument; null if there is none. Indexes all names once the document is final.
   static const XmlElement* findFrame(const XmlElement& scope, const std::string& name);
 
  private:
@@ -35,20 +35,21 @@ class XmlDocument : public tinyxml2::XMLDocument {
   mutable std::unordered_map<const XmlElement*, Frames> frames_;  // by their scope
 };
 
-/// The largest text that is read [byte].
+/// Size limit of a text [byte].
 constexpr std::size_t kMostBytes = 20'000'000;
 
-/// Throws SdfError with the line where a text is no XML, is too long, or nests too deep.
+/// Parses a text. Throws SdfError with the line where it is not XML, too long, or too deeply
+/// nested.
 std::unique_ptr<XmlDocument> parseXml(const std::string& text);
 
-/// Returns the text of a whole document, every element on its line, without comments. Elements that
-/// were added follow on the line of the element before them.
+/// Returns the text of a whole document without comments, every element on its original line.
+/// Elements that were added follow on the line of the element before them.
 std::string textOf(const XmlDocument& document);
 /// Returns the text of one element on one line, without `but`.
 std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
 
-/// The place of an element from another file or from URDF: its user data. Others are in the
-/// caller's document.
+/// The origin of an element from another file or from URDF: its user data. Other elements are in
+/// the caller's document.
 struct Source {
   std::string file;  ///< Empty = the caller's document.
   int line = 0;
@@ -63,7 +64,7 @@ bool is(const XmlElement& element, const char* name);
 
 /// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
-/// Returns whether that is an element's name; copies nothing, for searches through many.
+/// Returns whether an element has that name. It copies nothing, for searches through many elements.
 bool hasName(const XmlElement& element, const std::string& name);
 /// Returns the text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);

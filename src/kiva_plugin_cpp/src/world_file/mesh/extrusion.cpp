@@ -7,7 +7,7 @@
 namespace kiva {
 namespace {
 
-/// Twice the area of a triangle, positive if a, b, c go counterclockwise.
+/// Returns twice the area of a triangle, positive if a, b, c are counterclockwise.
 double doubleArea(const Vector2& a, const Vector2& b, const Vector2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -36,8 +36,8 @@ bool isEar(const std::vector<Vector2>& at, const std::vector<int>& left, std::si
   });
 }
 
-/// Ear clipping (Meisters 1975) of a counterclockwise polygon. Where it crosses itself there may
-/// be no ear left: then any corner goes.
+/// Triangulates a counterclockwise polygon by ear clipping (Meisters 1975). A polygon that crosses
+/// itself may have no ear left: then any corner is clipped.
 std::vector<std::array<int, 3>> triangulate(const std::vector<Vector2>& at) {
   std::vector<int> left(at.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<int>(i);
@@ -57,7 +57,7 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<Vector2>& at) {
 
 bool extrude(std::vector<Vector2> points, double height, Mesh* mesh) {
   if (points.size() > 1 && areSame(points.front(), points.back()))
-    points.pop_back();  // closed by hand
+    points.pop_back();  // the first point again
   if (points.size() < 3 || doubleArea(points) == 0) return false;
   if (doubleArea(points) < 0) std::reverse(points.begin(), points.end());
   const int first = static_cast<int>(mesh->vertices.size());

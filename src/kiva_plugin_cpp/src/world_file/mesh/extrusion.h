@@ -12,8 +12,8 @@ struct Vector2 {
   double x = 0, y = 0;
 };
 
-/// Adds the prism over a simple polygon of either sense, from z = 0 to `height` [m], to `mesh`.
-/// Returns false if the points span no area.
+/// Adds the prism over a simple polygon of either orientation, from z = 0 to `height` [m], to
+/// `mesh`. Returns false if the points span no area.
 bool extrude(std::vector<Vector2> points, double height, Mesh* mesh);
 
 }  // namespace kiva

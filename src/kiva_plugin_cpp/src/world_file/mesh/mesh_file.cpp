@@ -42,7 +42,7 @@ std::string formatOf(const std::string& file) {
 
 const aiScene* import(const std::string& file, Assimp::Importer* importer) {
   importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // Only places count: what else a vertex has keeps equal ones apart.
+  // Keeps positions alone, so that vertices at equal positions become one.
   importer->SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, ~aiComponent_MESHES);
   importer->SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -66,7 +66,7 @@ class Collector {
   }
 
  private:
-  /// A submesh goes by the name of its node or its own.
+  /// Returns whether the request includes a submesh of that name: its node's name or its own.
   bool isWanted(const aiString& name) const { return request_.submesh == name.C_Str(); }
 
   void add(const aiNode& node, const aiMatrix4x4& parent, bool is_wanted) {
@@ -88,7 +88,7 @@ class Collector {
       if (mesh_.vertices.back().IsFinite()) continue;
       throw DescriptionError("a vertex is not finite");
     }
-    // A scale of the other hand turns triangles inside out.
+    // A mirroring scale turns triangles inside out.
     const bool flips = request_.scale.X() * request_.scale.Y() * request_.scale.Z() < 0;
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
       const aiFace& face = part.mFaces[i];

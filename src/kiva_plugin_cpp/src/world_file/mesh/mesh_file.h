@@ -12,14 +12,14 @@ namespace kiva {
 struct MeshRequest {
   std::string file;  ///< Path.
   Vector3 scale{1, 1, 1};
-  std::string submesh;      ///< Name of the part to take; empty: all.
-  bool is_centred = false;  ///< The submesh is moved to have its box about the origin.
+  std::string submesh;      ///< Name of the part to read; empty: all parts.
+  bool is_centred = false;  ///< Whether the submesh is moved to centre its box on the origin.
 };
 
-/// The triangles of a COLLADA, Wavefront OBJ or STL file, in metres: COLLADA's unit is applied, its
-/// up axis is not, as in Gazebo, whose models are made for that. Read once and shared for as long
-/// as the file stays as it is. Thread-safe.
-/// Throws DescriptionError with the cause, the file's name not in it.
+/// Returns the triangles of a COLLADA, Wavefront OBJ or STL file, in metres. COLLADA's unit is
+/// applied; its up axis is not, as in Gazebo, for which the models are made. A file is read once
+/// and shared while it does not change. Thread-safe. Throws DescriptionError with the cause,
+/// without the file's name.
 std::shared_ptr<const Mesh> readMesh(const MeshRequest& request);
 
 /// Sets the box around the vertices.

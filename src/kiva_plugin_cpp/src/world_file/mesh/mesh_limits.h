@@ -8,8 +8,8 @@ namespace kiva {
 
 constexpr std::size_t kMostTriangles = 1'000'000;
 
-/// Throws DescriptionError at a mesh file that would take Assimp too much memory, a kilobyte for
-/// each triangle, or too much stack: before it is given to Assimp. `ending` is in lower case.
+/// Checks a mesh file before Assimp reads it. Throws DescriptionError if Assimp would need too much
+/// memory, about a kilobyte a triangle, or too much stack. `ending` is in lower case.
 void checkMeshFile(const std::string& file, const std::string& ending);
 
 /// Throws DescriptionError for more than kMostTriangles.

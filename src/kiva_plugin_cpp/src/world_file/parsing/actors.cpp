@@ -49,7 +49,7 @@ void append(const KeyFrame& frame, const KeyFrame& before, Walk* walk) {
   walk->waypoints.push_back(to);
 }
 
-/// Limits the speed to that of walking, with a warning.
+/// Limits the speed to kMostWalkingSpeed, with a warning.
 void slowDown(const XmlElement& waypoint, Waypoint* to, Faults* warnings) {
   if (to->speed <= kMostWalkingSpeed) return;
   warnings->push_back(

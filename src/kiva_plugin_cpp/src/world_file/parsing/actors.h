@@ -8,8 +8,8 @@
 
 namespace kiva {
 
-/// Returns the place of an actor's first waypoint, or else its pose, on the ground: an actor's
-/// origin is somewhere in its skin.
+/// Returns the position of an actor's first waypoint, or else of its pose, on the ground: an
+/// actor's origin is somewhere in its skin.
 Pose placeOf(const XmlElement& actor);
 
 /// Returns the walk by an actor's waypoints and their times; without a script the actor stays.

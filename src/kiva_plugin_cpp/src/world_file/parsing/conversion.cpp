@@ -8,7 +8,7 @@
 namespace kiva {
 namespace {
 
-/// Moves a text from one child to another that is not there yet.
+/// Moves a text to another child, unless that exists.
 void moveText(XmlElement* from_parent, const char* from, XmlElement* to_parent, const char* to) {
   XmlElement* const source = from_parent ? from_parent->FirstChildElement(from) : nullptr;
   if (!source) return;
@@ -18,7 +18,7 @@ void moveText(XmlElement* from_parent, const char* from, XmlElement* to_parent, 
     to_parent->InsertNewChildElement(to)->SetText(text.c_str());
 }
 
-/// To 1.6: gravity and the magnetic field are the world's.
+/// Converts to 1.6: moves gravity and the magnetic field from <physics> to the world.
 void takeFromPhysics(XmlElement* world) {
   for (const char* name : {"gravity", "magnetic_field"}) {
     for (XmlElement* physics = world->FirstChildElement("physics"); physics;
@@ -28,7 +28,7 @@ void takeFromPhysics(XmlElement* world) {
   }
 }
 
-/// To 1.4: how often the engine steps.
+/// Converts to 1.4: renames the settings of the engine's step.
 void renamePhysics(XmlElement* physics) {
   moveText(physics, "update_rate", physics, "real_time_update_rate");
   XmlElement* const ode = physics->FirstChildElement("ode");
@@ -36,7 +36,7 @@ void renamePhysics(XmlElement* physics) {
   moveText(physics->FirstChildElement("bullet"), "dt", physics, "max_step_size");
 }
 
-/// To 1.7: axes are told in a frame by its name; those of 1.4 were in the model's.
+/// Converts to 1.7: the frame of an axis is given by its name. In 1.4 it was the model's.
 void nameAxisFrame(XmlElement* axis, bool is_in_model) {
   if (!axis) return;
   if (XmlElement* const flag = axis->FirstChildElement("use_parent_model_frame")) {
@@ -49,7 +49,7 @@ void nameAxisFrame(XmlElement* axis, bool is_in_model) {
   xyz->SetAttribute("expressed_in", "__model__");
 }
 
-/// To 1.7: poses are told in a frame by its name.
+/// Converts to 1.7: the frame of a pose is given by its name.
 void renameFrame(XmlElement* pose) {
   const char* const frame = pose->Attribute("frame");
   if (!frame) return;

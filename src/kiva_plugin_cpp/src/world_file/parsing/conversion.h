@@ -5,8 +5,8 @@
 
 namespace kiva {
 
-/// Makes SDF 1.9 of an `<sdf>` of any version, as far as parts of it are read here. Throws SdfError
-/// if there is no version, or an unknown one.
+/// Converts an `<sdf>` of any version to SDF 1.9, as far as it is read here. Throws SdfError if
+/// there is no version, or an unknown one.
 void convert(XmlElement* sdf);
 
 }  // namespace kiva

@@ -53,7 +53,7 @@ class Expansion {
     around->DeleteChild(include);
   }
 
-  /// The model of a file, as an element of our document; null: it holds none.
+  /// Returns the model of a file as an element of our document; null if it holds none.
   XmlElement* modelIn(const std::string& file) {
     const auto xml = parseXml(readText(file, kMostBytes));
     modernizePoses(xml.get());
@@ -72,7 +72,7 @@ class Expansion {
     return model ? copyOf(*model, file) : nullptr;
   }
 
-  /// The same in our document; each element remembers where it came from.
+  /// Returns a copy in our document; each element remembers its origin.
   XmlElement* copyOf(const XmlElement& from, const std::string& file) {
     XmlElement* const copy = document_->xml->NewElement(from.Name());
     for (const auto* attribute = from.FirstAttribute(); attribute; attribute = attribute->Next()) {
@@ -90,7 +90,7 @@ class Expansion {
     return copy;
   }
 
-  /// An include's name, place, plugins and the like take the place of the model's own.
+  /// Replaces the model's name, pose, plugins and the like by those of the include.
   void setFromInclude(const XmlElement& include, XmlElement* model) {
     if (const auto* name = include.FirstChildElement("name")) {
       model->SetAttribute("name", contentOf(name).c_str());
@@ -110,7 +110,7 @@ class Expansion {
     }
   }
 
-  /// Puts a model's parts into the model around it; a frame stands for the model that they were of.
+  /// Moves a model's parts into the model around it and adds a frame in place of the merged model.
   void merge(XmlElement* model) {
     XmlElement* const around = model->Parent()->ToElement();
     const std::string frame = "_merged__" + attributeOf(*model, "name") + "__";
@@ -128,7 +128,7 @@ class Expansion {
     around->DeleteChild(model);
   }
 
-  /// Poses and axes that are told in the model are told in that frame instead.
+  /// Makes poses and axes relative to `frame` that were relative to the model.
   static void placeIn(const std::string& frame, XmlElement* part) {
     if (is(*part, "link") || is(*part, "frame") || is(*part, "model")) {
       XmlElement* pose = part->FirstChildElement("pose");

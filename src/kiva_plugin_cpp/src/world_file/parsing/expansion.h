@@ -5,8 +5,8 @@
 
 namespace kiva {
 
-/// Puts models in the place of the includes that name them, and adds the files that they came from.
-/// IncludeGraph has left only what leads somewhere.
+/// Replaces includes by the models that they name, and adds the files of these. IncludeGraph has
+/// removed includes of missing models.
 void expandIncludes(const ModelPaths& model_paths, SdfDocument* document);
 
 }  // namespace kiva

@@ -26,13 +26,14 @@ std::string blankField(const XmlElement& include) {
   return "";
 }
 
-/// Files of SDF 1.7 and newer have none.
+/// Returns whether the include's file is older than SDF 1.7, with a pose in the old way.
 bool hasOldPose(const XmlElement& include) {
   const XmlElement* const pose = include.FirstChildElement("pose");
   return pose && pose->Attribute("frame");
 }
 
-/// A stand-in stands still: in a world, in a static model, instead of all that a model would be.
+/// Returns whether a stand-in is possible: it can't move, so it must be in a world or a static
+/// model.
 bool mayStandIn(const XmlElement& around) {
   if (around.Name() == std::string("world")) return true;
   if (around.Name() != std::string("model")) return false;
@@ -49,7 +50,7 @@ void setChild(XmlElement* element, const char* name, const std::string& text) {
   child->SetText(text.c_str());
 }
 
-/// Another model at the place and under the name of the one that an include is about.
+/// Replaces the model of an include by a stand-in with the same place and name.
 void nameStandIn(XmlElement* include) {
   const std::string uri = contentOf(include->FirstChildElement("uri"));
   if (!include->FirstChildElement("name")) setChild(include, "name", nameIn(uri));
@@ -74,7 +75,7 @@ void IncludeGraph::prune(XmlDocument* document, Faults* warnings) {
     XmlElement* next = nullptr;
     for (XmlElement* include = element->FirstChildElement("include"); include; include = next) {
       next = include->NextSiblingElement("include");
-      const Fault fault = faultOfInclude(*include);
+      const IncludeFault fault = faultOfInclude(*include);
       if (fault.what.empty()) continue;
       const XmlElement* const uri = include->FirstChildElement("uri");
       const bool stands_in = fault.is_of_model && mayStandIn(*element) && hasStandIn();
@@ -91,7 +92,7 @@ void IncludeGraph::prune(XmlDocument* document, Faults* warnings) {
 
 bool IncludeGraph::hasStandIn() const { return !findModel(kUnknownObstacle, model_paths_).empty(); }
 
-IncludeGraph::Fault IncludeGraph::faultOfInclude(const XmlElement& include) {
+IncludeGraph::IncludeFault IncludeGraph::faultOfInclude(const XmlElement& include) {
   const std::string blank = blankField(include);
   if (!blank.empty()) return {"expected a text in <" + blank + ">"};
   const std::string uri = contentOf(include.FirstChildElement("uri"));
@@ -159,7 +160,7 @@ IncludeGraph::Cost IncludeGraph::read(const std::string& file) {
     if (is_new && hasOldPose(*element)) {
       cost.fault = describe(noteAt(*element, "poses of includes have no 'frame'"), file);
     }
-    // What is missing in there is left out of it.
+    // Missing includes of the inner file cost only themselves.
     const bool is_missing = inner.includes == 0 && inner.fault.rfind("found no", 0) == 0;
     if (!is_missing && !inner.fault.empty()) cost.fault = inner.fault;
     cost.includes = std::min(cost.includes + inner.includes, 1e9);

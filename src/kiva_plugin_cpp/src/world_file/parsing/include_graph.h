@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Includes may lead in circles, and through fourteen files that include the next one twice, 16,384
-// times. They are followed first, each file once, before anything takes their place.
+// Includes may form circles, or grow exponentially: fourteen files that each include the next one
+// twice are 16,384 includes. So includes are followed once a file before any is expanded.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,15 @@ namespace kiva {
 
 class IncludeGraph {
  public:
-  /// `fault_of(text, file)` returns the fault of a file by itself, without its includes; empty
-  /// without a fault.
+  /// `fault_of(text, file)` returns the fault of a file without its includes; empty if it has none.
   using FaultOf = std::function<std::string(const std::string& text, const std::string& file)>;
   IncludeGraph(const ModelPaths& model_paths, FaultOf fault_of);
 
-  /// Removes the includes of a document that lead nowhere or too far, each with a warning.
-  /// Stand-ins, if there are any, take the place of their unknown models.
+  /// Removes includes that are missing, circular or too many, each with a warning. Stand-ins, if
+  /// the document has any, replace unknown models.
   void prune(XmlDocument* document, Faults* warnings);
 
-  /// Returns the files that it has read, and the places where it looked for missing ones.
+  /// Returns the files that were read, and the paths at which missing ones were searched for.
   const std::set<std::string>& files() const { return files_; }
 
  private:
@@ -36,17 +35,17 @@ class IncludeGraph {
   };
   Cost follow(const std::string& uri);
   Cost read(const std::string& file);
-  struct Fault {
-    std::string what;  ///< Empty: none.
+  struct IncludeFault {
+    std::string what;  ///< Empty: no limit is exceeded.
     bool is_of_model = false;
   };
-  Fault faultOfInclude(const XmlElement& include);
+  IncludeFault faultOfInclude(const XmlElement& include);
   bool hasStandIn() const;
 
   const ModelPaths& model_paths_;
   const FaultOf fault_of_;
   std::map<std::string, Cost> known_;  // by file
-  std::set<std::string> open_;         // files on the way to the one that is read
+  std::set<std::string> open_;         // the files that include the present one, directly or not
   std::set<std::string> files_;
   double includes_ = 0, bytes_ = 0;  // so far
 };

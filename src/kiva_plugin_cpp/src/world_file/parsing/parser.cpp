@@ -31,7 +31,7 @@ void dropIncludes(XmlElement* root) {
   });
 }
 
-/// What is wrong with a file of its own, its includes apart; each is asked once.
+/// Returns the fault of a file without its includes; each file is checked once.
 std::string faultOfFile(const std::string& text, const std::string& file) {
   static BoundedCache<std::string> cache(1024);
   if (const auto known = cache.find(text)) return *known;

@@ -7,8 +7,8 @@
 
 namespace kiva {
 
-/// Faulty parts are left out, with a warning each. Throws SdfError where nothing would be left.
-/// Thread-safe.
+/// Parses a text; leaves out faulty parts, each with a warning. Throws SdfError where nothing would
+/// be left. Thread-safe.
 SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths);
 
 }  // namespace kiva

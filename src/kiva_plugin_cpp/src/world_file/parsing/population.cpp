@@ -34,7 +34,8 @@ struct Region {
   Vector3 size;
   bool is_round = false;
 
-  /// `share` is in 0…1 along each axis: for a cylinder of radius, angle and height.
+  /// Returns a point; `share` is in 0…1 along each axis, for a cylinder along radius, angle and
+  /// height.
   Vector3 at(const Vector3& share) const {
     const Vector3 even = (share - Vector3(0.5, 0.5, 0.5)) * size;
     if (!is_round) return even;
@@ -52,7 +53,7 @@ Region regionOf(const XmlElement& population) {
   return {{size[0], size[1], size[2]}, false};
 }
 
-/// Returns the radical inverse: points of two or three of them are spread evenly (Halton 1960).
+/// Returns the radical inverse; points of two or three of these are spread evenly (Halton 1960).
 double radicalInverse(std::size_t index, std::size_t base) {
   double value = 0, digit = 1;
   for (; index > 0; index /= base) {
@@ -74,7 +75,7 @@ std::vector<Vector3> gridPlaces(const XmlElement* distribution, std::size_t coun
   return places;
 }
 
-/// Returns the places in shares of the region along each axis.
+/// Returns the positions as shares of the region along each axis.
 std::vector<Vector3> sharesOf(const std::string& type, std::size_t count) {
   std::mt19937_64 random;
   const auto any = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };

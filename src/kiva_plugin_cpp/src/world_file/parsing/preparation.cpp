@@ -14,7 +14,7 @@ namespace {
 
 constexpr char kPerson[] = "model://person";
 
-/// Names that mean something else in SDF are not.
+/// Returns whether a name has no special meaning in SDF.
 bool isPlainName(const std::string& name) {
   return !name.empty() && name != "world" && name.find("::") == std::string::npos &&
          name.compare(0, 2, "__") != 0;
@@ -26,14 +26,14 @@ std::optional<bool> parseFlag(const std::string& text) {
   return std::nullopt;
 }
 
-/// SDF keeps such names to itself, also as a name of a world.
+/// Returns whether SDF reserves a name, even for a world.
 bool isReserved(const std::string& name) {
   const bool is_internal = name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
                            name.compare(name.size() - 2, 2, "__") == 0;
   return name == "world" || is_internal;
 }
 
-/// One child of an include; false if it is more than we understand.
+/// Reads a child of an include. Returns false if the child has more than can be taken out.
 bool setField(const std::string& field, const std::string& text, Include* include) {
   if (field == "uri") {
     include->uri = text;
@@ -62,8 +62,8 @@ std::optional<Include> readInclude(const XmlElement& element) {
   return include;
 }
 
-/// A part of the world that is placed by another one's name, perhaps an include's. Deeper down,
-/// names are those of the model around.
+/// Returns whether a part of the world is placed relative to another, perhaps to an include. Names
+/// deeper down refer to parts of the model around them.
 bool refersToOthers(const XmlElement& element, int depth) {
   constexpr int kPoseOfModel = 4;  // sdf, world, model, pose.
   if (element.Attribute("relative_to") || element.Attribute("attached_to")) return true;
@@ -75,8 +75,8 @@ bool refersToOthers(const XmlElement& element, int depth) {
   return false;
 }
 
-/// What two models have in common that differ in name and place alone; nothing for one that is
-/// placed in another way.
+/// The text that models have in common if they differ only in name and pose. Nothing for a model
+/// whose pose is not a plain one.
 struct ModelText {
   std::string common;
   std::string name;
@@ -108,7 +108,7 @@ void setContent(XmlElement* parent, const char* name, const std::string& text) {
   child->SetText(text.c_str());
 }
 
-/// Takes out of a document what it collects in a PreparedText.
+/// Extracts the contents of a PreparedText from a document.
 class Preparation {
  public:
   explicit Preparation(const std::string& xml) : document_(parseXml(xml)) {}
@@ -149,7 +149,7 @@ class Preparation {
     const std::string name = attributeOf(*world, "name");
     if (!isReserved(name)) return;
     result_.world_name = name;
-    world->SetAttribute("name", (name + ".").c_str());  // not reserved, and still recognised
+    world->SetAttribute("name", (name + ".").c_str());  // not reserved, and still recognisable
   }
 
   void add(Include include, const XmlElement& from) {
@@ -171,7 +171,7 @@ class Preparation {
   }
 
   void take(XmlElement* part, bool is_world) {
-    // <sdf> itself holds one model; the first of several equal ones stays.
+    // <sdf> itself holds one model; the first of several equal models stays.
     const bool is_include = is(*part, "include");
     const auto taken = !splits_     ? std::nullopt
                        : is_include ? readInclude(*part)
@@ -194,7 +194,8 @@ class Preparation {
     return copy;
   }
 
-  /// What Gazebo saves of a world's end: where models were, those that came and went.
+  /// Takes the states that Gazebo saves at a world's end: poses of models, and models added or
+  /// removed.
   void takeStates(XmlElement* world) {
     while (XmlElement* const state = world->FirstChildElement("state")) {
       readPoses(*state);
@@ -265,7 +266,7 @@ class Preparation {
   std::unique_ptr<XmlDocument> document_;
   bool splits_ = false;
   PreparedText result_;
-  std::map<std::string, ModelText> originals_;  // by what their copies have in common with them
+  std::map<std::string, ModelText> originals_;  // by the text that their copies share with them
 };
 
 }  // namespace
@@ -280,7 +281,7 @@ void modernizePoses(XmlDocument* document) {
     const char* const frame = element->Attribute("frame");
     if (!frame || !is(*element, "pose")) return;
     const std::string name = trimmed(frame);
-    if (!name.empty() && !is_new) return;  // conversion knows
+    if (!name.empty() && !is_new) return;  // conversion handles these
     if (!name.empty() && !element->Attribute("relative_to")) {
       element->SetAttribute("relative_to", name.c_str());
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnlimited = 1e16;
 
-/// Returns the kind of a joint; other types don't pass the checks.
+/// Returns the kind of a joint; the checks refuse other types.
 Joint::Kind kindOf(const XmlElement& joint) {
   const std::string type = attributeOf(joint, "type");
   if (type == "revolute") return Joint::Kind::kRevolute;
@@ -22,7 +22,7 @@ Joint::Kind kindOf(const XmlElement& joint) {
 
 const XmlElement& modelOf(const XmlElement& joint) { return *joint.Parent()->ToElement(); }
 
-/// The link's name in the flattened model.
+/// Returns the link's name in the flattened model.
 std::string scopedLink(const XmlElement& joint, const char* end, const Scope& scope) {
   const std::string link = linkOf(modelOf(joint), contentOf(joint.FirstChildElement(end)));
   return link == "world" ? link : scope.prefix + link;
@@ -54,7 +54,7 @@ void setLimits(const XmlElement& axis, Joint* joint) {
   joint->max_velocity = most("velocity");
 }
 
-/// In the model, with a length of 1.
+/// Returns the unit vector of the axis in the model.
 Vector3 directionOf(const XmlElement& joint, const XmlElement& axis) {
   const XmlElement* const xyz = axis.FirstChildElement("xyz");
   const Vector3 direction = (xyz ? vectorIn(*xyz) : Vector3::UnitZ).Normalized();

@@ -26,7 +26,8 @@ void addCollision(const XmlElement& from, const XmlElement& part, const Scope& s
 }
 
 void addVisual(const XmlElement& from, const Origin& origin, Link* link, Faults* warnings) {
-  // Pictures show what touches in place of a mesh; where nothing does, they need the mesh itself.
+  // Pictures show collisions in place of a visual's mesh; a link without collisions needs the mesh
+  // itself.
   const MeshUse use = link->collisions.empty() ? MeshUse::kTouched : MeshUse::kSeen;
   const auto shape = readShape(from, origin, use);
   if (!shape) return;

@@ -7,7 +7,7 @@
 
 namespace kiva {
 
-/// The place of a nested model's parts in the flattened model.
+/// The frame and names of a nested model in the flattened model.
 struct Scope {
   const Origin& origin;
   std::string prefix;  ///< `nested::`, empty for the outermost model.
@@ -16,7 +16,7 @@ struct Scope {
   bool self_collide;  ///< Default of its links.
 };
 
-/// Throw SdfError.
+/// Describes a link. Throws SdfError.
 Link describeLink(const XmlElement& link, const Scope& scope, Faults* warnings);
 Joint describeJoint(const XmlElement& joint, const Scope& scope);
 

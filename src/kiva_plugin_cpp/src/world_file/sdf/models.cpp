@@ -13,7 +13,7 @@
 namespace kiva {
 namespace {
 
-/// What is static in a model that moves does not: its links from `first` on are fixed.
+/// Fixes to the world the links from `first` on: those of a static model nested in one that moves.
 void holdToWorld(std::size_t first, ModelDescription* description) {
   for (std::size_t i = first; i < description->links.size(); ++i) {
     const Link& link = description->links[i];
@@ -53,7 +53,7 @@ void addModel(const XmlElement& model, const Scope& scope, ModelDescription* des
   });
 }
 
-/// Returns whether a model is static: itself, or since it only wraps static ones.
+/// Returns whether a model is static, or only wraps static ones.
 bool isStatic(const XmlElement& model) {
   if (flagIn(model, "static", false)) return true;
   if (model.FirstChildElement("link") || !model.FirstChildElement("model")) return false;
@@ -62,7 +62,7 @@ bool isStatic(const XmlElement& model) {
   return are_static;
 }
 
-/// Puts the link that stands for the whole model first, the others as they came.
+/// Moves the canonical link to the front, and keeps the order of the others.
 void putFirst(const std::string& canonical, std::vector<Link>* links) {
   const auto is_canonical = [&](const Link& link) { return link.name == canonical; };
   std::stable_partition(links->begin(), links->end(), is_canonical);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models of SDF to descriptions.
+// Describes models of SDF.
 #pragma once
 
 #include "kiva_plugin_cpp/description.h"

@@ -12,7 +12,7 @@
 namespace kiva {
 namespace {
 
-/// Names that SDF has for what a sensor is, with the element that each has, if one.
+/// SDF's types of sensors, each with its own element, if it has one.
 const std::map<std::string, std::string> kSensors = {{"air_pressure", "air_pressure"},
                                                      {"altimeter", "altimeter"},
                                                      {"boundingbox", "camera"},

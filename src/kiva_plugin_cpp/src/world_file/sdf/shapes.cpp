@@ -15,7 +15,7 @@
 namespace kiva {
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;  // of a polyline
+constexpr std::size_t kMostPoints = 2000;  // limit of a polyline
 
 const XmlElement& required(const XmlElement& parent, const char* name) {
   const XmlElement* const child = parent.FirstChildElement(name);
@@ -42,7 +42,8 @@ Vector3 lengths(const XmlElement& parent, const char* name) {
   return value;
 }
 
-/// The document that an element stands in: its own file, or the text that was given.
+/// Returns the folder of the document that holds an element: that of its own file, or of the
+/// caller's text.
 std::string folderOf(const XmlElement& element, const Origin& origin) {
   const Source* const source = sourceOf(element);
   const bool is_included = source && !source->file.empty();
@@ -102,7 +103,7 @@ std::vector<Vector2> pointsOf(const XmlElement& polyline) {
   return points;
 }
 
-/// One `<polyline>` or several: each is extruded.
+/// Reads one or several `<polyline>`; each is extruded.
 void readPolylines(const XmlElement& first, Shape* shape) {
   auto mesh = std::make_shared<Mesh>();
   for (const XmlElement* polyline = &first; polyline;
@@ -129,7 +130,7 @@ void readPlane(const XmlElement& plane, Shape* shape) {
   shape->plane_size[1] = size.y;
 }
 
-/// What we can build, in one place: a kind that is not in the table is refused by name.
+/// A kind of shape and its reader. A kind that is not in the table is refused by name.
 struct ShapeReader {
   const char* element;
   Shape::Kind kind;
@@ -162,7 +163,7 @@ std::string supported() {
   return list + "mesh";
 }
 
-/// A number in `lower`…`upper` at `parent`/`name`, if it is there.
+/// Reads a number in `lower`…`upper` at `parent`/`name`, if there is one.
 void readWithin(const XmlElement* parent, const char* name, double lower, double upper,
                 double* value, Faults* warnings) {
   const XmlElement* const element = parent ? parent->FirstChildElement(name) : nullptr;

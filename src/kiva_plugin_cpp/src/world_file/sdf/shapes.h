@@ -17,7 +17,7 @@ struct Origin {
   const ModelPaths& model_paths;
 };
 
-/// How meshes are treated: those of collisions are read, those of visuals only named.
+/// The treatment of meshes: those of collisions are read, those of visuals only named.
 enum class MeshUse { kTouched, kSeen };
 
 /// Returns the shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`.

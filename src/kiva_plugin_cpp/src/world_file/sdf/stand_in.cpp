@@ -11,7 +11,7 @@ namespace kiva {
 namespace {
 
 constexpr double kEdge = 1;               // [m]
-constexpr double kBelow = 2, kAbove = 1;  // [m] of the place of what is unknown
+constexpr double kBelow = 2, kAbove = 1;  // [m] below and above the place of an unknown shape
 constexpr double kNoDistance = 1e-3;      // [m]
 
 Shape boxOf(const Vector3& size) {
@@ -20,12 +20,12 @@ Shape boxOf(const Vector3& size) {
   return shape;
 }
 
-/// The shapes that the link shows, at `place` in it or anywhere.
+/// Returns the visuals of a link as collisions: those at `place` in it, or all.
 std::vector<Collision> visualsOf(const XmlElement& from, const std::optional<Pose>& place,
                                  const Origin& origin) {
   std::vector<Collision> visuals;
   forEach(from, "visual", [&](const XmlElement& visual) {
-    Faults ignored;  // Told where visuals are read.
+    Faults ignored;  // Reported where visuals are read.
     buildOrLeaveOut("visual", &ignored, [&] {
       const Pose pose = poseAround(visual);
       if (place && pose.Pos().Distance(place->Pos()) > kNoDistance) return;
@@ -40,7 +40,7 @@ std::vector<Collision> visualsOf(const XmlElement& from, const std::optional<Pos
   return visuals;
 }
 
-/// SDF has a heightmap around its origin, and above it.
+/// Returns the box of a heightmap, which in SDF lies around its origin, and above it.
 std::vector<Collision> boxOfHeightmap(const Collision& lost, const XmlElement& heightmap) {
   const Vector3 size = vectorIn(heightmap, "size", Vector3::One);
   const Vector3 at = vectorIn(heightmap, "pos", Vector3::Zero);
@@ -56,7 +56,7 @@ const XmlElement* heightmapOf(const XmlElement& collision) {
   return geometry ? geometry->FirstChildElement("heightmap") : nullptr;
 }
 
-/// Upright in the model, whichever way the link is turned.
+/// Returns a box that is upright in the model, however the link is rotated.
 Collision boxAround(const Collision& lost, const Pose& link_in_model) {
   Collision box = lost;
   box.shape = boxOf({kEdge, kEdge, kAbove + kBelow});

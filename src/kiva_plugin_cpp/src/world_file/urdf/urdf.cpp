@@ -22,7 +22,7 @@ std::string withInertias(const std::string& urdf) {
     }
     return textOf(*document);
   } catch (const SdfError&) {
-    return urdf;  // Told where it is read.
+    return urdf;  // Reported where it is read.
   }
 }
 

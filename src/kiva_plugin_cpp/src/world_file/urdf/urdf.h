@@ -13,8 +13,8 @@ namespace kiva {
 /// elements, and a warning for each text that should be a number. Throws SdfError.
 std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed);
 
-/// A URDF whose links without an inertial have one: Gazebo leaves out those that have none,
-/// and a hall's walls with them.
+/// Returns a URDF in which every link has an inertial: Gazebo leaves out links without one, and
+/// with them a hall's walls.
 std::string withInertias(const std::string& urdf);
 
 /// Makes a model static if none of its joints can move: as a world, it is a hall.

@@ -9,7 +9,7 @@
 namespace kiva {
 namespace {
 
-/// Reads values of attributes; what is none counts as if it were not given, and is told.
+/// Reads values of attributes. A malformed value counts as missing, with a warning.
 class Attributes {
  public:
   explicit Attributes(Faults* warnings) : warnings_(warnings) {}
@@ -19,7 +19,7 @@ class Attributes {
     return number ? *number : warned(element, attribute, "a number", 0.0);
   }
 
-  /// `xyz` and `rpy` of the `<origin>` in an element.
+  /// Returns `xyz` and `rpy` of the `<origin>` in an element.
   Pose originIn(const XmlElement& element) const {
     const XmlElement* const origin = element.FirstChildElement("origin");
     if (!origin) return Pose::Zero;
@@ -46,7 +46,7 @@ class Attributes {
   Faults* const warnings_;
 };
 
-/// A tensor about a point at `arm` from the centre of mass (Huygens and Steiner).
+/// Returns a tensor about a point at `arm` from the centre of mass (Huygens and Steiner).
 Matrix3 shifted(const Matrix3& about_centre, double mass, const Vector3& arm) {
   const double x = arm.X(), y = arm.Y(), z = arm.Z();
   return about_centre + Matrix3(mass * (y * y + z * z), -mass * x * y, -mass * x * z,  //
@@ -213,8 +213,8 @@ class Reader {
 
   const Attributes attributes_;
   UrdfTree tree_;
-  std::map<std::string, std::string> to_child_;  // joints by their child link
-  std::set<std::string> kept_;                   // fixed joints that stay
+  std::map<std::string, std::string> to_child_;  // joints by child link
+  std::set<std::string> kept_;                   // fixed joints that are not lumped
 };
 
 }  // namespace

@@ -10,22 +10,22 @@
 
 namespace kiva {
 
-/// A mass with its centre and its inertia about that, all along the axes of a link.
+/// A mass with its centre, and its inertia about the centre, along the axes of a link.
 struct UrdfInertia {
   double mass = 0;  ///< [kg]
   Pose pose;        ///< Pose of the inertial's own frame.
   Vector3 moments, products;
 
-  /// Adds another inertia, which stands at `pose` in this link's frame, as one body.
+  /// Adds another inertia at `pose` in this link's frame, rigidly connected.
   void add(UrdfInertia other, const Pose& pose);
 };
 
-/// A `<collision>` or a `<visual>` with the link that it was written for.
+/// A `<collision>` or a `<visual>` and the link of its document.
 struct UrdfShape {
   const XmlElement* element = nullptr;
-  std::string name;  ///< Its own, or that of its link.
-  std::string from;  ///< The link that it was written for.
-  Pose pose;         ///< Pose in the link that has it now.
+  std::string name;  ///< Its own name, or its link's.
+  std::string from;  ///< The link in whose element it stands.
+  Pose pose;         ///< Pose in the link that it belongs to now.
 };
 
 struct UrdfJoint {
@@ -34,11 +34,10 @@ struct UrdfJoint {
   Pose pose;  ///< Pose in the parent link.
 };
 
-/// The elements of `<gazebo reference="…">` for a link, perhaps from a link that was lumped into
-/// it.
+/// The elements of `<gazebo reference="…">` for a link, perhaps one that was lumped into another.
 struct UrdfExtension {
   const XmlElement* element = nullptr;
-  Pose pose;  ///< Pose of the link that it was written for.
+  Pose pose;  ///< Pose of the link in whose element it stands.
   bool is_lumped = false;
 };
 
@@ -49,17 +48,17 @@ struct UrdfLink {
   UrdfInertia inertia;
   std::vector<UrdfShape> collisions, visuals;
   std::vector<UrdfExtension> extensions;
-  std::vector<std::string> children;  ///< Names of the joints to them, sorted.
+  std::vector<std::string> children;  ///< Sorted names of the joints to them.
 };
 
-/// A `<robot>` as a tree of links, fixed joints lumped: what a link holds that is fixed to another
-/// one goes into that, as in Gazebo. Links that are fixed to "world" stay, and those whose joint a
-/// `<gazebo>` element asks to keep.
+/// A `<robot>` as a tree of links with fixed joints lumped, as in Gazebo: the contents of a link
+/// that is fixed to another one go into that one. Links that are fixed to "world" stay, and so do
+/// those whose joint a `<gazebo>` element asks to keep.
 struct UrdfTree {
   std::map<std::string, UrdfLink> links;
   std::map<std::string, UrdfJoint> joints;
   std::string root;
-  /// By lumped link: the link that holds its parts now, and its pose in that.
+  /// The link that holds a lumped link's parts now, and the lumped link's pose in it.
   struct Place {
     std::string link;
     Pose pose;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// URDF as Gazebo makes SDF of it: a link without a mass is none, and its children are none either;
-// what `<gazebo reference="link">` holds goes into the link, without a reference into the model.
+// Converts URDF to SDF as Gazebo does. A link without a mass is dropped, with its children. The
+// contents of `<gazebo reference="link">` go into the link, those without a reference into the
+// model.
 #include <algorithm>
 #include <charconv>
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr const char* kNoLimit = "1e16";
 
-/// The shortest text that is read as that number again.
+/// Returns the shortest text that parses to the same number.
 std::string exact(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, number).ptr};
@@ -24,9 +25,9 @@ std::string exact(const Vector3& v) {
   return exact(v.X()) + ' ' + exact(v.Y()) + ' ' + exact(v.Z());
 }
 
-class Writer {
+class SdfWriter {
  public:
-  Writer(const XmlElement& robot, SdfDocument* parsed)
+  SdfWriter(const XmlElement& robot, SdfDocument* parsed)
       : robot_(robot), parsed_(parsed), tree_(readUrdf(robot, &parsed->warnings)) {}
 
   std::unique_ptr<XmlDocument> run() {
@@ -43,14 +44,14 @@ class Writer {
   }
 
  private:
-  /// Inserts an element that stands for one of the URDF.
+  /// Inserts an element that comes from one of the URDF.
   XmlElement* insert(XmlElement* parent, const char* name, const XmlElement& from) {
     XmlElement* const child = parent->InsertNewChildElement(name);
     setLine(from, child);
     return child;
   }
 
-  /// An element, and what is in it, is of a line of the URDF.
+  /// Gives an element and its contents the line of an element of the URDF.
   void setLine(const XmlElement& from, XmlElement* element) {
     parsed_->sources.push_back({"", from.GetLineNum()});
     forAll(element, [&](XmlElement* part) { part->SetUserData(&parsed_->sources.back()); });
@@ -63,7 +64,7 @@ class Writer {
     return child;
   }
 
-  /// Quaternions, not angles: these would be rounded.
+  /// Writes quaternions, since angles would be rounded.
   XmlElement* addPose(XmlElement* parent, const Pose& pose) {
     const Quaternion& q = pose.Rot();
     std::string text;
@@ -143,7 +144,7 @@ class Writer {
     add(shape, "uri", uri);
   }
 
-  /// The last that `<gazebo reference="NAME">` says of an element for a link or a joint.
+  /// Returns the last element of that key in `<gazebo reference="NAME">` of a link or a joint.
   const XmlElement* extensionOf(const std::string& name, const char* key) const {
     const XmlElement* element = nullptr;
     forEach(robot_, "gazebo", [&](const XmlElement& extension) {
@@ -179,7 +180,7 @@ class Writer {
     for (const char* kind : {"diffuse", "ambient"}) add(out, kind, attributeOf(*colour, "rgba"));
   }
 
-  /// What is told in other words in SDF, or not at all.
+  /// Returns whether SDF has another word for a part, or none.
   static bool isOfUrdf(const XmlElement& part) {
     static constexpr const char* kNames[] = {"material",
                                              "mu1",
@@ -243,8 +244,8 @@ class Writer {
     return copy;
   }
 
-  /// A plugin that names a link which was lumped means the one that holds its parts now, and is
-  /// told where the other stands in that.
+  /// Renames a lumped link in a plugin to the link that holds its parts now, with the lumped link's
+  /// offset in it.
   void renameBodies(XmlElement* plugin) {
     for (const char* name : {"bodyName", "frameName"}) {
       XmlElement* const body = plugin->FirstChildElement(name);
@@ -260,7 +261,7 @@ class Writer {
     const Pose own(vectorIn(*plugin, "xyzOffset", Vector3::Zero),
                    Quaternion(rpy.X(), rpy.Y(), rpy.Z()));
     const Pose offset = pose * own;
-    constexpr char kDone[] = "ignition::corrected_offsets";  // as Gazebo calls it
+    constexpr char kDone[] = "ignition::corrected_offsets";  // the name in Gazebo
     for (const char* name : {"xyzOffset", "rpyOffset", kDone}) {
       if (XmlElement* const child = plugin->FirstChildElement(name)) plugin->DeleteChild(child);
     }
@@ -317,7 +318,7 @@ class Writer {
 }  // namespace
 
 std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed) {
-  return Writer(*urdf.RootElement(), parsed).run();
+  return SdfWriter(*urdf.RootElement(), parsed).run();
 }
 
 }  // namespace kiva

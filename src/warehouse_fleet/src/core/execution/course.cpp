@@ -4,7 +4,7 @@
 namespace fleet {
 
 void Course::admit(Cell cell, double now, int heading) {
-  phase_ = Phase::kStanding;
+  phase_ = CoursePhase::kStanding;
   at = cell;
   cells = {cell};
   plan_is_stale = true;
@@ -13,26 +13,26 @@ void Course::admit(Cell cell, double now, int heading) {
 }
 
 void Course::send() {
-  if (phase_ == Phase::kStanding) phase_ = Phase::kSent;
+  if (phase_ == CoursePhase::kStanding) phase_ = CoursePhase::kSent;
 }
 
 void Course::refuse() {
-  if (phase_ == Phase::kSent) phase_ = Phase::kRefused;
+  if (phase_ == CoursePhase::kSent) phase_ = CoursePhase::kRefused;
 }
 
 void Course::accept() {
-  if (phase_ != Phase::kWithdrawn) phase_ = Phase::kDriving;
+  if (phase_ != CoursePhase::kWithdrawn) phase_ = CoursePhase::kDriving;
   refusals = 0;
 }
 
 void Course::withdraw() {
-  phase_ = Phase::kWithdrawn;
+  phase_ = CoursePhase::kWithdrawn;
   plan.clear();
   plan_is_stale = true;
 }
 
 void Course::finish(Cell cell) {
-  phase_ = Phase::kStanding;
+  phase_ = CoursePhase::kStanding;
   at = cell;
   cells = {cell};
   reached = 1;

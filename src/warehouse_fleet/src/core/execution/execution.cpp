@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes in what robots report, and admits them to the fleet.
+// Takes the reports of robots, and admits robots to the fleet.
 #include "warehouse_fleet/execution.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace fleet {
 namespace {
 
-constexpr int kInsists = 3;        // refusals after which a path can't begin where it does
-constexpr double kSettled = 1;     // after which nothing that was sent is on its way any more [s]
-constexpr double kBlockedFor = 1;  // after which a robot is sent another way [s]
-constexpr double kNoWay = 0.001;   // between two reports of a robot that stands [m]
-constexpr double kStalledFor = 5;  // after which a robot is taken to be broken [s]
+constexpr int kInsists = 3;        // refusals after which a path must begin elsewhere
+constexpr double kSettled = 1;     // time after which no message is on its way any more [s]
+constexpr double kBlockedFor = 1;  // time after which a robot is sent another way [s]
+constexpr double kNoWay = 0.001;   // distance between two reports up to which a robot stands [m]
+constexpr double kStalledFor = 5;  // time after which a robot counts as broken [s]
 
 }  // namespace
 
@@ -66,7 +66,8 @@ void Execution::update(double time, std::vector<Report> reports) {
   findTight();
 }
 
-/// Returns whether a robot of the fleet stands where it stood with nothing ahead: only time passes.
+/// Returns whether nothing but time changed for a robot of the fleet: it stands, with nothing
+/// ahead.
 bool Execution::rests(int robot, const Report& before) const {
   const Course& course = courses_[robot];
   const Report& now = reports_[robot];
@@ -103,7 +104,7 @@ void Execution::admit(int robot) {
   holders_.hold(at, robot);
 }
 
-/// Returns whether nothing that a robot was released is driven any more.
+/// Returns whether the robot has driven, or dropped, all of its released path.
 bool Execution::isOver(int robot) const {
   const Course& course = courses_[robot];
   const Report& report = reports_[robot];
@@ -119,7 +120,7 @@ void Execution::dismiss(int robot) {
   renew(robot);
 }
 
-/// Resets a course but for its number and, while the robot is controlled, its recovery.
+/// Resets a course, except its number and, while the robot is controlled, its recovery.
 void Execution::renew(int robot) {
   Course next;
   next.id = courses_[robot].id;
@@ -127,13 +128,13 @@ void Execution::renew(int robot) {
   courses_[robot] = std::move(next);
 }
 
-/// Updates how far a member has come on its path.
+/// Updates the progress of a member on its path.
 void Execution::follow(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
   if (course.turning != kNowhere && hasTurned(robot)) course.turning = kNowhere;
   if (!course.isActive()) {
-    // It was moved by others.
+    // The robot was moved by others.
     const Cell at = frame_.cellAt(report.x, report.y);
     if (at != course.at && !course.is_astray) {
       dismiss(robot);
@@ -168,7 +169,7 @@ void Execution::follow(int robot) {
 void Execution::pass(int robot, int reached, int left) {
   Course& course = courses_[robot];
   const int points = course.points();
-  // A robot that has left a cell wholly is in the next one, before it comes to its middle.
+  // A robot that has left a cell completely is in the next one, even before it reaches the middle.
   course.is_short = left >= reached;
   reached = std::clamp(std::max(reached, left + 1), course.reached, points);
   for (int point = course.reached; point < reached; ++point) {
@@ -226,7 +227,7 @@ void Execution::measure(int robot, double elapsed, const Report& before) {
   const bool is_still =
       speedOf(robot) < kStandstill && reports_[robot].state != RobotState::kRotating;
   if (!course.travels || !is_still) course.still_since = now_;
-  // One that is elsewhere tells no speed, but other places.
+  // Reports of a robot that is elsewhere have no speed: positions must do.
   const double way = std::hypot(reports_[robot].x - before.x, reports_[robot].y - before.y);
   if (!is_still || way > kNoWay || course.reached == course.points()) course.moved = now_;
   if (!course.travels) return;
@@ -236,14 +237,14 @@ void Execution::measure(int robot, double elapsed, const Report& before) {
   endRun(course);
 }
 
-/// Returns whether a robot stands because the plan lets it wait, or behind one that stands as well.
+/// Returns whether a robot stands because the plan makes it wait, or behind a robot that stands.
 bool Execution::waitsAsPlanned(int robot) const {
   const Course& course = courses_[robot];
   if (course.waits_by_plan || course.waits_for == kNobody) return course.waits_by_plan;
   return speedOf(course.waits_for) < kStandstill;
 }
 
-/// Adds the time of the cells driven straight on to the journey.
+/// Adds the time of a straight run to the journey.
 void Execution::endRun(Course& course) const {
   if (course.run > 0) course.journey.alone += runTime(course.run * motion_.spacing, motion_);
   course.run = 0;
@@ -263,11 +264,11 @@ bool Execution::isForeign(int robot) const {
   const Course& course = courses_.at(robot);
   const Report& report = reports_[robot];
   if (report.status == RobotStatus::kIdle) return false;
-  // A robot that lifts, or is served, does not drive.
+  // A robot that lifts or is served does not drive.
   if (report.is_busy && report.state != RobotState::kMovingX &&
       report.state != RobotState::kMovingY)
     return false;
-  // A late copy of a path that was given up is its own still.
+  // A late copy of a dropped path still belongs to the robot.
   if (!course.isActive()) return report.path_id == 0 || report.path_id != course.id;
   return (course.isAccepted() || course.isRefused()) && report.path_id != course.id;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hands the state of the fleet to the planner, and takes in its plan.
+// Gives the state of the fleet to the planner, and adopts its plan.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -37,8 +37,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
   return asked_;
 }
 
-/// Writes what a robot has been released as actions: turns, drives, and waiting where it takes
-/// longer.
+/// Writes a robot's released path as actions: turns, drives, and waits where it takes longer.
 void Execution::commit(int robot, std::uint8_t* row, int horizon) const {
   const Course& course = courses_[robot];
   int tick = 0;
@@ -102,7 +101,7 @@ void Execution::drive(std::vector<std::deque<Step>> plans) {
   order_.set(members_, courses_);
 }
 
-/// Takes a robot's part of the plan, beyond what it has been released by now.
+/// Takes a robot's part of the plan, beyond its released path.
 void Execution::take(int robot, const Plan& plan, int index) {
   Course& course = courses_[robot];
   course.plan.clear();
@@ -121,7 +120,7 @@ void Execution::take(int robot, const Plan& plan, int index) {
   }
   if (steps.size() < known) return;
   course.plan.assign(steps.begin() + known, steps.end());
-  // A robot that is to turn and to wait then waits first: it turns when it may drive on.
+  // A robot that is to turn and then wait waits first: it turns when it may drive on.
   const int from = std::max(asked_.commitments(index), known > 0 ? steps[known - 1].tick + 1 : 0);
   const int until = course.plan.empty() ? plan.horizon : course.plan.front().tick;
   for (int tick = from; tick < until; ++tick) {

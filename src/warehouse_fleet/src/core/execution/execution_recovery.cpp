@@ -11,19 +11,19 @@
 namespace fleet {
 namespace {
 
-constexpr double kOnGrid = 0.001;  // where a robot takes itself to stand on a grid point [m]
-constexpr int kRefuges = 1;        // cells around a robot in which it may come back to the grid
-constexpr double kFindsBack = 30;  // time in which one that was pushed does [s]
-constexpr double kAgain = 2;       // between attempts that ended where they began [s]
-constexpr double kReach = 0.43;    // of a robot with its load, from its centre along x and y [m]
-constexpr double kInside = 0.37;   // of that which is beyond no cell that it was released [m]
-constexpr double kTurning = 0.05;  // from the middle of a cell, in which robots turn [m]
-constexpr double kPassing = 0.07;  // of that which may reach into a cell where others pass [m]
-constexpr double kHalf = 0.4;      // of the length and the width of a load [m]
-constexpr double kSweep = 0.58;    // around a load that turns, with a little room [m]
-constexpr double kRoom = 1.2;      // that one takes which turns and drives back to the grid [m]
+constexpr double kOnGrid = 0.001;  // tolerance within which a robot stands on a grid point [m]
+constexpr int kRefuges = 1;        // distance in cells within which it may come back to the grid
+constexpr double kFindsBack = 30;  // time within which it must come back [s]
+constexpr double kAgain = 2;       // time between attempts that ended where they began [s]
+constexpr double kReach = 0.43;    // half extent of a robot with its load along x and y [m]
+constexpr double kInside = 0.37;   // half extent that never leaves released cells [m]
+constexpr double kTurning = 0.05;  // distance from a cell's middle within which robots turn [m]
+constexpr double kPassing = 0.07;  // reach into a cell that is safe while others pass [m]
+constexpr double kHalf = 0.4;      // half length and half width of a load [m]
+constexpr double kSweep = 0.58;    // radius that a turning load sweeps, with a margin [m]
+constexpr double kRoom = 1.2;      // room of a robot that turns and drives back to the grid [m]
 
-/// Returns places from one end to the other, no further apart than a cell.
+/// Returns evenly spaced positions from one end to the other, at most a cell apart.
 std::vector<double> marks(double from, double to, double spacing) {
   const int gaps = static_cast<int>(std::ceil((to - from) / spacing));
   std::vector<double> marks;
@@ -33,14 +33,14 @@ std::vector<double> marks(double from, double to, double spacing) {
 
 }  // namespace
 
-/// Has an obstacle hold the cells that it stands on, and drives onto next.
+/// Makes an obstacle hold the cells that it stands on, and drives onto next.
 void Execution::occupy(int robot) {
   courses_[robot].at = frame_.cellAt(reports_[robot].x, reports_[robot].y);
   cover(robot);
 }
 
-/// Has a robot that was pushed off the middle of its cell, or off its path, hold all that it stands
-/// on, until it is back.
+/// Makes a robot that was pushed off the middle of its cell, or off its path, hold all cells that
+/// it stands on, until it is back.
 void Execution::keepAround(int robot) {
   Course& course = courses_[robot];
   const bool rests = !course.isActive() && reports_[robot].status == RobotStatus::kIdle;
@@ -54,8 +54,8 @@ void Execution::keepAround(int robot) {
   if (course.is_astray || isOffItsPath(robot)) cover(robot);
 }
 
-/// Returns whether a robot reaches into a cell that it does not hold. One that turns in the middle
-/// of its cell is kept clear of others by mayTurn().
+/// Returns whether a robot reaches into a cell that it does not hold. For a robot that turns in the
+/// middle of its cell, mayTurn() keeps others clear.
 bool Execution::isOffItsPath(int robot) const {
   if (!isSquare(robot) && !isCentred(robot, kTurning)) return true;
   const double reach = kInside * motion_.spacing;
@@ -68,8 +68,7 @@ bool Execution::isOffItsPath(int robot) const {
   return false;
 }
 
-/// Returns how far a robot reaches from its centre along x and y with its load, which may stand
-/// askew [m].
+/// Returns the half extent of a robot along x and y with its load, which may stand askew [m].
 double Execution::reachOf(int robot) const {
   const double yaw = reports_[robot].yaw;
   const double corner = kHalf * (std::abs(std::cos(yaw)) + std::abs(std::sin(yaw)));
@@ -104,7 +103,7 @@ void Execution::vacate(int robot) {
 }
 
 /// Sends an astray robot to the middle of a cell, where its next path can begin, by a path of that
-/// cell alone. The robot refuses a cell in which it has no room to turn.
+/// one cell. The robot refuses a cell in which it has no room to turn.
 void Execution::recentre(int robot) {
   Course& course = courses_[robot];
   if (course.isAccepted() || course.isRefused() || isLost(robot)) return;
@@ -114,7 +113,7 @@ void Execution::recentre(int robot) {
   if (!course.isActive()) {
     const Cell back = refuge(robot);
     if (back == kNowhere) {
-      course.recovery.refused.clear();  // perhaps there is room by now
+      course.recovery.refused.clear();  // there may be room by now
       return;
     }
     vacate(robot);
@@ -130,7 +129,7 @@ void Execution::recentre(int robot) {
   send(robot, 0);
 }
 
-/// Returns the nearest cell in which a path can begin, of those that the robot has not refused;
+/// Returns the nearest cell in which a path can begin and that the robot has not refused, or
 /// kNowhere.
 Cell Execution::refuge(int robot) const {
   const Report& report = reports_[robot];
@@ -161,8 +160,8 @@ bool Execution::mayRest(int robot, Cell cell) const {
   return !floor_.isStorage(cell) && std::find(units.begin(), units.end(), cell) == units.end();
 }
 
-/// Returns whether a path can begin where a robot stands, by a narrower limit if it has refused
-/// one.
+/// Returns whether a path can begin where a robot stands. The limit is narrower if the robot has
+/// refused a path there.
 bool Execution::isBack(int robot) const {
   const bool has_refused = !courses_[robot].recovery.refused.empty();
   return isCentred(robot, has_refused ? kOnGrid : kCentred) && isSquare(robot);
@@ -173,7 +172,7 @@ bool Execution::isLost(int robot) const {
   return since >= 0 && now_ - since > kFindsBack;
 }
 
-/// Finds the cells in which a load that turns would touch a robot that stands askew. Robots that
+/// Collects the cells in which a turning load would touch a robot that stands askew. Robots that
 /// drive straight on pass it with room to spare.
 void Execution::findTight() {
   tight_.clear();
@@ -200,7 +199,7 @@ bool Execution::isAskew(int robot) const {
   return !isCentred(robot, kCentred) || !isSquare(robot);
 }
 
-/// Returns whether a load that is turned in a cell would touch the robot's.
+/// Returns whether a load that turns in a cell would touch the robot's load.
 bool Execution::isInReach(int robot, Cell cell) const {
   const Report& report = reports_[robot];
   const double c = std::cos(report.yaw), s = std::sin(report.yaw);

@@ -11,9 +11,11 @@
 namespace fleet {
 namespace {
 
-constexpr double kTurnsSoon = 0.35;    // from a corner, where what comes after it is released [m]
-constexpr double kClosedFor = 3;       // for which an obstacle is taken to stay [s]
-constexpr std::size_t kForesight = 8;  // cells of the plan that a robot is told beyond its own
+constexpr double kTurnsSoon =
+    0.35;  // distance from a corner at which cells beyond it are released [m]
+constexpr double kClosedFor = 3;  // time for which an obstacle is assumed to stay [s]
+constexpr std::size_t kForesight =
+    8;  // planned cells that a robot is sent beyond its released ones
 
 }  // namespace
 
@@ -61,11 +63,11 @@ void Execution::extend(int robot) {
                             course.reached < course.points();
     if (is_waiting) send(robot, course.reached);
     if (isAtEnd(robot)) releaseUpTo(robot, course.points());
-    if (course.phase() == Phase::kSent) send(robot, 0);
+    if (course.phase() == CoursePhase::kSent) send(robot, 0);
   }
 }
 
-/// Returns whether a robot waits to be sent on although it has nowhere to go.
+/// Returns whether a robot waits for a path although it has no goal elsewhere.
 bool Execution::isAtEnd(int robot) const {
   const Course& course = courses_[robot];
   return course.isAccepted() && !course.travels && course.plan.empty() &&
@@ -92,8 +94,8 @@ bool Execution::needs(int robot) const {
 }
 
 /// Returns whether a robot may be released around a corner. Two robots side by side, one of them
-/// loaded, must not turn at once, nor a loaded one beside one that stands askew. No robot is
-/// released around a corner before it comes to it.
+/// loaded, must not turn at the same time; nor must a loaded robot beside one that stands askew. A
+/// robot is released around a corner only after it comes to it.
 bool Execution::mayTurn(int robot) const {
   const Cell tip = courses_[robot].cells.back();
   if (toGo(robot) > kTurnsSoon) return false;
@@ -108,15 +110,15 @@ bool Execution::mayTurn(int robot) const {
   return true;
 }
 
-/// Returns whether a robot turns in a cell, or has just come there `from` the cell beside it: a
-/// robot that turns in that would touch it, as long as it is short of the middle.
+/// Returns whether a robot turns in the cell `in`, or still enters it from the cell `from`. A load
+/// that turns in `from` would touch it before it reaches the middle.
 bool Execution::keepsFromTurning(int robot, Cell in, Cell from) const {
   const Course& course = courses_[robot];
   if (course.turning == in) return true;
   return course.is_short && course.at == in && course.cells[course.reached - 2] == from;
 }
 
-/// Returns whether a robot is around the corner that it was released around.
+/// Returns whether a robot has passed the corner that it was released around.
 bool Execution::hasTurned(int robot) const {
   const Course& course = courses_[robot];
   const auto corner = std::find(course.cells.rbegin(), course.cells.rend(), course.turning);
@@ -127,7 +129,7 @@ bool Execution::hasTurned(int robot) const {
   return std::abs(std::remainder(reports_[robot].yaw - yaw, 4 * kQuarter)) < kAligned;
 }
 
-/// Sends the points of a path from `first` on, and what comes next by the plan.
+/// Sends the points of a path from `first` on, and the next planned ones.
 void Execution::send(int robot, int first) {
   Course& course = courses_[robot];
   const int released = course.points();
@@ -143,7 +145,7 @@ void Execution::send(int robot, int first) {
   course.send();
 }
 
-/// Releases that many points of a path. The last point is sent again, which cuts off what was
+/// Releases `points` points of a path. The last point is sent again, which cuts off the points
 /// planned beyond.
 void Execution::releaseUpTo(int robot, int points) {
   Course& course = courses_[robot];
@@ -163,7 +165,8 @@ void Execution::refused(int robot) {
 }
 
 /// Ends a path where the robot can still stop, before an obstacle. The robot keeps its cells until
-/// it reports that it has stopped. Sent again until then: a robot that drives on refuses it.
+/// it reports that it has stopped. The message is repeated until then: a robot that drives on
+/// refuses it.
 void Execution::withdraw(int robot) {
   Course& course = courses_[robot];
   const int keep =
@@ -186,7 +189,7 @@ void Execution::recall(Cell cell) {
   if (is_ahead && course.isAccepted() && !course.isWithdrawn()) withdraw(robot);
 }
 
-/// Returns the distance to the last cell that a robot has been released [m].
+/// Returns the distance to the last released cell [m].
 double Execution::toGo(int robot) const {
   const Course& course = courses_[robot];
   const int points = course.points();

@@ -30,7 +30,7 @@ int PassingOrder::first(Cell cell, const std::vector<Course>& courses) {
   while (next >= 0) {
     const Claim& claim = claims_[next];
     const std::deque<Step>& plan = courses[claim.robot].plan;
-    // The robot has that step still before it: the ticks of its plan ascend.
+    // The robot has not made that step yet: the ticks of its plan ascend.
     if (!plan.empty() && claim.tick >= plan.front().tick) return claim.robot;
     const std::size_t following = next + 1;
     next = following < claims_.size() && claims_[following].cell == cell

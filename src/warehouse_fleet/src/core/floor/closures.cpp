@@ -7,14 +7,14 @@
 namespace fleet {
 namespace {
 
-constexpr int kLasting = 15;  // ticks: robots wait for what is in the way for less
+constexpr int kLasting = 15;  // ticks; robots wait for shorter closures
 
 void sort(std::vector<Cell>& cells) {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-/// Returns the cell before one of a lane, in the lane; kNowhere.
+/// Returns the previous cell of the same lane, or kNowhere.
 Cell before(const Floor& floor, Cell cell) {
   if (!floor.isLane(cell)) return kNowhere;
   for (int heading = 0; heading < kHeadings; ++heading) {
@@ -60,7 +60,7 @@ Closures::Closed Closures::now(const Fleet& fleet) const {
   return closed;
 }
 
-/// Returns whether the nearest robot behind a unit in a lane carries one.
+/// Returns whether the nearest robot behind a unit in a lane is loaded.
 bool Closures::isWaitedFor(Cell unit, const Fleet& fleet) const {
   for (Cell cell = before(floor_, unit); cell != kNowhere; cell = before(floor_, cell)) {
     const auto at = std::find(fleet.cell.begin(), fleet.cell.end(), cell);
@@ -127,7 +127,7 @@ void Closures::set(Deck deck, const std::vector<Cell>& cells, bool is_open) {
   }
 }
 
-/// Closes the way along its lane to a unit: those that wait behind it fill the lane.
+/// Closes the way along its lane to a unit: the robots that wait behind it fill the lane.
 void Closures::comeFromBeyond(Cell unit) {
   const Cell from = before(floor_, unit);
   for (int heading = 0; heading < kHeadings; ++heading) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The edges that are open in a step. Closed cells, cells of stopped robots and, for robots with a
-// load, cells of storage units are left out. Where such cells stay closed, one-way streets that
-// they cut lead back as well (severed.h).
+// The edges that are open in a step. Closed cells, cells of stopped robots and, for loaded robots,
+// cells of storage units are left out. Where such cells stay closed, the one-way streets that they
+// cut become two-way (severed.h).
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace fleet {
 
 class Closures {
  public:
-  /// Begins with every edge of the floor open. `costs` are those of Guidance.
+  /// Starts with every edge of the floor open. `costs` are those of Guidance.
   Closures(const Floor& floor, const std::vector<std::uint8_t>& costs);
 
-  /// Removes edges into closed cells, restores edges into reopened ones, and notes where a load
-  /// can't be turned. Called once a tick.
+  /// Removes edges into closed cells, restores edges into reopened ones, and marks cells where a
+  /// load can't turn. Called once a tick.
   void update(const Fleet& fleet);
 
-  /// Returns the edges; their address stays the same.
+  /// Returns the edges, at a fixed address.
   const Edges& edges() const { return edges_; }
   /// Returns a number that changes whenever the edges change.
   int version() const { return version_; }
@@ -32,8 +32,8 @@ class Closures {
  private:
   /// Closed cells, sorted.
   struct Closed {
-    std::vector<Cell> cells;    ///< to all robots
-    std::vector<Cell> units;    ///< to loaded ones
+    std::vector<Cell> cells;    ///< closed to all robots
+    std::vector<Cell> units;    ///< closed to loaded robots
     std::vector<Cell> waiting;  ///< units in lanes behind which a loaded robot waits
     bool operator==(const Closed& other) const {
       return cells == other.cells && units == other.units && waiting == other.waiting;

@@ -10,7 +10,7 @@ constexpr int kQueues = 64;
 static_assert(kMaxEdgeCost < kQueues && (kQueues & (kQueues - 1)) == 0);
 static_assert(kMaxTurnTicks * kTickCost <= 0xf, "a quarter turn must fit into four bits");
 
-/// The costs of a cell's headings in a word: see DistanceTable.
+/// Returns the costs of a cell's headings as a word: see DistanceTable.
 inline std::uint32_t packed(const std::uint16_t* cost) {
   const std::uint32_t least = std::min(std::min(cost[0], cost[1]), std::min(cost[2], cost[3]));
   std::uint32_t word = least << 16;
@@ -40,7 +40,8 @@ void Prices::update(const Edges& edges) {
       of[deck][edge] = next[edge] == kNowhere ? 0 : costs[edge];
     }
     for (const int edge : edges.against[deck]) {
-      if (next[edge] != kNowhere) of[deck][edge] = kMaxEdgeCost;  // other ways are better
+      if (next[edge] != kNowhere)
+        of[deck][edge] = kMaxEdgeCost;  // last resort: other ways are better
     }
   }
 }
@@ -62,11 +63,11 @@ void DistanceSearch::run(Deck deck, Cell goal, const Window& window, bool is_ent
   goal_ = goal;
   price_ = prices_.of[static_cast<int>(deck)].data();
   turns_everywhere_ = edges_.mayTurnEverywhere(deck);
-  // A goal may be a storage place, which the aisles' deck does not lead into.
+  // A goal may be a storage place, to which the aisles' deck has no edge.
   into_goal_ = is_entered ? floor_.edges(deck).data() : edges_.next[0].data();
   open(window);
   for (int heading = 0; heading < kHeadings; ++heading) push(goal * kHeadings + heading, 0);
-  // The queues hold all costs from the present one to the dearest edge away.
+  // The queues hold all costs from the present one to the highest edge cost above it.
   for (int cost = 0, idle = 0; idle < kQueues; ++cost, ++idle) {
     auto& queue = queues_[cost & (kQueues - 1)];
     for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -77,7 +78,7 @@ void DistanceSearch::run(Deck deck, Cell goal, const Window& window, bool is_ent
   }
 }
 
-/// Closes the window before, opens this one.
+/// Closes the previous window and opens this one.
 void DistanceSearch::open(const Window& window) {
   const auto fill = [this](const Window& which, std::uint16_t cost) {
     for (int row = which.top; row < which.top + which.rows; ++row) {
@@ -96,7 +97,7 @@ inline void DistanceSearch::push(int state, int cost) {
   queues_[cost & (kQueues - 1)].push_back(state);
 }
 
-/// To the states from which one action leads to this one.
+/// Updates the cost of the states from which one action leads to this one.
 inline void DistanceSearch::relax(int state, int cost) {
   const Cell cell = state / kHeadings;
   const int heading = state % kHeadings;
@@ -116,12 +117,12 @@ inline void DistanceSearch::enter(Cell cell, int heading, int cost) {
   if (price == 0) return;
   if (has_lanes_ && floor_.isLane(cell) && !floor_.isLane(from)) {
     if (!floor_.isLane(goal_)) return;
-    price = kMaxEdgeCost;  // nor for a short cut to another station's lane
+    price = kMaxEdgeCost;  // lanes of other stations are no short cuts
   }
   push(edge, cost + price);
 }
 
-/// Of the edge into a cell; 0 if it is closed.
+/// Returns the cost of the edge into a cell; 0 if it is closed.
 inline int DistanceSearch::price(Cell cell, int edge) const {
   if (cell != goal_) return price_[edge];
   return into_goal_[edge] == cell ? (*edges_.costs)[edge] : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dijkstra's algorithm from a goal backwards, over a window of the floor.
+// Dijkstra's algorithm, backwards from a goal over a window of the floor.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ constexpr int kMaxTurnTicks = 2;
 struct Edges {
   std::vector<Cell> next[2];  ///< by deck; by cell and heading
   const std::vector<std::uint8_t>* costs;
-  std::vector<std::uint8_t> is_tight;  ///< by cell: a load can't be turned there; empty = nowhere
+  std::vector<std::uint8_t> is_tight;  ///< by cell: a load can't turn there; empty = nowhere
   std::vector<int> against[2] = {};    ///< edges of `next` against a one-way street, by deck
 
   bool mayTurnEverywhere(Deck deck) const { return deck == Deck::kUnder || is_tight.empty(); }
@@ -52,8 +52,8 @@ class DistanceSearch {
   /// A quarter turn costs `turn_ticks`. All references must outlive it.
   DistanceSearch(const Floor& floor, const Edges& edges, const Prices& prices, int turn_ticks);
 
-  /// Finds the cost of reaching `goal` from each cell and heading in a window, by ways within the
-  /// window. `is_entered`: the goal can be reached even if it is closed.
+  /// Computes the cost of reaching `goal` from each cell and heading in a window, by ways within
+  /// the window. `is_entered`: the goal can be reached even if it is closed.
   void run(Deck deck, Cell goal, const Window& window, bool is_entered);
 
   /// Returns the cost in the last window [kTickCost], or kUnreachable.
@@ -65,7 +65,7 @@ class DistanceSearch {
 
   /// Writes the costs of the last window, a word a cell, row after row: see DistanceTable.
   void pack(std::vector<std::uint32_t>& words) const;
-  /// Writes the costs of these cells alone, after a word for cells without a way.
+  /// Writes the costs of `cells` alone, after a word for cells without a way.
   void pack(const std::vector<Cell>& cells, std::vector<std::uint32_t>& words) const;
 
  private:
@@ -81,8 +81,8 @@ class DistanceSearch {
   const int turn_cost_;
   int step_[kHeadings];
   bool has_lanes_ = false;
-  // The state of a search: costs by cell and heading, 0 beyond the window, so that nothing is
-  // entered there; and a ring of queues, one a cost.
+  // The state of a search: costs by cell and heading, 0 beyond the window, so that the search does
+  // not enter it; and a ring of queues, one for each cost.
   std::vector<std::uint16_t> cost_;
   std::vector<std::vector<std::int32_t>> queues_;
   Window window_;

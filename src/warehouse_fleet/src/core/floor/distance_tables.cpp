@@ -9,7 +9,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kLeastSide = 12, kMostSide = 32;  // of a region
+constexpr int kLeastSide = 12, kMostSide = 32;  // side of a region [cells]
 
 bool hasStorage(const Floor& floor) {
   for (Cell cell = 0; cell < floor.size(); ++cell) {
@@ -18,7 +18,8 @@ bool hasStorage(const Floor& floor) {
   return false;
 }
 
-/// The least for which half of the bytes hold the tables of all regions, of so many words each.
+/// Returns the smallest side for which the tables of all regions, of `words` words each, fit into
+/// half of the memory limit.
 int sideFor(const Floor& floor, int words, std::size_t bytes) {
   const std::size_t table = words * sizeof(std::uint32_t) * (hasStorage(floor) ? 2 : 1);
   int side = kLeastSide;
@@ -64,10 +65,10 @@ void DistanceTables::need(Deck deck, Cell goal) {
     entry->far = far;
   }
   touch(*entry);
-  if (entry->far != nullptr) touch(*entry->far);  // which is kept for longer than what needs it
+  if (entry->far != nullptr) touch(*entry->far);  // a far table outlives the near ones that need it
 }
 
-/// A new or known table.
+/// Returns a table, and creates it if it is missing.
 DistanceTables::Entry* DistanceTables::needed(Kind kind, Deck deck, Cell goal) {
   Entry* entry = known(keyOf(deck, goal, kind == Kind::kFar));
   if (entry == nullptr) entry = create(kind, deck, goal);
@@ -87,9 +88,9 @@ DistanceTables::Entry* DistanceTables::known(std::int64_t key) const {
   return known == index_.end() ? nullptr : known->second;
 }
 
-/// The cell whose table serves a goal from far away; kNowhere if the goal has a table of all cells:
-/// few cells in lanes are goals of many robots. On the largest floors a table to each station is
-/// too much to make in time, and to keep.
+/// Returns the cell whose table serves a goal from far away; kNowhere if the goal has a table of
+/// all cells. Few cells in lanes are goals of many robots, so that these have one, except on the
+/// largest floors, where a table for each station would take too much time and memory.
 Cell DistanceTables::middleFor(Deck deck, Cell goal) const {
   constexpr int kLarge = 8;
   if (regions_ == nullptr) return kNowhere;
@@ -119,7 +120,7 @@ DistanceTables::Entry* DistanceTables::create(Kind kind, Deck deck, Cell goal) {
   return &entry;
 }
 
-/// Whether as much may still be done in this step; at least one table may be made.
+/// Returns whether the step's work allows another table; the first one is always allowed.
 bool DistanceTables::takesWork(std::int64_t states) {
   if (has_worked_ && states > work_) return false;
   has_worked_ = true;
@@ -127,7 +128,8 @@ bool DistanceTables::takesWork(std::int64_t states) {
   return true;
 }
 
-/// Drops what has not been needed for the longest, but nothing that a robot needs now.
+/// Makes room by dropping the tables that were not needed for longest, but none that a robot needs
+/// now. Returns whether there is enough.
 bool DistanceTables::hasRoom(std::size_t bytes) {
   while (!tables_.empty() && used_ + bytes > options_.bytes) {
     const Entry& last = tables_.back();
@@ -147,7 +149,7 @@ void DistanceTables::make() {
 const DistanceTable* DistanceTables::find(Deck deck, Cell from, Cell goal, bool is_urgent) {
   Entry* entry = known(keyOf(deck, goal, false));
   if (entry == nullptr || !entry->is_made) {
-    // From afar the region's table is as good.
+    // The region's table serves as well from far away.
     const Cell middle = areNear(from, goal) ? kNowhere : middleFor(deck, goal);
     entry = middle == kNowhere ? nullptr : known(keyOf(deck, middle, true));
     if (entry == nullptr || !entry->is_made) return nullptr;
@@ -173,7 +175,7 @@ void DistanceTables::renew(int max_age, std::int64_t work) {
   buildAll(chooseOutdated(max_age, work));
 }
 
-/// Tables around goals are renewed with the far table that they add to.
+/// Near tables are renewed with the far table that they extend.
 std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, std::int64_t work) {
   std::unordered_map<const Entry*, std::vector<Entry*>> near;
   std::vector<Entry*> old;
@@ -187,7 +189,7 @@ std::vector<DistanceTables::Entry*> DistanceTables::chooseOutdated(int max_age, 
   };
   std::sort(old.begin(), old.end(),
             [&](const Entry* entry, const Entry* other) { return turn(entry) < turn(other); });
-  constexpr int kLeastShare = 4;  // of the work is left for them in any case
+  constexpr int kLeastShare = 4;  // share of the work that is always left for near tables
   work_ = std::min(work, std::max(work / kLeastShare, work_));
   has_worked_ = false;
   std::vector<Entry*> chosen;

@@ -25,10 +25,10 @@ namespace fleet {
 /// Costs to one goal. A cell has 32 bits: 16 for the cheapest heading, and four for the extra cost
 /// of each other heading, at most 15. A turn in place is at most half a circle, which costs 12 if a
 /// quarter costs a tick.
-///
-/// A table of the cells around its goal adds the largest cost from the region's middle to the goal
-/// to the far table, and no cell of its own has a larger cost. So from everywhere some action leads
-/// nearer to the goal, and a robot can't get stuck where the two tables meet.
+/// A near table has the cells around its goal. Outside of them, the cost is that of the far table,
+/// to the region's middle, plus the largest cost from the middle to the goal. No cell of the near
+/// table has a larger cost than by the middle. So from everywhere some action leads nearer to the
+/// goal, and a robot can't get stuck where the two tables meet.
 class DistanceTable {
  public:
   int at(Cell cell, int heading) const {
@@ -58,19 +58,19 @@ class DistanceTable {
   /// Restricts the table to the cells of a window.
   void enclose(const Floor& floor, const Window& window, const DistanceTable& far, int detour);
 
-  /// The inverse of the floor's width, by which to multiply instead of dividing: exact for 2^20
+  /// The inverse of the floor's width: multiplying by it replaces a division. Exact for 2^20
   /// columns and 2^20 rows.
   static constexpr int kInverseBits = 40;
   std::vector<std::uint32_t> words_;
-  const std::int32_t* numbers_ = nullptr;  ///< of words, by cell; nullptr: the cells' own
+  const std::int32_t* numbers_ = nullptr;  ///< index of a word by cell; nullptr: the cell itself
   const DistanceTable* far_ =
-      nullptr;      ///< for cells beyond the window; nullptr: all cells are here
+      nullptr;      ///< table for cells beyond the window; nullptr: all cells are here
   int detour_ = 0;  ///< added to costs of the far table
   Window window_;
   std::uint64_t inverse_ = 0;
   int width_ = 0;
-  int version_ = 0;  ///< of the edges
-  int made_ = 0;     ///< time of making
+  int version_ = 0;  ///< version of the edges
+  int made_ = 0;     ///< time at which it was made
 };
 
 struct TableOptions {
@@ -85,11 +85,11 @@ class DistanceTables {
   DistanceTables(const Floor& floor, const Edges& edges, const TableOptions& options,
                  const Threads& threads);
 
-  /// Begins a step at that time, with edges of that version. New tables of the step may have
+  /// Begins a step at time `now`, with edges of that version. New tables of the step may have
   /// `work` states (cells and headings) in all; one table is always allowed.
   void begin(int now, int version, std::int64_t work);
 
-  /// Takes in the present costs of edges; steps with edges of another version do so by themselves.
+  /// Takes the present costs of edges. Steps with edges of another version do so implicitly.
   void reprice() { prices_.update(edges_); }
 
   /// Notes that a robot needs this table in this step, so that it is made if it is missing.
@@ -98,17 +98,18 @@ class DistanceTables {
   void make();
 
   /// Returns the table for a robot in the cell `from`, perhaps an outdated one; nullptr if there is
-  /// no table. `is_urgent`: the robot makes no progress.
+  /// none. `is_urgent`: the robot makes no progress.
   const DistanceTable* find(Deck deck, Cell from, Cell goal, bool is_urgent);
 
-  /// Renews tables used in this step that are older than `max_age` or of earlier edges, the urgent
-  /// and the oldest first. `work` limits their states; new tables of the step count against it.
+  /// Renews tables used in this step that are older than `max_age` or made with earlier edges, the
+  /// urgent and the oldest first. `work` limits their states; new tables of the step count against
+  /// it.
   void renew(int max_age, std::int64_t work);
 
   /// Makes the tables of all regions ahead of need, while `goes_on` returns true and there is room.
   void prepare(const std::function<bool()>& goes_on);
 
-  /// Writes or reads the tables of regions. Throws std::runtime_error with the reason, for example
+  /// Writes or reads the tables of regions. Throws std::runtime_error with the reason, such as
   /// tables of another floor.
   void save(std::ostream& out) const;
   void load(std::istream& in);
@@ -151,9 +152,9 @@ class DistanceTables {
   bool takesWork(std::int64_t states);
   int cells(Kind kind, Cell goal) const;
   /// Returns the reach of a near table in columns and rows from its goal: beyond the middle of its
-  /// region, wherever that is.
+  /// region in any case.
   int reach() const { return regions_->side() * 3 / 2; }
-  /// Returns the reach of the table to a goal: in a lane the middle may be a neighbouring region's.
+  /// Returns the reach of the table to a goal. In a lane the middle may be a neighbouring region's.
   int reach(Cell goal) const { return floor_.isLane(goal) ? regions_->side() * 5 / 2 : reach(); }
   void touch(Entry& entry);
   void ask(Entry& entry, bool is_urgent);
@@ -171,15 +172,16 @@ class DistanceTables {
   Prices prices_;
   const TableOptions options_;
   const Threads& threads_;
-  std::unique_ptr<Regions> regions_;      ///< nullptr: each table has all cells
-  std::unique_ptr<CellNumbers> numbers_;  ///< nullptr: tables of all cells have a word for each
-  std::size_t used_ = 0;                  ///< bytes
-  std::list<Entry> tables_;               ///< the most recently needed first
+  std::unique_ptr<Regions> regions_;  ///< nullptr: every table has all cells
+  std::unique_ptr<CellNumbers>
+      numbers_;              ///< nullptr: a table of all cells has a word for each of them
+  std::size_t used_ = 0;     ///< bytes
+  std::list<Entry> tables_;  ///< the most recently needed first
   std::unordered_map<std::int64_t, Entry*> index_;
   std::vector<Entry*> to_make_, asked_;                    ///< in this step
   std::vector<std::unique_ptr<DistanceSearch>> searches_;  ///< one a thread
   int now_ = 0, version_ = 0;
-  std::int64_t work_ = 0;  ///< states that may still be computed in this step
+  std::int64_t work_ = 0;  ///< states that the step may still compute
   bool has_worked_ = false;
 };
 

@@ -6,7 +6,7 @@
 namespace fleet {
 namespace {
 
-/// Errors of one fleet, with its robots' names.
+/// Checks one fleet; errors have its robots' names.
 class Check {
  public:
   Check(const Floor& floor, const Fleet& fleet, const std::vector<std::string>& names)

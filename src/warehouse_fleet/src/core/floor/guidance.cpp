@@ -9,7 +9,7 @@ namespace fleet {
 
 namespace {
 
-/// Streets no further than so many cells from a lane.
+/// Largest distance of a street beside a lane from that lane [cells].
 constexpr int kAtLanes = 3;
 
 std::vector<std::uint8_t> cellsAtLanes(const Floor& floor) {
@@ -49,7 +49,7 @@ void Guidance::tick() {
 }
 
 void Guidance::refresh() {
-  // Sums of what fades like this are `memory` times the mean.
+  // A sum with exponential forgetting converges to memory * mean.
   const double per_tick = 1 / (gain_ * options_.memory);
   std::vector<std::uint8_t> rests(floor_.size());
   for (const Cell cell : resting_) rests[cell] = 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The cost of each edge of the floor: a tick, and more against the traffic. It is learnt while
-// robots drive, after Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding
-// (2024): aisles find their direction by themselves, and robots drive around crowds.
+// robots drive (Chen et al., Traffic Flow Optimisation for Lifelong Multi-Agent Path Finding,
+// 2024): aisles become one-way by themselves, and robots drive around crowds.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace fleet {
 
-/// The cost of a tick: fine enough for the fractions that guidance adds.
+/// The cost of a tick, which leaves room for the fractions that guidance adds.
 constexpr int kTickCost = 6;
 /// The highest cost of an edge.
 constexpr int kMaxEdgeCost = 60;
 
 struct GuidanceOptions {
-  double against = 0;  ///< cost of meeting one robot a tick, in ticks
-  double crowd = 0;    ///< cost of one robot a tick that waits in the cell, in ticks
+  double against = 0;  ///< cost of one oncoming robot a tick, in ticks
+  double crowd = 0;    ///< cost of a cell in which one robot a tick waits, in ticks
   double resting = 0;  ///< cost of a cell where a robot rests at its goal, in ticks
   double at_lanes =
-      0;  ///< cost beside stations' lanes, of which robots of these lanes are free, in ticks
+      0;  ///< cost beside stations' lanes, except for robots on their way there, in ticks
   double memory = 200;  ///< ticks after which traffic counts 1/e
 };
 
@@ -38,7 +38,7 @@ class Guidance {
   /// Ends the tick.
   void tick();
 
-  /// Computes the costs again from the recorded traffic.
+  /// Updates the costs by the recorded traffic.
   void refresh();
   /// Returns the costs by cell and heading [kTickCost].
   const std::vector<std::uint8_t>& costs() const { return costs_; }
@@ -46,7 +46,7 @@ class Guidance {
  private:
   const Floor& floor_;
   GuidanceOptions options_;
-  // New traffic counts more and more; old traffic need not be reduced every tick.
+  // Weight of new traffic. It grows, so that old traffic need not be reduced at every tick.
   double gain_ = 1;
   std::vector<float> drove_, waited_;
   std::vector<Cell> resting_;  ///< in this tick

@@ -30,19 +30,19 @@ class DepthFirst {
     }
   }
 
-  /// Forgets the part that was searched last.
+  /// Clears the last part that was searched.
   void forget() {
     for (const Cell cell : order_) number_[cell] = -1;
     cut_.clear();
   }
 
   bool knows(Cell cell) const { return number_[cell] >= 0; }
-  /// The cells in the order in which they were found, so that a subtree lies side by side.
+  /// Returns cells in the order of the search: each subtree is contiguous.
   const std::vector<Cell>& order() const { return order_; }
-  /// Cells whose subtree the cell before them alone holds to the rest.
+  /// Returns cells whose subtree only the cell before them connects to the rest.
   const std::vector<Cell>& cut() const { return cut_; }
   int number(Cell cell) const { return number_[cell]; }
-  /// How many cells its subtree has.
+  /// Returns the number of cells in the cell's subtree.
   int size(Cell cell) const { return size_[cell]; }
 
  private:
@@ -75,7 +75,8 @@ class DepthFirst {
   std::vector<Visit> way_;
 };
 
-/// A cell in the middle of the search tree: in no pocket of less than half of the cells.
+/// Returns a cell in the middle of the search tree: it is in no pocket of less than half of the
+/// cells.
 Cell middle(const DepthFirst& search) {
   const int half = static_cast<int>(search.order().size() + 1) / 2;
   Cell best = search.order().front();

@@ -10,12 +10,12 @@
 
 namespace fleet {
 
-/// Returns the cells beside a cell to which a robot without a load can drive.
+/// Returns the neighbours of a cell to which a robot without a load can drive.
 std::vector<Cell> neighbours(const Floor& floor, Cell cell);
 
-/// Returns by cell whether it lies in a pocket: a part that the removal of a single cell cuts off
-/// from the rest, of at most `most` cells and a third of all. Found by lowest numbers in a
-/// depth-first search (Hopcroft and Tarjan, 1973).
+/// Returns by cell whether it lies in a pocket: a part of at most `most` cells and a third of all,
+/// which the removal of a single cell cuts off. Computed by low numbers of a depth-first search
+/// (Hopcroft and Tarjan, 1973).
 std::vector<std::uint8_t> pockets(const Floor& floor, int most);
 
 }  // namespace fleet

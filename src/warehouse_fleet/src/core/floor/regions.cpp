@@ -13,7 +13,7 @@ bool carries(const Floor& floor, Deck deck, Cell cell) {
   return deck == Deck::kUnder || !(floor.isStorage(cell) || floor.isParking(cell));
 }
 
-/// The cells of the part around `start`, whatever the direction of its edges; marks them.
+/// Returns and marks the cells connected with `start`, whatever the direction of edges.
 std::vector<Cell> part(const Floor& floor, Deck deck, Cell start,
                        std::vector<std::uint8_t>& visited) {
   std::vector<Cell> cells{start};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Squares of cells whose goals share one table: from far away the way to each goal is the way to
-// the square's middle.
+// Squares of cells whose goals share one table: from far away, the way to a goal is the way to the
+// middle of its square.
 #pragma once
 
 #include <vector>
@@ -14,14 +14,14 @@ class Regions {
  public:
   /// Divides a floor into squares of `side` cells.
   Regions(const Floor& floor, int side);
-  /// Returns how many squares of `side` cells have cells on which a robot can stand.
+  /// Returns the number of squares of `side` cells that have cells on which a robot can stand.
   static int count(const Floor& floor, int side);
 
   int side() const { return side_; }
   int size() const { return columns_ * rows_; }
   int of(Cell cell) const { return floor_.y(cell) / side_ * columns_ + floor_.x(cell) / side_; }
-  /// Returns the cell that stands for a region on a deck, or kNowhere: in the deck's largest
-  /// connected part, outside lanes, the nearest to the region's middle.
+  /// Returns the representative of a region on a deck: the cell nearest to the region's middle, in
+  /// the deck's largest connected part and outside lanes; or kNowhere.
   Cell middle(Deck deck, int region) const { return middles_[static_cast<int>(deck)][region]; }
   /// Returns the nearest middle among a cell's region and its neighbours, or kNowhere.
   Cell nearestMiddle(Deck deck, Cell cell) const;

@@ -18,7 +18,7 @@ bool isStreet(const Floor& floor, Cell cell) {
   return floor.isPassable(cell) && !floor.isStorage(cell) && !floor.isLane(cell);
 }
 
-/// Returns the strongly connected part in which each cell is; -1: it is closed, or no street.
+/// Returns the strongly connected part of each cell; -1 if it is closed, or no street.
 std::vector<int> streetParts(const Floor& floor, const std::vector<Cell>& closed) {
   std::vector<Cell> streets, index(floor.size(), kNowhere);
   for (Cell cell = 0; cell < floor.size(); ++cell) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One-way streets that obstacles cut into parts, and the edges by which robots leave them and reach
+// One-way streets that obstacles cut, and the edges by which robots leave their parts and reach
 // units there.
 #pragma once
 
@@ -16,10 +16,10 @@ struct BackEdge {
   Heading heading;
 };
 
-/// Returns the edges that lead back as well, for all robots, while cells are `closed` (sorted).
-/// These are edges between strongly connected parts of the streets, so that every cell that is
-/// still connected can be reached and left again; and edges into closed cells, where robots may
-/// stand. Stations' lanes stay one-way: loads have no room to turn there.
+/// Returns the edges of one-way streets that become two-way, for all robots, while cells are
+/// `closed` (sorted). These are edges between strongly connected parts of the streets, so that
+/// every cell that is still connected can be reached and left again; and edges into closed cells,
+/// where robots may stand. Stations' lanes stay one-way: loads have no room to turn there.
 std::vector<BackEdge> waysBack(const Floor& floor, const std::vector<Cell>& closed);
 
 /// Returns the edges on which a robot without a load reaches `units` in streets and lanes from the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tables of regions in a file: a line of text that says what they were made for, their number, and
-// for each its key and its words as they lie in memory.
+// Tables of regions in a file: a line of text that identifies their floor and options, their
+// number, then for each table its key and its words as they are in memory.
 #include <filesystem>
 #include <fstream>
 #include <istream>
@@ -15,7 +15,7 @@
 namespace fleet {
 namespace {
 
-/// FNV-1a (Fowler, Noll, Vo).
+/// A hash by FNV-1a (Fowler, Noll, Vo).
 class Hash {
  public:
   template <typename Value>
@@ -31,7 +31,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// Of what tables depend on but for their traffic.
+/// Returns a hash of all that tables depend on, except traffic.
 std::uint64_t fingerprint(const Floor& floor) {
   Hash hash;
   hash.add(floor.edges(Deck::kUnder));
@@ -100,7 +100,7 @@ void DistanceTables::load(std::istream& in) {
     }
     has_worked_ = false;
     Entry* entry = known(key) != nullptr ? known(key) : create(Kind::kFar, deck, goal);
-    if (entry == nullptr) return;  // there is no room for more
+    if (entry == nullptr) return;  // no room for more
     entry->table.words_.resize(cells(Kind::kFar, goal));
     if (numbers_ != nullptr) entry->table.numbers_ = numbers_->of_cell.data();
     get(in, entry->table.words_.data(), entry->table.words_.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How distance tables are made: whole ones, and those around a goal that add to a far one.
+// The computation of distance tables: whole ones, and near ones that extend a far one.
 #include <algorithm>
 #include <utility>
 
@@ -9,7 +9,7 @@
 namespace fleet {
 namespace {
 
-/// No cell of a window costs more than by way of the region's middle.
+/// Limits the cost of each cell in a window to that by way of the region's middle.
 void limit(DistanceSearch& search, const Floor& floor, const Window& window,
            const DistanceTable& far, int detour) {
   constexpr int kMost = kUnreachable - 1;
@@ -36,7 +36,7 @@ void DistanceTable::enclose(const Floor& floor, const Window& window, const Dist
   inverse_ = (std::uint64_t{1} << kInverseBits) / width_ + 1;
 }
 
-/// Far tables first: those around goals add to them.
+/// Makes far tables first, since near ones extend them.
 void DistanceTables::buildAll(const std::vector<Entry*>& entries) {
   std::vector<Entry*> first, then;
   for (Entry* entry : entries) (entry->kind == Kind::kNear ? then : first).push_back(entry);
@@ -64,8 +64,8 @@ void DistanceTables::search(Entry& entry, DistanceSearch& search) const {
   entry.is_made = true;
 }
 
-/// The cells around a goal, as part of the way that leads by the region's middle or not. A goal
-/// that can't be reached from there by a short way gets a table of all cells.
+/// Computes the cells around a goal, whether or not the way by the region's middle passes them. A
+/// goal without a short way from the middle gets a table of all cells.
 void DistanceTables::searchNear(Entry& entry, DistanceSearch& search) const {
   const DistanceTable& far = entry.far->table;
   const Cell middle = entry.far->goal;
@@ -97,7 +97,7 @@ void DistanceTables::pack(const DistanceSearch& search, DistanceTable& table) co
   }
 }
 
-/// Whether no edge of those that the floor has leads there now.
+/// Returns whether all edges of the floor into that cell are closed now.
 bool DistanceTables::isClosed(Deck deck, Cell cell) const {
   for (int heading = 0; heading < kHeadings; ++heading) {
     const Cell from = floor_.beside(cell, heading + 2);

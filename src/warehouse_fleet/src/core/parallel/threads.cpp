@@ -14,7 +14,8 @@ Threads::Threads(int threads)
     : count_(threads > 0 ? threads : std::max<int>(1, std::thread::hardware_concurrency())) {}
 
 void Threads::share(int turns, int worth, const std::function<void(int, int)>& turn) const {
-  const int chunk = std::max(1, worth / 4);  // so that the last thread to end isn't late by much
+  const int chunk =
+      std::max(1, worth / 4);  // small, so that all threads end at about the same time
   std::atomic<int> next{0};
   std::exception_ptr error;
   std::mutex of_error;

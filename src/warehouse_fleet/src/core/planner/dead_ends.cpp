@@ -10,13 +10,14 @@
 namespace fleet {
 namespace {
 
-constexpr int kNear = 6;  // cells from the entrance to a robot for which others come out
+constexpr int kNear = 6;  // distance of a robot from the entrance at which others come out [cells]
 
-constexpr int kMostCells = 24;  // of a dead end or pocket: into a larger one many go at a time
+constexpr int kMostCells =
+    24;  // largest dead end that is emptied: several robots may enter a larger one
 
 }  // namespace
 
-/// The way out of a pocket is the shortest.
+/// The exit of a pocket is the shortest way out of it.
 DeadEnds::DeadEnds(const Floor& floor)
     : floor_(floor),
       out_(floor.size(), kNowhere),
@@ -38,8 +39,8 @@ DeadEnds::DeadEnds(const Floor& floor)
   }
 }
 
-/// The cell beside an entrance, outside, that has the most cells beside it; kNowhere if there is
-/// none.
+/// Returns the neighbour of an entrance, outside, that has the most neighbours; kNowhere if there
+/// is none.
 Cell DeadEnds::roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) const {
   Cell best = kNowhere;
   std::ptrdiff_t most = -1;
@@ -54,7 +55,7 @@ Cell DeadEnds::roomiest(Cell gate, const std::vector<std::uint8_t>& is_inside) c
   return best;
 }
 
-/// The cell before a dead end.
+/// Returns the cell before a dead end.
 Cell DeadEnds::entrance(Cell cell) const {
   while (out_[cell] != kNowhere) cell = out_[cell];
   return cell;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dead ends, and pockets behind a passage: cells that can be left by a single cell only. A robot
-// with a goal in one where others stand would push them to its end and stand before them for ever.
-// So the robots in its way come out first, the outermost first, past the robot, which makes way for
-// them.
+// Dead ends, and pockets behind a passage: cells that a single cell connects to the rest. A robot
+// with a goal in one where others stand would push them to its end and wait for ever. So the robots
+// in its way come out first, the outermost first, past the robot, which makes way for them.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ class DeadEnds {
  public:
   explicit DeadEnds(const Floor& floor);
 
-  /// Serves one robot an entrance of those that pursue goals in dead ends. While others are in its
+  /// Serves one robot at each entrance, of those with goals in dead ends. While others are in its
   /// way, the outermost of them gets an urgent goal outside and the robot yields; then the way in
   /// is kept for the robot. Overwrites their wishes.
   void empty(DistanceTables& tables, Candidates& candidates, std::vector<Wish>& wishes);

@@ -89,10 +89,10 @@ class Epibt : public Planner {
   Rules rules_;
   const Floor* floor_ = nullptr;
   std::mt19937_64 random_;
-  double begin_ = 0;  ///< of this step, in computing time [s]
+  double begin_ = 0;  ///< begin of this step, in computing time [s]
   int now_ = 0;
   std::vector<Cell> goals_;   ///< by robot: in the last step
-  std::vector<int> waiting_;  ///< by robot: ticks since it was given its goal, or reached it
+  std::vector<int> waiting_;  ///< by robot: ticks since it got its goal, or reached it
   std::vector<Wish> wishes_;
   Priorities priorities_;
   std::unique_ptr<PushSearch> search_;
@@ -119,9 +119,9 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   rules_ = rules;
 }
 
-/// Chooses how far the first step's time lets operations reach, if no option says so.
+/// Chooses the depth of operations by the first step's budget, if no option has it.
 void Epibt::beginSearch(const Fleet& fleet, const Budget& budget) {
-  constexpr double kDeep = 0.25e-3;  // [s] a robot: a longer operation costs 20 us
+  constexpr double kDeep = 0.25e-3;  // [s] a robot; a longer operation costs 20 us
   if (options_.depth == 0) options_.depth = budget.seconds > kDeep * fleet.size() ? 5 : 4;
   if (options_.horizon == 0) options_.horizon = options_.depth;
   options_.depth = std::min(options_.depth, options_.horizon);
@@ -137,7 +137,7 @@ void Epibt::beginSearch(const Fleet& fleet, const Budget& budget) {
   chooseWindow(fleet, budget);
 }
 
-/// Has few robots with much time planned in windows, if no option says so.
+/// Plans few robots in windows if the budget allows it, unless an option forbids it.
 void Epibt::chooseWindow(const Fleet& fleet, const Budget& budget) {
   constexpr double kMuch = 0.04e-3;  // [s] a robot
   constexpr int kFew = 3;            // passable cells for each robot, at least
@@ -170,7 +170,7 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   ++now_;
 }
 
-/// Learns from what has become of the last plan.
+/// Learns from the outcome of the last plan.
 void Epibt::updateFleet(const Fleet& fleet) {
   if (fleet.size() < static_cast<int>(goals_.size())) {
     goals_.clear();
@@ -229,7 +229,7 @@ void Epibt::save(const std::string& path) const { tables_->save(path); }
 
 void Epibt::load(const std::string& path) { tables_->load(path); }
 
-/// Returns what tells before each attempt to improve the plan whether it may be made.
+/// Returns a function that decides before each attempt to improve the plan whether it may be made.
 std::function<bool()> Epibt::limit(const Budget& budget) const {
   constexpr int kBetweenLooks = 8;
   return [budget, deadline = begin_ + budget.seconds, attempt = -1]() mutable {
@@ -251,7 +251,7 @@ void Epibt::search(bool is_crowded, const std::function<bool()>& goes_on) {
   windows_->write(*reserved_, options_.horizon);
 }
 
-/// Returns whether the robot has nothing to do and stands: no operation is better.
+/// Returns whether the robot has no goal elsewhere and stands: no operation is better.
 bool Epibt::isContent(int robot) const {
   if (wishes_[robot].goal != kNowhere || wishes_[robot].yields) return false;
   const auto& actions = reserved_->path(robot).actions;
@@ -259,8 +259,8 @@ bool Epibt::isContent(int robot) const {
                      [](Action action) { return action == Action::kWait; });
 }
 
-/// Looks for a better operation for each robot, by rank. On a crowded floor robots that yield keep
-/// what they have, and those that get no nearer by pushing do so by a chain.
+/// Searches for a better operation for each robot, by rank. On a crowded floor, robots that yield
+/// keep their operations, and robots that can't get nearer by pushing try a chain.
 void Epibt::replan(bool is_crowded) {
   search_->begin(static_cast<int>(wishes_.size()));
   search_->beginPass();
@@ -275,7 +275,8 @@ void Epibt::replan(bool is_crowded) {
   }
 }
 
-/// A large-neighbourhood search: moves robots aside where all together gain by it.
+/// Improves the plan by a large-neighbourhood search: moves robots aside where that lowers the cost
+/// of all.
 void Epibt::improve(const std::function<bool()>& goes_on) {
   std::vector<int> order;
   std::copy_if(priorities_.order().begin(), priorities_.order().end(), std::back_inserter(order),

@@ -7,7 +7,7 @@
 namespace fleet {
 
 void Inheritance::begin(const Fleet& fleet) {
-  constexpr int kWorth = 500;  // robots that are worth a thread
+  constexpr int kWorth = 500;  // robots that justify a thread
   const int robots = fleet.size();
   if (robots < static_cast<int>(begins_.size())) begins_.clear();
   begins_.resize(robots);
@@ -32,8 +32,7 @@ void Inheritance::findRest(int robot) {
   is_as_planned_[robot] = static_cast<std::uint8_t>(is_known && is_as_planned);
 }
 
-/// Has all robots stand but the committed ones; a robot that blocks no other takes up its path
-/// again.
+/// Makes all robots stand except the committed ones; a robot that blocks no other resumes its path.
 void Inheritance::resume() {
   const int robots = static_cast<int>(rests_.size());
   for (const bool is_committed : {true, false}) {

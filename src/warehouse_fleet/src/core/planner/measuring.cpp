@@ -14,7 +14,7 @@ void Measuring::measure(int now, int version, const MakingWay& way, std::vector<
   tables_.begin(now, version, work(options_.table_work, wishes.size()));
   need(wishes);
   tables_.make();
-  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
+  constexpr int kImpatient = 5;  // ticks in a cell after which a robot gets a renewed table
   for (int robot = 0; robot < static_cast<int>(wishes.size()); ++robot) {
     Wish& wish = wishes[robot];
     const bool waits = way.still(robot) >= kImpatient && !floor_.isLane(wish.state.cell);
@@ -23,7 +23,7 @@ void Measuring::measure(int now, int version, const MakingWay& way, std::vector<
   tables_.renew(options_.renewal_age, work(options_.renewal_work, wishes.size()));
 }
 
-/// Those near their goals first: from afar a region's table will do.
+/// Serves robots near their goals first: from far away a region's table suffices.
 void Measuring::need(const std::vector<Wish>& wishes) {
   for (const bool is_near : {true, false}) {
     for (const Wish& wish : wishes) {
@@ -37,16 +37,16 @@ void Measuring::need(const std::vector<Wish>& wishes) {
 void Measuring::find(bool waits, Wish& wish) {
   wish.table = tables_.find(wish.deck, wish.state.cell, wish.goal, waits);
   if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) return;
-  // Perhaps there is a way by now.
+  // A way may have opened by now.
   tables_.find(wish.deck, wish.state.cell, wish.goal, true);
   wish.goal = kNowhere;
 }
 
-/// Returns how many states tables that are made in one step may have.
+/// Returns the limit of states in the tables that one step makes.
 std::int64_t Measuring::work(std::int64_t a_robot, std::size_t robots) const {
   constexpr std::int64_t kLeast = 60000;
-  // On large floors most of a table is shared, so that less does: with 400 no more robots arrive,
-  // and the slowest steps take a fifth longer.
+  // Less suffices on large floors, where robots share most of a table. With 400 no more robots
+  // arrive, and the slowest steps take a fifth longer.
   constexpr std::int64_t kMostAtOnce = 3000000, kMostARobot = 140;
   if (tables_.hasRegions()) a_robot = std::min(a_robot, kMostARobot);
   const auto work = std::max(kLeast, a_robot * static_cast<std::int64_t>(robots));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds each robot the table to its goal, and decides how much of a step goes into tables.
+// Assigns each robot the table to its goal, and limits the work on tables of a step.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Measuring {
   Measuring(const Floor& floor, const MeasuringOptions& options, DistanceTables& tables)
       : floor_(floor), options_(options), tables_(tables) {}
 
-  /// Sets the tables of all wishes, at that time, with edges of that version. Removes goals that
+  /// Sets the tables of all wishes, at time `now`, with edges of that version. Removes goals that
   /// can't be reached. Robots that stand (`way`) get renewed tables first.
   void measure(int now, int version, const MakingWay& way, std::vector<Wish>& wishes);
 

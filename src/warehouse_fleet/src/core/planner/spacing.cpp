@@ -26,7 +26,7 @@ bool Spacing::mayAct(int robot, const Fleet& fleet, const Floor& floor,
   return quarters(action) == 0 || !fleet.isLoaded(robot) || mayTurn(robot, fleet, floor, reserved);
 }
 
-/// Whether all who pass the cell before it had left when the tick began.
+/// Returns whether all robots that pass the cell before it had left when the tick began.
 bool Spacing::mayEnter(int robot, const Reservations& reserved) const {
   const int entered = begun_[robot] + 1;
   const Cell cell = reserved.path(robot).cells[entered];
@@ -38,7 +38,7 @@ bool Spacing::mayEnter(int robot, const Reservations& reserved) const {
   return true;
 }
 
-/// Whether no loaded robot beside it turns in this tick.
+/// Returns whether no loaded robot beside it turns in this tick.
 bool Spacing::mayTurn(int robot, const Fleet& fleet, const Floor& floor,
                       const Reservations& reserved) const {
   const Cell cell = reserved.path(robot).cells[begun_[robot]];

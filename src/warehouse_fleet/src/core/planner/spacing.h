@@ -15,7 +15,7 @@ class Spacing {
  public:
   explicit Spacing(int horizon) : horizon_(horizon) {}
 
-  /// Returns the actions with waits put in, as many a robot as the paths have.
+  /// Returns the actions with waits inserted: for each robot as many as its path has.
   const std::vector<Action>& space(const Fleet& fleet, const Floor& floor,
                                    const Reservations& reserved);
 

@@ -10,10 +10,10 @@ namespace {
 using Kind = Violation::Kind;
 using Standing = std::unordered_map<Cell, int>;
 
-/// Drives the plan tick by tick and notes what can't be.
-class Drive {
+/// Drives the plan tick by tick and notes violations.
+class PlanDrive {
  public:
-  Drive(const Floor& floor, const Fleet& fleet, const Plan& plan, const Rules& rules)
+  PlanDrive(const Floor& floor, const Fleet& fleet, const Plan& plan, const Rules& rules)
       : floor_(floor), fleet_(fleet), plan_(plan), rules_(rules) {
     for (const Cell cell : fleet.closed) closed_[cell] = 1;
     for (int robot = 0; robot < fleet.size(); ++robot) {
@@ -137,7 +137,7 @@ std::vector<Violation> validate(const Floor& floor, const Fleet& fleet, const Pl
                      std::to_string(fleet.size()) + " robots and " + std::to_string(plan.horizon) +
                      " ticks; one a robot and tick was expected");
   }
-  Drive drive(floor, fleet, plan, rules);
+  PlanDrive drive(floor, fleet, plan, rules);
   const int end = ticks < 0 ? plan.horizon : std::min(ticks, plan.horizon);
   for (int tick = 0; tick < end; ++tick) drive.tick(tick);
   return drive.violations;

@@ -8,7 +8,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kWaitingWorth = 2;  // of kTickCost, a tick: as robots are ranked
+constexpr int kWaitingWorth = 2;  // weight of a tick of waiting [kTickCost], as in priorities.cpp
 
 }  // namespace
 
@@ -27,7 +27,7 @@ bool Yielding::choose(const std::vector<int>& waiting, const Candidates& candida
   pursued_.resize(robots, kNowhere);
   int pursuing = 0;
   std::vector<int> arrived;
-  std::vector<std::pair<int, int>> others;  // what each has to go, less what it has waited
+  std::vector<std::pair<int, int>> others;  // distance less wait of each, and the robot
   for (int robot = 0; robot < robots; ++robot) {
     const Wish& wish = wishes[robot];
     if (wish.goal == kNowhere) continue;

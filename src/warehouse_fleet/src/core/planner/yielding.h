@@ -13,8 +13,8 @@ namespace fleet {
 
 class Yielding {
  public:
-  /// `share`: robots that may pursue their goals at a time, as a share of the passable cells.
-  /// Throws FloorError unless it is above 0.
+  /// `share`: largest number of robots that pursue their goals at a time, as a share of the
+  /// passable cells. Throws FloorError unless it is above 0.
   Yielding(const Floor& floor, double share);
 
   /// Sets `yields` of the wishes and returns whether any robot yields. A robot that pursues its
@@ -24,7 +24,7 @@ class Yielding {
               std::vector<Wish>& wishes);
 
  private:
-  int most_;                   ///< robots that pursue their goals at a time
+  int most_;                   ///< largest number of robots that pursue their goals at a time
   std::vector<Cell> pursued_;  ///< by robot: the goal that it pursues; kNowhere
 };
 

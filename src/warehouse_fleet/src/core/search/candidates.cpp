@@ -7,7 +7,8 @@
 namespace fleet {
 namespace {
 
-/// Costs of paths are finer than those of edges: between equals the one that moves early is better.
+/// Factor of path costs against edge costs: the fraction decides between equals, for the path that
+/// moves early.
 constexpr int kFine = 16;
 
 }  // namespace
@@ -43,8 +44,8 @@ const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
 }
 
 void Candidates::find(const std::vector<Wish>& wishes, const Threads& threads) {
-  constexpr int kWorth = 100;        // robots that are worth a thread
-  if (threads.count() == 1) return;  // each robot's when they are asked for
+  constexpr int kWorth = 100;        // robots that justify a thread
+  if (threads.count() == 1) return;  // a single thread computes them on demand
   scratch_.resize(std::max<std::size_t>(threads.count(), scratch_.size()));
   threads.share(static_cast<int>(wishes.size()), kWorth, [&](int robot, int thread) {
     if (wishes[robot].goal == kNowhere) return;
@@ -97,7 +98,8 @@ Path Candidates::rest(const Path& path, const GridPose& begin, const Wish& wish,
                       bool& is_punctual) const {
   Path rest;
   GridPose state = commit(wish, rest);
-  // Where the path comes by there: best after a tick, as was planned; else as early as it does.
+  // The poses of the path by tick. The rest begins where the path passes the robot's pose: at the
+  // planned tick if the robot is punctual, else at the first one.
   std::array<GridPose, kMaxHorizon + 1> states{begin};
   for (int tick = 0; tick < horizon_; ++tick) {
     const int heading = turned(states[tick].heading, quarters(path.actions[tick]));
@@ -125,7 +127,7 @@ bool Candidates::canDrive(const Path& path, const Wish& wish) const {
       return false;
     }
     if (action == Action::kForward) {
-      // What it is committed to it can't be kept from any more.
+      // Committed actions are always possible.
       if (tick >= wish.committed && next(wish, state.cell, state.heading) == kNowhere) return false;
       state.cell = path.cells[tick + 1];
     } else if (quarters(action) != 0 && tick >= wish.committed &&
@@ -137,7 +139,7 @@ bool Candidates::canDrive(const Path& path, const Wish& wish) const {
   return true;
 }
 
-/// The committed part of a path; where it leads.
+/// Writes the committed part of a path; returns the pose after it.
 GridPose Candidates::commit(const Wish& wish, Path& path) const {
   GridPose state = wish.state;
   path.cells[0] = state.cell;
@@ -161,12 +163,12 @@ Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   return isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
 }
 
-/// Whether who comes there can neither drive straight on nor turn.
+/// Returns whether a robot that comes there can neither drive straight on nor turn.
 bool Candidates::isDeadEnd(const Wish& wish, Cell cell, int heading) const {
   return !edges_.mayTurn(wish.deck, cell) && next(wish, cell, heading) == kNowhere;
 }
 
-/// Where the actions after those committed turn.
+/// Returns whether a load has room where the actions after the committed ones turn.
 bool Candidates::hasRoomToTurn(const Wish& wish, const Path& path, const Actions& actions) const {
   if (edges_.mayTurnEverywhere(wish.deck)) return true;
   for (int tick = wish.committed; tick < horizon_; ++tick) {
@@ -217,7 +219,7 @@ void Candidates::grow(const Wish& wish, Scratch& scratch) const {
 int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
   const Cell end = path.cells[horizon_];
   if (wish.goal == kNowhere || wish.yields) {
-    // Nothing to do: to be where it is, or back there soon.
+    // A robot without a goal elsewhere prefers its cell, or an early return there.
     return kFine * kTickCost *
            (std::abs(floor_.x(end) - floor_.x(path.cells[0])) +
             std::abs(floor_.y(end) - floor_.y(path.cells[0])));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The next paths that each robot could take, the best first.
+// The possible next paths of each robot, the best first.
 #pragma once
 
 #include <memory>
@@ -13,20 +13,20 @@
 
 namespace fleet {
 
-/// The position and the goal of one robot.
+/// The pose and goal of one robot.
 struct Wish {
   GridPose state;
   Deck deck = Deck::kUnder;
   Cell goal = kNowhere;
   Cell home = kNowhere;                  ///< a storage place that it may enter
-  const DistanceTable* table = nullptr;  ///< to the goal; nullptr: not known yet
-  int committed = 0;                     ///< its first actions are these
+  const DistanceTable* table = nullptr;  ///< table to the goal; nullptr: none yet
+  int committed = 0;  ///< number of its committed actions, which its path begins with
   Actions commitment{};
   bool stopped = false;
   bool stops_at_goal = true;
-  bool yields = false;       ///< goes wherever it is pushed; its goal can wait
+  bool yields = false;       ///< goes where it is pushed; its goal can wait
   bool is_urgent = false;    ///< chooses before all others
-  bool enters_kept = false;  ///< kept cells are kept for it
+  bool enters_kept = false;  ///< may enter the cells that are kept
 };
 
 class Candidates {
@@ -41,13 +41,13 @@ class Candidates {
 
   /// Computes a robot's candidates, once a step.
   const std::vector<Path>& of(int robot, const Wish& wish);
-  /// Computes the candidates of all robots with a goal, on all threads; others mostly stand.
+  /// Computes the candidates of all robots with a goal, on all threads; other robots mostly stand.
   void find(const std::vector<Wish>& wishes, const Threads& threads);
 
   /// Returns the candidate that drives the committed actions and then stands. It is allowed if no
   /// other robot is in its way.
   Path standing(const Wish& wish) const;
-  /// Returns the path of these actions from where the robot stands, which must lead along edges.
+  /// Returns the path of these actions from the robot's pose; they must lead along edges.
   Path along(const Wish& wish, const Actions& actions) const;
   /// Returns the rest of a path that was planned from `begin`, a tick ago or longer: the committed
   /// actions, the planned ones after them, then standing; or standing at once if the path leads
@@ -70,9 +70,9 @@ class Candidates {
   int cost(const Wish& wish, const Path& path, int heading) const;
   /// The memory of one thread.
   struct Scratch {
-    std::vector<Cell> reached;  ///< by node of a tree of operations
+    std::vector<Cell> reached;  ///< by node of the tree of operations
     std::vector<Path> paths;
-    std::vector<std::pair<int, int>> order;  ///< of paths: cost, index
+    std::vector<std::pair<int, int>> order;  ///< cost and index of each path
   };
   void find(int robot, const Wish& wish, Scratch& scratch);
   void grow(const Wish& wish, Scratch& scratch) const;

@@ -7,7 +7,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kMostTurns = 2;  // quarters to any heading
+constexpr int kMostTurns = 2;  // quarter turns to any heading
 
 }  // namespace
 
@@ -83,7 +83,8 @@ bool ChainSearch::find(Cell first, int moving) {
   return false;
 }
 
-/// Goes on from the robot in a cell to all beside it; returns whether that closes a ring.
+/// Extends the search from the robot in a cell to all neighbours; returns whether that closes a
+/// ring.
 bool ChainSearch::passes(Cell cell, int moving) {
   const int robot = reserved_.who(cell, 0);
   const Wish& wish = wishes_[robot];
@@ -104,7 +105,7 @@ bool ChainSearch::passes(Cell cell, int moving) {
   return false;
 }
 
-/// Whether no other robot passes a cell.
+/// Returns whether no other robot passes a cell.
 bool ChainSearch::isClear(Cell cell, int robot) const {
   for (int tick = 1; tick <= horizon_; ++tick) {
     const int who = reserved_.who(cell, tick);
@@ -138,7 +139,8 @@ bool ChainSearch::place(int moving) {
   return true;
 }
 
-/// The path of a robot that turns towards a cell beside it and moves there after `moving` ticks.
+/// Returns the path of a robot that turns towards a neighbouring cell and moves there after
+/// `moving` ticks.
 Path ChainSearch::moved(int robot, Cell to, int moving) const {
   const Wish& wish = wishes_[robot];
   int heading = 0;

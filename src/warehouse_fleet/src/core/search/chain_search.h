@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chains that move a robot into a taken cell, on a floor with hardly a free cell: the shortest
+// Chains that move a robot into an occupied cell, on a floor with hardly a free cell: the shortest
 // chain of robots, each into the cell of the next, the last into a free cell or, where rings are
 // allowed, into the cell of the first. All turn first, then all move in the same tick. The search
 // is breadth first, so its time is linear in the floor's cells; priority inheritance would try all
@@ -20,7 +20,7 @@ class ChainSearch {
               const Priorities& priorities, const Candidates& candidates, Reservations& reserved,
               PushSearch& pushes);
 
-  /// Returns whether a robot's path leads it no nearer to its goal.
+  /// Returns whether a robot's path does not lead nearer to its goal.
   bool isStuck(int robot) const;
 
   /// Moves a robot a cell nearer to its goal, and unsettled robots of lower rank out of its way;

@@ -6,13 +6,14 @@
 namespace fleet {
 namespace {
 
-constexpr int kStalled = 120;     // ticks without having come nearer after which a robot presses
-constexpr int kDirectedFor = 12;  // ticks in which to reach the next cell, and for each in its way
+constexpr int kStalled = 120;  // ticks without progress after which a robot presses
+constexpr int kDirectedFor =
+    12;  // ticks to reach the next cell, and as many for each robot in the way
 constexpr int kDirectedForEach = 3;
-constexpr int kEffort = 2000;  // cells that are tried for one robot
-constexpr int kPressing = 16;  // robots a step
+constexpr int kEffort = 2000;  // cells that the search for one robot may try
+constexpr int kPressing = 16;  // robots that press in a step
 
-/// Whether it is committed to leave the cell where it is.
+/// Returns whether it is committed to leave its cell.
 bool drivesOn(const Wish& wish) {
   const auto end = wish.commitment.begin() + wish.committed;
   return std::find(wish.commitment.begin(), end, Action::kForward) != end;
@@ -37,7 +38,7 @@ void MakingWay::direct(const Fleet& fleet, bool may_press, Candidates& candidate
   }
 }
 
-/// Returns the robots that press in this step, those first that have come no nearer for longest.
+/// Returns the robots that press in this step, those with the longest time without progress first.
 std::vector<int> MakingWay::pressing() const {
   std::vector<int> pressing;
   for (int robot = 0; robot < static_cast<int>(progress_.size()); ++robot) {
@@ -53,7 +54,7 @@ std::vector<int> MakingWay::pressing() const {
   return pressing;
 }
 
-/// Who stands, and whose next cell is still to be reached.
+/// Updates which robots stand, and which have not reached their next cell.
 void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wishes) {
   if (progress_.size() > wishes.size()) progress_.clear();
   progress_.resize(wishes.size());
@@ -90,7 +91,7 @@ void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress
   }
 }
 
-/// One step of priority inheritance, from this robot on.
+/// Runs one step of priority inheritance, starting from this robot.
 void MakingWay::press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes) {
   chain_.clear();
   is_asked_.assign(wishes.size(), 0);
@@ -129,7 +130,7 @@ bool MakingWay::move(int robot, const Candidates& candidates, const std::vector<
   return false;
 }
 
-/// Cells beside it, those nearest to its goal first.
+/// Returns the neighbouring cells, those nearest to its goal first.
 std::vector<Cell> MakingWay::ways(const Candidates& candidates, const Wish& wish) const {
   std::vector<std::pair<int, Cell>> ways;
   for (int heading = 0; heading < kHeadings; ++heading) {

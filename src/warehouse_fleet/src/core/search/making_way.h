@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Making way for robots without progress. A crowd in which all must turn before one can leave is
-// not undone within the few ticks of an operation. Here priority inheritance with backtracking
-// (Okumura et al., 2019) goes over cells alone, whatever the headings, and directs each robot in
-// the way to its next cell, however many ticks that takes.
+// Making way for robots without progress. A crowd in which all must turn before one can leave does
+// not dissolve within the few ticks of an operation. Here priority inheritance with backtracking
+// (Okumura et al., 2019) works on cells alone, whatever the headings, and directs each robot in the
+// way to its next cell, however many ticks that takes.
 #pragma once
 
 #include <vector>
@@ -18,22 +18,22 @@ class MakingWay {
   MakingWay(const Floor& floor, int patience) : floor_(floor), patience_(patience) {}
 
   /// Directs robots that press, and robots that make way: overwrites their goals in `wishes`.
-  /// `candidates` knows distances, and keeps their next cells for them: a robot that drives past
-  /// would otherwise always be there before a robot that must turn first. No further robot begins
-  /// to press unless `may_press`.
+  /// `candidates` gives distances, and keeps the next cells for them: passing robots would
+  /// otherwise always precede a robot that must turn first. No further robot begins to press unless
+  /// `may_press`.
   void direct(const Fleet& fleet, bool may_press, Candidates& candidates,
               std::vector<Wish>& wishes);
 
   /// Returns whether a robot is directed to a cell; directed robots choose first.
   bool isDirected(int robot) const { return progress_[robot].next != kNowhere; }
-  /// Returns the ticks that a robot had been in its cell on its way to a goal, a step ago.
+  /// Returns the ticks that a robot had spent in its cell on its way to a goal, one step ago.
   int still(int robot) const {
     return robot < static_cast<int>(progress_.size()) ? progress_[robot].still : 0;
   }
 
  private:
   struct Progress {
-    Cell cell = kNowhere;  ///< the robot's
+    Cell cell = kNowhere;  ///< cell of the robot
     int still = 0;         ///< ticks there on its way to a goal
     Cell goal = kNowhere;
     int nearest = 0;       ///< smallest distance to the goal so far

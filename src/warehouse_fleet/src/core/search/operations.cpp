@@ -18,8 +18,8 @@ Operations::Operations(int depth) : depth_(depth) {
   grow(-1, 0, 0, actions);
 }
 
-/// Of equals the one with the fewest turns stays, and of those what is tried first: who turns turns
-/// early, and is ready when the way becomes free.
+/// Extends the tree. Of equal operations, the one with the fewest turns stays, then the one that is
+/// tried first: it turns early, and is ready when the way becomes free.
 void Operations::grow(int parent, int tick, int heading, Actions& actions) {
   if (tick == depth_) return end(parent, heading, actions);
   for (const Action action :

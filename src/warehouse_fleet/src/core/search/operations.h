@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Operations: all that one robot can do in a few ticks (Yukhnevich and Andreychuk, Enhancing PIBT
-// via Multi-Action Operations, AAAI 2026). Action sequences that pass the same cells at the same
-// ticks and end with the same heading are one operation.
+// via Multi-Action Operations, AAAI 2026). Sequences of actions that pass the same cells at the
+// same ticks and end with the same heading are one operation.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@
 namespace fleet {
 
 constexpr int kMaxDepth = 5;    ///< ticks of an operation
-constexpr int kMaxHorizon = 7;  ///< ticks of a plan: what is committed, and an operation
+constexpr int kMaxHorizon = 7;  ///< ticks of a plan: committed actions, then an operation
 using Actions = std::array<Action, kMaxHorizon>;
 
 /// The cells that operations pass, relative to the robot's pose: a tree with operations as leaves.
 class Operations {
  public:
-  explicit Operations(int depth);  ///< of 1 to kMaxDepth ticks
+  explicit Operations(int depth);  ///< `depth`: 1 to kMaxDepth ticks
 
   static constexpr std::uint8_t kStay = 4;
   struct Node {
@@ -31,10 +31,10 @@ class Operations {
   };
   struct Leaf {
     std::int16_t node;
-    /// By final heading, relative to the first: whether the operation can end so.
+    /// Whether the operation can end with each final heading, relative to the first one.
     std::array<bool, kHeadings> ends{};
     std::array<Actions, kHeadings> actions{};
-    int late = 0;  ///< sum of the ticks of drives: less is earlier
+    int late = 0;  ///< sum of the ticks of drives, less for earlier drives
   };
 
   int depth() const { return depth_; }

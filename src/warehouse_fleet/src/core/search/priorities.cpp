@@ -9,9 +9,9 @@
 namespace fleet {
 namespace {
 
-/// Gives, of the robots that go to the same cell, the nearest the first place, and so on. A robot
-/// that has waited longer behind it would else push it past where both go. Robots that make way are
-/// told something else.
+/// Ranks robots that go to the same cell by distance, the nearest first. A robot that has waited
+/// longer behind the nearest would otherwise push it past their goal. Directed robots have another
+/// order.
 void nearestFirst(const std::vector<Wish>& wishes, const MakingWay& way,
                   const std::vector<int>& distance, std::vector<int>& key) {
   std::vector<int> by_distance;
@@ -32,15 +32,16 @@ void nearestFirst(const std::vector<Wish>& wishes, const MakingWay& way,
   for (std::size_t i = 0; i < by_key.size(); ++i) key[by_distance[i]] = keys[by_key[i]];
 }
 
-/// Returns a number for each robot, the least for the robot that goes first. The nearest to its
-/// goal goes first, which serves throughput; what a robot has waited counts against what it has
-/// still to go, so that no robot waits for ever. A robot that stands for long counts it manifold:
-/// beside a stream of robots that have waited elsewhere it would never be let in.
+/// Returns a key for each robot; the smallest goes first. The robot nearest to its goal goes first,
+/// which serves throughput. Waiting reduces the key, so that no robot waits for ever. Standing in
+/// one cell reduces it faster: beside a stream of robots that have waited elsewhere, the robot
+/// would never be let in.
 std::vector<int> keys(const std::vector<Wish>& wishes, const std::vector<int>& waiting,
                       const Candidates& candidates, const MakingWay& way) {
-  constexpr int kWaitingWorth = 2;    // of kTickCost, a tick
-  constexpr int kStandingWorth = 24;  // the same, of those after the first
-  constexpr int kStands = 8;          // ticks in a cell
+  constexpr int kWaitingWorth = 2;  // weight of a tick of waiting [kTickCost]
+  constexpr int kStandingWorth =
+      24;                     // weight of a tick of standing, after the first kStands [kTickCost]
+  constexpr int kStands = 8;  // ticks in a cell
   constexpr int kFirst = std::numeric_limits<int>::min();
   constexpr int kLast = std::numeric_limits<int>::max();
   const int robots = static_cast<int>(wishes.size());

@@ -19,7 +19,7 @@ class Priorities {
 
   /// Returns the robots in the order in which they choose.
   const std::vector<int>& order() const { return order_; }
-  /// Returns a robot's place in that order, from 0.
+  /// Returns a robot's rank in that order, from 0.
   int rank(int robot) const { return rank_[robot]; }
   /// Returns the weight of a robot's cost in the cost of all robots.
   int weight(int robot) const { return weight_[robot]; }

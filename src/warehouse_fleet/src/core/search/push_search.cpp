@@ -27,8 +27,8 @@ bool PushSearch::replan(int robot, Limits limits) {
   return false;
 }
 
-/// Finds `robot`, which has no path, the best operation for which others can be moved aside. `gain`
-/// is what the paths that have changed so far are cheaper together.
+/// Searches for the best operation of `robot`, which has no path, for which others can be moved
+/// aside. `gain` is the reduction of cost by the paths that have changed so far.
 bool PushSearch::insert(int robot, std::int64_t gain, Limits& limits) {
   visit(robot);
   settled_[robot] = pass_;
@@ -38,7 +38,7 @@ bool PushSearch::insert(int robot, std::int64_t gain, Limits& limits) {
     if (other == Reservations::kNobody) {
       is_found = limits.takes_all || gain >= weigh(robot, path);
       if (is_found) reserved_.place(robot, path);
-      break;  // those that follow are no better
+      break;  // the next ones are no better
     }
     if (other == Reservations::kSeveral || !mayMove(other, limits)) continue;
     if (--limits.pushes < 0) break;
@@ -54,7 +54,7 @@ bool PushSearch::insert(int robot, std::int64_t gain, Limits& limits) {
   return is_found;
 }
 
-/// Excludes robots that are being moved or have been already, and those of a higher rank.
+/// Excludes robots that are being moved or have been moved, and those of a higher rank.
 bool PushSearch::mayMove(int robot, const Limits& limits) const {
   if (isSettled(robot) || wishes_[robot].stopped) return false;
   if (searched_[robot] == search_ && visits_[robot] >= revisits_) return false;

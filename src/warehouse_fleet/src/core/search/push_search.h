@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Priority inheritance with backtracking: finds a path of one robot and moves others aside for it,
-// one after the other.
+// Priority inheritance with backtracking: searches for a path of one robot and moves others aside
+// for it, one after the other.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ class PushSearch {
  public:
   /// Limits of a search.
   struct Limits {
-    bool takes_all;  ///< false: only paths that raise the cost of all paths by nothing
-    int pushes;      ///< count of robots that may still be moved aside
+    bool takes_all;  ///< false: only paths that do not raise the cost of all paths
+    int pushes;      ///< robots that may still be moved aside
     int rank;        ///< only robots of a lower rank are moved; -1 = any robot
   };
 
-  /// Keeps all references, which must outlive the object. `revisits`: how often one robot may be
-  /// moved aside for another in a search.
+  /// Keeps all references, which must outlive the object. `revisits`: largest number of times that
+  /// one robot is moved aside for another in a search.
   PushSearch(const std::vector<Wish>& wishes, const Priorities& priorities, Candidates& candidates,
              Reservations& reserved, int revisits);
 
-  /// Begins a step with a count of robots.
+  /// Begins a step with `robots` robots.
   void begin(int robots);
   /// Begins a pass, in which each robot is moved at most once.
   void beginPass() { ++pass_; }
@@ -37,8 +37,8 @@ class PushSearch {
   /// Notes that a robot has its path in this pass.
   void settle(int robot) { settled_[robot] = pass_; }
 
-  /// Finds a robot another path and returns true; returns false, with all paths unchanged, without
-  /// such a path.
+  /// Searches for another path of a robot and returns true; returns false, with all paths
+  /// unchanged, if there is none.
   bool replan(int robot, Limits limits);
 
  private:
@@ -54,7 +54,7 @@ class PushSearch {
   Candidates& candidates_;
   Reservations& reserved_;
   const int revisits_;
-  /// By robot: the last search that reached it, how often, and the pass that moves it.
+  /// State by robot: the last search that reached it, its visits there, and the pass that moves it.
   std::vector<int> searched_, visits_, settled_;
   int pass_ = 0, search_ = 0;
 };

@@ -4,7 +4,7 @@
 namespace fleet {
 namespace {
 
-/// Returns the answer of two that tells more: the other if one is none, several if they differ.
+/// Merges two answers: the other one if one of them is kNone, kSeveral if they differ.
 int merged(int robot, int other) {
   if (robot == Reservations::kNobody || robot == other) return other;
   return other == Reservations::kNobody ? robot : Reservations::kSeveral;
@@ -61,18 +61,18 @@ int Reservations::conflict(int robot, const Path& path) const {
   return who;
 }
 
-/// Who was there before, and who comes after.
+/// Returns the conflict with the robot that was there before, and with the one that comes after.
 int Reservations::entering(int robot, Cell from, Cell to, int tick) const {
   const int follower = at(from, tick), leaving = at(to, tick - 1);
   const int after = isStrict(follower, tick) ? follower : kNobody;
   if (leaving == kNobody || leaving == robot) return after;
   if (isStrict(robot, tick)) return merged(leaving, after);
-  if (follower == leaving) return leaving;  // they swap
+  if (follower == leaving) return leaving;  // swap
   const bool is_ring = (!rules_.rings || !rules_.following) && closesRing(robot, from, to, tick);
   return is_ring ? kSeveral : after;
 }
 
-/// Whether those who make way for each other are led by the robot itself.
+/// Returns whether the chain of robots that make way for each other begins with the robot itself.
 bool Reservations::closesRing(int robot, Cell from, Cell to, int tick) const {
   for (int leaving = at(to, tick - 1); leaving != kNobody; leaving = at(to, tick - 1)) {
     if (leaving == robot) return true;
@@ -83,7 +83,7 @@ bool Reservations::closesRing(int robot, Cell from, Cell to, int tick) const {
   return false;
 }
 
-/// A loaded robot beside it that turns as well: their units would touch.
+/// Returns the loaded robot beside it that turns in the same tick: their units would touch.
 int Reservations::turning(int robot, Cell cell, int tick) const {
   int who = kNobody;
   for (int heading = 0; heading < kHeadings; ++heading) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The robot in each cell at each tick, and conflicts of a new path with those.
+// The robot in each cell at each tick, and the conflicts of a new path with these.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ class Reservations {
   bool has(int robot) const { return is_placed_[robot]; }
 
   /// Returns the robots with which `robot`, which has no path, would conflict on this path: none, a
-  /// robot's number, or several (also for one that can't give way). Where following is not allowed,
-  /// only committed actions must respect it: all else can wait.
+  /// robot's number, or several (also for a robot that can't give way). Where following is not
+  /// allowed, only committed actions must respect it: all others can wait.
   int conflict(int robot, const Path& path) const;
 
  private:
@@ -52,7 +52,7 @@ class Reservations {
   std::vector<Path> paths_;
   std::vector<std::uint8_t> is_placed_, is_loaded_;
   std::vector<int> committed_;  ///< ticks
-  std::vector<Cell> standing_;  ///< where robots stand in this step
+  std::vector<Cell> standing_;  ///< cells in which robots stand in this step
 };
 
 }  // namespace fleet

@@ -41,7 +41,7 @@ int WindowPaths::blocker(int robot, Cell from, Cell to, int tick) const {
   return swaps || (!rules_.rings && closesRing(from, to, tick)) ? leaving : kNobody;
 }
 
-/// Whether those who make way for each other end where the first comes from.
+/// Returns whether the chain of robots that make way for each other ends in the first one's cell.
 bool WindowPaths::closesRing(Cell from, Cell to, int tick) const {
   for (int leaving = who(to, tick); leaving != kNobody; leaving = who(to, tick)) {
     const Cell next = paths_[leaving].states[tick + 1].cell;

@@ -26,7 +26,7 @@ class WindowPaths {
   static constexpr int kNobody = Reservations::kNobody;
   int ticks() const { return ticks_; }
 
-  /// Removes all paths, and sets the count of robots.
+  /// Removes all paths, and sets the number of robots.
   void clear(int robots);
   void place(int robot, const WindowPath& path);
   void remove(int robot);

@@ -6,7 +6,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kMostDetour = 64 * kTickCost;  // above the least cost
+constexpr int kMostDetour = 64 * kTickCost;  // largest cost above the least one
 
 }  // namespace
 
@@ -45,7 +45,7 @@ bool WindowRoute::find(int robot, const Wish& wish, int most, bool among_others,
   return false;
 }
 
-/// Turns first, so that of equals what drives, pushed last, is looked at first.
+/// Pushes turns first: of equal states the last one pushed, a drive, is expanded first.
 void WindowRoute::expand(int index) {
   const Node node = nodes_[index];
   const auto [cell, heading] = node.state;
@@ -74,8 +74,8 @@ void WindowRoute::push(int parent, GridPose state, bool has_arrived) {
   if (parent >= 0) {
     const Node& before = nodes_[parent];
     node.tick = static_cast<std::int16_t>(before.tick + 1);
-    // Driving costs what it brings nearer, so nothing is gained by waiting before a dear edge. To
-    // have arrived costs nothing, and little not to stand.
+    // Driving costs as much as it brings the robot nearer, so that waiting before an expensive edge
+    // gains nothing. Having arrived costs nothing; moving at the goal costs little.
     const bool stands = state == before.state;
     const int least = before.has_arrived ? static_cast<int>(!stands) : kTickCost;
     node.cost = before.cost + std::max(least, before.left - node.left);

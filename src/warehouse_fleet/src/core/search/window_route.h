@@ -17,9 +17,9 @@ class WindowRoute {
   /// Keeps all references, which must outlive the object.
   WindowRoute(const Floor& floor, const Candidates& candidates, const WindowPaths& paths);
 
-  /// Finds the cheapest path of a robot without one, among the others' paths or regardless of them.
-  /// Returns false if it would cost more than `most`. The cost [kTickCost] is that of the driven
-  /// way and of the rest to the goal; a tick of waiting costs a tick.
+  /// Searches for the cheapest path of a robot without one, among the others' paths or regardless
+  /// of them. Returns false if it would cost more than `most`. The cost [kTickCost] is that of the
+  /// driven way and of the rest to the goal; a tick of waiting costs a tick.
   bool find(int robot, const Wish& wish, int most, bool among_others, WindowPath& path);
 
  private:
@@ -40,7 +40,7 @@ class WindowRoute {
   const Candidates& candidates_;
   const WindowPaths& paths_;
   const int side_;  ///< cells along each side of the reachable square
-  // The state of a search:
+  // The state of a search.
   int robot_ = 0;
   const Wish* wish_ = nullptr;
   bool among_others_ = true;
@@ -48,7 +48,7 @@ class WindowRoute {
   std::vector<Node> nodes_;
   std::vector<std::vector<std::int32_t>> queues_;  ///< by cost above the least
   int used_ = 0;                                   ///< queues
-  std::vector<std::uint32_t> visited_by_;          ///< by state and tick: the last search there
+  std::vector<std::uint32_t> visited_by_;  ///< by state and tick: the last search that reached it
   std::uint32_t search_ = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace fleet {
 namespace {
 
-constexpr int kMostGroup = 8;  // robots that lose their paths at a time
+constexpr int kMostGroup = 8;  // robots that lose their paths in an attempt
 
 }  // namespace
 
@@ -48,7 +48,7 @@ bool WindowSearch::inherit() {
   return is_punctual;
 }
 
-/// Whether a path leads along edges that there are now: cells may have been closed, or kept.
+/// Returns whether a path leads along open edges, some of which may have closed or been kept.
 bool WindowSearch::canDrive(const Wish& wish, const WindowPath& path) const {
   for (int tick = 0; tick < paths_.ticks(); ++tick) {
     const auto [cell, heading] = path.states[tick];
@@ -95,7 +95,7 @@ void WindowSearch::write(Reservations& reserved, int horizon) const {
   }
 }
 
-/// As WindowRoute counts.
+/// Counts the cost as WindowRoute does.
 int WindowSearch::costOf(const Wish& wish, const WindowPath& path) const {
   bool has_arrived = wish.goal == kNowhere || wish.goal == path.states[0].cell;
   int cost = 0, left = has_arrived ? 0 : candidates_.distance(wish, path.states[0]);
@@ -116,7 +116,7 @@ int WindowSearch::least(int robot) const {
   return has_arrived ? 0 : candidates_.distance(wish, wish.state);
 }
 
-/// A tick saved is a tick saved, whose it may be: who goes first only decides between equals.
+/// All robots weigh nearly the same: rank only decides between equals.
 int WindowSearch::weight(int robot) const {
   constexpr int kEach = 1000;
   return kEach + priorities_.weight(robot);
@@ -143,7 +143,7 @@ void WindowSearch::improve(const std::function<bool()>& goes_on, std::mt19937_64
   }
 }
 
-/// Each robot alone, among the paths of all others, by rank.
+/// Improves each robot alone, among the paths of all others, by rank.
 void WindowSearch::improveEach() {
   WindowPath path;
   for (const int robot : priorities_.order()) {
@@ -155,7 +155,7 @@ void WindowSearch::improveEach() {
   }
 }
 
-/// A robot, those in the way of its best path, and some that are near.
+/// Chooses a robot, those in the way of its best path, and some nearby.
 void WindowSearch::chooseGroup(int robot, std::mt19937_64& random) {
   for (const int robot : group_) is_chosen_[robot] = 0;
   group_.clear();
@@ -182,7 +182,7 @@ void WindowSearch::addBlockers(int robot, int most) {
   }
 }
 
-/// Those met at random places around its path.
+/// Adds robots met at random places around its path.
 void WindowSearch::addNear(int robot, int most, std::mt19937_64& random) {
   constexpr int kTries = 12, kReach = 3;
   for (int i = 0; i < kTries && static_cast<int>(group_.size()) < most; ++i) {
@@ -196,10 +196,10 @@ void WindowSearch::addNear(int robot, int most, std::mt19937_64& random) {
   }
 }
 
-/// Gives the robots of the group other paths; returns false, with the paths that they had, if those
-/// together cost less.
+/// Gives the robots of the group other paths. Returns false, and restores their paths, if the new
+/// ones cost more.
 bool WindowSearch::replaceGroup() {
-  std::int64_t room = 0;  // between what they cost now and at the least
+  std::int64_t room = 0;  // present cost of the group less its least cost
   kept_.clear();
   for (const int robot : group_) {
     kept_.push_back(paths_.path(robot));

@@ -24,18 +24,18 @@ class WindowSearch {
   WindowSearch(const Floor& floor, const Rules& rules, int ticks, const std::vector<Wish>& wishes,
                const Priorities& priorities, const Candidates& candidates);
 
-  /// Returns whether it can plan for these robots: no robot is loaded, stopped or committed.
+  /// Returns whether it can plan for these robots: none is loaded, stopped or committed.
   bool canPlan() const;
   /// Begins a step with the rest of the last step's paths. Returns false, without any paths, if a
   /// robot is elsewhere than planned, or a path can't be driven any more.
   bool inherit();
-  /// Begins a step with the planner's paths, at the end of which all stand.
+  /// Begins a step with the planner's paths, after which all robots stand.
   void adopt(const Reservations& reserved, int horizon);
 
-  /// Looks for better paths while `goes_on` returns true.
+  /// Searches for better paths while `goes_on` returns true.
   void improve(const std::function<bool()>& goes_on, std::mt19937_64& random);
 
-  /// Replaces paths by the first `horizon` ticks of the window's.
+  /// Writes the first `horizon` ticks of the window's paths.
   void write(Reservations& reserved, int horizon) const;
 
  private:
@@ -60,7 +60,7 @@ class WindowSearch {
   WindowRoute route_;
   bool has_paths_ = false;
   std::vector<int> group_;               ///< robots of one attempt
-  std::vector<WindowPath> kept_;         ///< their paths before
+  std::vector<WindowPath> kept_;         ///< their previous paths
   std::vector<std::uint8_t> is_chosen_;  ///< by robot: is in the group
 };
 

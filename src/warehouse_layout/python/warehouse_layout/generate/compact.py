@@ -59,16 +59,7 @@ def of_request(request: Request, replenish: int, style: Style, name: str = "") -
     """
     style.check()
     check_stations(request.belts, replenish)
-    plan = min(_plans(request, replenish, style), key=_Plan.cost)
-    floor, stations = plan.drawn()
-    return LayoutFile(
-        floor=floor,
-        name=name,
-        stations=stations,
-        storage_units=request.shelves,
-        robots=request.robots,
-        items=request.items,
-    )
+    return min(_plans(request, replenish, style), key=_Plan.cost).file(request, name)
 
 
 def fitting(
@@ -80,14 +71,7 @@ def fitting(
     check_stations(request.belts, replenish)
     plans = [plan for plan in _plans(request, replenish, style) if plan.fits(width, height)]
     for plan in sorted(plans, key=_Plan.cost)[:most]:
-        floor, stations = plan.drawn()
-        yield LayoutFile(
-            floor=floor,
-            stations=stations,
-            storage_units=request.shelves,
-            robots=request.robots,
-            items=request.items,
-        )
+        yield plan.file(request)
 
 
 @dataclass(frozen=True)
@@ -198,6 +182,18 @@ class _Plan:
         return width * height * math.sqrt(max(width / height, height / width))
 
     # --- drawing
+
+    def file(self, request: Request, name: str = "") -> LayoutFile:
+        """Returns the layout file of the plan."""
+        floor, stations = self.drawn()
+        return LayoutFile(
+            floor=floor,
+            name=name,
+            stations=stations,
+            storage_units=request.shelves,
+            robots=request.robots,
+            items=request.items,
+        )
 
     def drawn(self) -> tuple[np.ndarray, tuple[StationEntry, ...]]:
         """Returns the floor, (h, w) characters, and its stations."""

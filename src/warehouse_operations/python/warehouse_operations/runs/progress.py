@@ -47,7 +47,10 @@ class ProgressLine:
     def show(self, share: float, text: str) -> None:
         """Shows which share is done, 0…1, and a text."""
         done = round(WIDTH * min(share, 1.0))
-        text = f"[{'#' * done}{'.' * (WIDTH - done)}] {text}"
+        self.replace(f"[{'#' * done}{'.' * (WIDTH - done)}] {text}")
+
+    def replace(self, text: str) -> None:
+        """Shows a text in place of the last one; elsewhere than on a terminal below it."""
         self.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
 
     def write(self, text: str) -> None:

@@ -2,9 +2,9 @@
 """Shows how far a sizing is: on one line of a terminal, elsewhere a line a shift."""
 
 import sys
-import time
 from typing import TYPE_CHECKING, TextIO
 
+from warehouse_operations.runs.progress import ProgressLine
 from warehouse_operations.sizing.point import Point, Record
 from warehouse_operations.sizing.verdict import figures_of
 from warehouse_operations.sizing.wish import count
@@ -17,22 +17,19 @@ class Shown:
     """Shows each shift that was simulated; a Study calls it as on_shift."""
 
     def __init__(self, stream: TextIO = sys.stderr) -> None:
-        self._stream, self._began = stream, time.monotonic()
+        self._line = ProgressLine(stream)
 
     def __call__(self, study: "Study", point: Point, record: Record) -> None:
         """Shows a shift, and what was simulated so far."""
         kind = " with physics" if point.physics else ""
         in_time = 1 - figures_of(record, point.run_in)["late"]
-        text = (
+        self._line.replace(
             f"{count(point.stations, 'station')}, {count(point.robots, 'robot')},"
             f" seed {point.seed}{kind}:"
             f" {100 * in_time:.1f} % in time; {study.shifts} shifts, {study.simulated_h:,.0f} h"
-            f" simulated in {time.monotonic() - self._began:,.0f} s"
+            f" simulated in {self._line.wall:,.0f} s"
         )
-        self._stream.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
-        self._stream.flush()
 
     def end(self) -> None:
         """Ends the line."""
-        if self._stream.isatty():
-            self._stream.write("\n")
+        self._line.end()

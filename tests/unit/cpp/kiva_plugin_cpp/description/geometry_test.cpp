@@ -18,7 +18,7 @@ void expectNear(const Vector3& a, const Vector3& b, double tolerance = kExact) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
 }
 
-/// Whether two rotations turn alike; q and -q do.
+/// Expects that two rotations are equal; so are q and -q.
 void expectSameTurn(const Quaternion& a, const Quaternion& b, double tolerance = kExact) {
   EXPECT_NEAR(std::abs(a.Dot(b)), 1, tolerance);
 }
@@ -160,14 +160,14 @@ TEST(APose, TimesItsInverseIsNone) {
 
 // --- inertia
 
-/// Of a body with those principal moments, turned.
+/// Returns the tensor of a rotated body with those principal moments.
 InertiaTensor turned(const Vector3& m, const Quaternion& by) {
   const Matrix3 turn(by);
   const Matrix3 t = turn * Matrix3(m.X(), 0, 0, 0, m.Y(), 0, 0, 0, m.Z()) * turn.Transposed();
   return {{t(0, 0), t(1, 1), t(2, 2)}, {t(0, 1), t(0, 2), t(1, 2)}};
 }
 
-/// Its moments in their axes make the tensor again.
+/// Expects that the moments in their axes give the tensor again.
 void expectDiagonalised(const InertiaTensor& tensor, double tolerance) {
   const InertiaTensor again = turned(tensor.principalMoments(), tensor.principalAxes());
   expectNear(again.moments, tensor.moments, tolerance);

@@ -9,7 +9,7 @@
 namespace kiva {
 namespace {
 
-/// The message of the DescriptionError that `call` throws.
+/// Returns the message of the DescriptionError that `call` throws.
 std::string error(const std::function<void()>& call) {
   try {
     call();

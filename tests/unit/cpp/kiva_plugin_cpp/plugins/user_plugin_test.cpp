@@ -11,7 +11,7 @@
 namespace kiva::test {
 namespace {
 
-/// Where the workspace's libraries are, from where this test is.
+/// Returns the folder of the workspace's libraries, relative to this test.
 std::string libraryFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path().string();
 }
@@ -27,7 +27,7 @@ class UserPlugin : public ::testing::Test {
   static void setPath(const std::string& folders) {
     setenv("KIVA_PLUGIN_PATH", folders.c_str(), true);
   }
-  /// Why a Kiva with that element is refused.
+  /// Returns the reason for which a Kiva with that element is refused.
   std::string refusal(const std::string& element, const std::string& kind = "kiva",
                       const std::string& name = "kiva1") {
     try {
@@ -186,20 +186,20 @@ TEST_F(UserPlugin, AWorldWithoutItsPluginIsAWarning) {
 
 // --- a table of plugins that is asked first
 
-/// Notes what it was given; refuses what it is told to.
+/// Notes its parameters; refuses a model on demand.
 struct Noting : Plugin {
   Noting(bool is_strict, std::map<std::string, std::string>* notes)
-      : is_strict_(is_strict), seen_(notes) {}
+      : is_strict_(is_strict), notes_(notes) {}
   void load(World&, const std::string& model, const Parameters& parameters) override {
-    (*seen_)[model] = parameters.text("robotNamespace", "none");
+    (*notes_)[model] = parameters.text("robotNamespace", "none");
     parameters.number("size", 1, 0, 9);
   }
   bool isStrict() const override { return is_strict_; }
-  void reset(World&) override { (*seen_)["reset"] = "yes"; }
+  void reset(World&) override { (*notes_)["reset"] = "yes"; }
 
  private:
   bool is_strict_;
-  std::map<std::string, std::string>* seen_;
+  std::map<std::string, std::string>* notes_;
 };
 
 class PluginTable : public UserPlugin {
@@ -276,7 +276,7 @@ TEST_F(PluginTable, TellsOfAReset) {
 
 // --- when they are called
 
-/// Does what it is told to, around the step.
+/// Runs a script around the step.
 struct Scripted : Plugin {
   std::function<void(World&)> before = [](World&) {};
   std::function<void(const World&)> after = [](const World&) {};
@@ -302,7 +302,7 @@ class PluginCalls : public UserPlugin {
 };
 
 /// Remembers a number, and fails to go back to 13.
-struct Counting : Plugin {
+struct CountingPlugin : Plugin {
   int count = 0;
   void load(World&, const std::string&, const Parameters&) override {}
   std::string save() const override { return std::to_string(count); }
@@ -314,7 +314,8 @@ struct Counting : Plugin {
 
 TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
   w.spawn("wall", "wall1", 0, 0);
-  const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
+  const auto first = std::make_shared<CountingPlugin>(),
+             second = std::make_shared<CountingPlugin>();
   insideOf(w.world).plugins.world = {first, second};
   first->count = 1;
   second->count = 13;

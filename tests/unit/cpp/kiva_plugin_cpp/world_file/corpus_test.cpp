@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small worlds in tests/worlds/corpus, each with one feature as files made for Gazebo have it. Each
-// loads and runs; what it costs is told with file and line; everything else is there.
+// Small worlds in tests/worlds/corpus, each with one feature of files made for Gazebo. Each loads
+// and runs; every loss is reported with file and line; everything else is there.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

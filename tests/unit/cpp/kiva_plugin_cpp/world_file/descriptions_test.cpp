@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each world and model file of the tests, and of the project, is read as: compared with
-// tests/worlds/descriptions, number by number, warnings and errors included. After a change that
-// is meant, RECORD_DESCRIPTIONS=1 writes them again.
+// Descriptions of each world and model file of the tests and of the project: compared with
+// tests/worlds/descriptions, number by number, warnings and errors included. After an intended
+// change, RECORD_DESCRIPTIONS=1 writes them again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ class Writer {
          << text(light.direction) << " shadows " << light.cast_shadows << '\n';
   }
 
-  /// Folders are told from the top of the project, wherever that is.
+  /// Writes a line; folders are relative to the top of the project.
   void writeLine(const std::string& word, std::string line) {
     const std::string above = fs::path(kTop).parent_path().string() + ",";
     for (const auto& [folder, name] : {std::pair{kTop, "TOP"}, {above, "ABOVE,"}}) {
@@ -239,7 +239,7 @@ fs::path recordOf(const fs::path& document) {
   return fs::path(kTests) / "worlds" / "descriptions" / (name + ".txt");
 }
 
-/// Words equal, or numbers that rounding alone tells apart.
+/// Returns whether words are equal, or numbers that differ by rounding alone.
 bool areAlike(const std::string& a, const std::string& b) {
   if (a == b) return true;
   char *end_a, *end_b;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files that would take all memory, all stack or minutes are told off before the work begins.
+// Files that would take all memory, all stack or minutes are refused before the work begins.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <tinyxml2.h>
@@ -206,7 +206,7 @@ TEST(Limits, LetWhatIsLargeBeLarge) {
             8);
 }
 
-/// A hundred faults are told; a thousand megabytes are not read for it.
+/// A hundred faults are reported, without reading a thousand megabytes for them.
 TEST(Limits, LetFaultsBeMany) {
   std::string models;
   for (int i = 0; i < 100; ++i) {

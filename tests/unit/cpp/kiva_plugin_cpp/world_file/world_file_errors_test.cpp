@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One broken file a rule, in tests/worlds: what a person is told about it.
+// One broken file for each rule, in tests/worlds, with its message.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -72,8 +72,8 @@ const std::string kNoJoint = ": this joint is left out: ";
 const std::string kNoModel =
     ":5: world 'w', model 'm': this model is left out: expected a <link> in <model>";
 
-/// What costs a part of the world and a warning, not the world: how many models are left, and what
-/// is told.
+/// A fault that costs a part of the world and a warning, not the world: the number of models left,
+/// and the warning.
 struct Loss {
   std::size_t models;
   std::vector<std::string> warnings;

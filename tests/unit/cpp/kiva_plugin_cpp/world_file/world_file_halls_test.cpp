@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Halls as other people have them, in tests/worlds/halls: what stands in them, which cells of their
-// map are taken, what a person is told. What can't be loaded is never free floor.
+// Halls of other makers, in tests/worlds/halls: their models, the taken cells of their maps, and
+// warnings. Parts that can't be loaded never count as free floor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,8 +32,8 @@ class Variable {
 };
 
 /// A hall that was loaded as the node loads it.
-struct Hall {
-  explicit Hall(const std::string& file)
+struct LoadedHall {
+  explicit LoadedHall(const std::string& file)
       : description(loadWorld(kHalls + file, paths(kHalls + file), &warnings)),
         world(description, {}),
         map(world.occupancy()) {}
@@ -75,7 +75,7 @@ struct Hall {
 };
 
 TEST(Halls, MayBeCalledWorldAndNameMeshesByRelativeFiles) {
-  Hall hall("hospital/worlds/hospital.world");
+  LoadedHall hall("hospital/worlds/hospital.world");
   EXPECT_EQ(hall.world.name(), "world");
   EXPECT_EQ(hall.names(), (Strings{"ground_plane", "walls_01", "bed_01", "bed_02", "cabinet_01",
                                    "wheelchair_01"}));
@@ -85,14 +85,14 @@ TEST(Halls, MayBeCalledWorldAndNameMeshesByRelativeFiles) {
 }
 
 TEST(Halls, HaveWhatTheyShowWhereWhatTouchesIsMissing) {
-  Hall hall("hospital/worlds/hospital.world");
+  LoadedHall hall("hospital/worlds/hospital.world");
   hall.expectTaken({{-7, 5}, {-6, 5}, {-5, 5}, {-6, -6}, {-6, -5}, {-6, -4}});
   hall.expectFree({{-9, 5}, {-6, 7}});
   EXPECT_LT(hall.world.rayCast({-6, 0, 0.4}, M_PI / 2, 20), 4.6);
 }
 
 TEST(Halls, AreClosedWhereSomethingUnknownStands) {
-  Hall hall("hospital/worlds/hospital.world");
+  LoadedHall hall("hospital/worlds/hospital.world");
   hall.expectTaken({{6, 5}, {6, -5}});  // neither mesh, and no model
   hall.expectFree({{8, 5}, {6, -3}});
   EXPECT_NEAR(hall.world.rayCast({3, 5, 0.2}, 0, 20), 2.5, 1e-6);
@@ -111,7 +111,7 @@ TEST(Halls, AreClosedWhereSomethingUnknownStands) {
 }
 
 TEST(Halls, OfOneMeshManyTimesKeepTheirFloor) {
-  Hall hall("small_house/worlds/small_house.world");
+  LoadedHall hall("small_house/worlds/small_house.world");
   EXPECT_EQ(hall.names().size(), 14u);
   hall.expectTaken({{-8, -6}, {2, -4}, {-1, 4}, {7, 5}});
   hall.expectFree({{-7, -6}, {0, 0}, {5, 3}});
@@ -120,21 +120,21 @@ TEST(Halls, OfOneMeshManyTimesKeepTheirFloor) {
 
 TEST(Halls, LieWhereResourcesDo) {
   const Variable resources("GAZEBO_RESOURCE_PATH", kHalls + "bookstore/media");
-  Hall hall("bookstore/worlds/bookstore.world");
+  LoadedHall hall("bookstore/worlds/bookstore.world");
   hall.expectWarnings({});
   hall.expectTaken({{-4, 3}, {3, 3}, {5, 3}, {0, -3}, {1, -3}});
   hall.expectFree({{0, 3}, {0, 0}});
 }
 
 TEST(Halls, WithoutTheirResourcesAreClosedWhereThoseWouldBe) {
-  Hall hall("bookstore/worlds/bookstore.world");
+  LoadedHall hall("bookstore/worlds/bookstore.world");
   EXPECT_EQ(hall.warnings.size(), 2u);  // three models are one
   hall.expectTaken({{-4, 3}, {4, 3}, {0, -3}});
 }
 
 TEST(Halls, OfACollectionThatIsNotAllThereAreClosedWhereItIsMissing) {
   const Variable models("GAZEBO_MODEL_PATH", std::string(TESTS_DIR) + "/worlds/models");
-  Hall hall("factory.world");
+  LoadedHall hall("factory.world");
   EXPECT_EQ(hall.names(),
             (Strings{"ground_plane", "line_1", "line_2", "europallet", "cell", "shelf"}));
   hall.expectTaken({{5, 0}, {5, 6}, {-4, 0}, {1, 8}, {-2, 8}, {-8, 6}});
@@ -146,7 +146,7 @@ TEST(Halls, OfACollectionThatIsNotAllThereAreClosedWhereItIsMissing) {
 }
 
 TEST(Halls, ThatGazeboSavedAreAsTheyWereAtTheEnd) {
-  Hall hall("saved.world");
+  LoadedHall hall("saved.world");
   EXPECT_EQ(hall.names(), (Strings{"ground_plane", "column", "late"}));
   hall.expectTaken({{8, 8}, {-6, -6}});
   hall.expectFree({{1, 1}, {3, 3}});
@@ -154,7 +154,7 @@ TEST(Halls, ThatGazeboSavedAreAsTheyWereAtTheEnd) {
 }
 
 TEST(Halls, WithHillsAreClosedThere) {
-  Hall hall("terrain.world");
+  LoadedHall hall("terrain.world");
   EXPECT_EQ(hall.names(), (Strings{"ground_plane", "hill", "walker"}));
   hall.expectTaken({{10, 0}, {20, 0}, {15, 5}, {15, -5}, {15, 0}});
   hall.expectFree({{8, 0}, {15, 7}, {-8, 0}});
@@ -163,7 +163,7 @@ TEST(Halls, WithHillsAreClosedThere) {
 }
 
 TEST(Halls, MayComeAsUrdfWithTheirFloor) {
-  Hall hall("hall.urdf");
+  LoadedHall hall("hall.urdf");
   EXPECT_EQ(hall.names(), Strings{"hall"});
   EXPECT_TRUE(hall.description.models.at(0).description->is_static);
   EXPECT_EQ(hall.map.columns, 29);
@@ -174,7 +174,7 @@ TEST(Halls, MayComeAsUrdfWithTheirFloor) {
 }
 
 TEST(Halls, OfMeshesLookAsTheyAreFromAbove) {
-  const Hall hall("hospital/worlds/hospital.world");
+  const LoadedHall hall("hospital/worlds/hospital.world");
   const Look look = lookOf(*hall.world.description("walls_01"));
   const auto covers = [&](double x, double y) {
     for (std::size_t i = 0; i < look.shape_kind.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SDF in, real values out. What is refused is in world_file_errors_test.cpp.
+// Values read from SDF. Refusals are in world_file_errors_test.cpp.
 #include "kiva_plugin_cpp/world_file.h"
 
 #include <gtest/gtest.h>

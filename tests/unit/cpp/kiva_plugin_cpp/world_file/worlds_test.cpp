@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The models and worlds that come with the simulator are what the rest counts on.
+// The models and worlds that come with the simulator have the properties that other code relies on.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who may be where, without physics: robots here are told what they are released, and report as the
-// test has them.
+// Execution without physics: robots of the test follow their releases, and report as the test
+// demands.
 #include "warehouse_fleet/execution.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 constexpr double kTick = 0.1, kSpeed = 1.5;  // [s], [m/s]: these robots reach it at once
 
 /// One that follows paths as the engine does, cell after cell at one speed.
-struct Robot {
+struct SimulatedRobot {
   double x = 0, y = 0, yaw = 0;
   std::uint32_t id = 0;
   std::vector<Cell> path;
@@ -52,7 +52,7 @@ class ExecutionTest : public testing::Test {
   Cell cell(int x, int y) const { return y * floor_.width() + x; }
 
   int add(int x, int y, int heading = 0) {
-    Robot robot;
+    SimulatedRobot robot;
     robot.x = x;
     robot.y = y;
     robot.yaw = heading * M_PI / 2;
@@ -64,7 +64,7 @@ class ExecutionTest : public testing::Test {
 
   void observe() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const Robot& robot = robots_[i];
+      const SimulatedRobot& robot = robots_[i];
       Report& report = reports_[i];
       const double dx = robot.x - report.x, dy = robot.y - report.y;
       report.vx = now_ > 0 ? dx / kTick : 0;
@@ -96,7 +96,7 @@ class ExecutionTest : public testing::Test {
     execution_.adopt(plan);
   }
 
-  /// What is released, as messages that arrive at once.
+  /// Returns releases as messages that arrive at once.
   std::vector<Message> release() {
     const Releases releases = execution_.release();
     std::vector<Message> messages;
@@ -113,9 +113,9 @@ class ExecutionTest : public testing::Test {
     return messages;
   }
 
-  /// As the engine does; what it would refuse is told.
+  /// Delivers a message as the engine does; reports what the engine would refuse.
   void deliver(const Message& message) {
-    Robot& robot = robots_[message.robot];
+    SimulatedRobot& robot = robots_[message.robot];
     const bool is_change = robot.is_active && robot.id == message.id;
     const bool is_gap = message.first > (is_change ? robot.path.size() : 0);
     if (!is_change &&
@@ -141,13 +141,15 @@ class ExecutionTest : public testing::Test {
     robot.is_active = true;
   }
 
-  static bool isWaiting(const Robot& robot) { return robot.reached >= robot.released; }
-  Cell at(const Robot& robot) const { return cell(std::lround(robot.x), std::lround(robot.y)); }
-  bool isBetween(const Robot& robot) const {
+  static bool isWaiting(const SimulatedRobot& robot) { return robot.reached >= robot.released; }
+  Cell at(const SimulatedRobot& robot) const {
+    return cell(std::lround(robot.x), std::lround(robot.y));
+  }
+  bool isBetween(const SimulatedRobot& robot) const {
     return std::hypot(robot.x - std::round(robot.x), robot.y - std::round(robot.y)) > 1e-6;
   }
 
-  void drive(Robot& robot) {
+  void drive(SimulatedRobot& robot) {
     if (!robot.is_active || robot.is_stopped) return;
     double way = kSpeed * kTick;
     while (way > 1e-9 && robot.reached < robot.released) {
@@ -174,12 +176,12 @@ class ExecutionTest : public testing::Test {
   void tick() {
     observe();
     for (const Message& message : release()) deliver(message);
-    for (Robot& robot : robots_) drive(robot);
+    for (SimulatedRobot& robot : robots_) drive(robot);
     now_ += kTick;
   }
 
   /// Cells that a robot's body is above.
-  std::set<Cell> beneath(const Robot& robot) const {
+  std::set<Cell> beneath(const SimulatedRobot& robot) const {
     std::set<Cell> cells;
     for (const double dx : {-0.3, 0.3}) {
       for (const double dy : {-0.3, 0.3}) {
@@ -189,8 +191,8 @@ class ExecutionTest : public testing::Test {
     return cells;
   }
 
-  /// No robot stands where another does, nor in a cell that another holds; what is released by
-  /// messages under way is held as well.
+  /// Expects that no robot stands where another does, or in a cell that another holds. Cells in
+  /// messages under way are held as well.
   void expectSafe() {
     std::map<Cell, int> above;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -217,7 +219,7 @@ class ExecutionTest : public testing::Test {
 
   Floor floor_;
   Execution execution_;
-  std::vector<Robot> robots_;
+  std::vector<SimulatedRobot> robots_;
   std::vector<Report> reports_;
   double now_ = 0;
 };
@@ -524,7 +526,7 @@ TEST_F(ExecutionTest, OneThatJumpsOffItsPathHoldsWhereItIs) {
   EXPECT_EQ(execution_.holder(cell(4, 3)), robot);
 }
 
-/// As a vehicle does that tells a place a second, and no speed.
+/// A vehicle may report a place a second, and no speed.
 TEST_F(ExecutionTest, OneThatIsSeenElsewhereAgainAndAgainMoves) {
   const int robot = add(1, 1);
   observe();
@@ -602,7 +604,7 @@ TEST_F(ExecutionTest, LateAndLostMessagesEndInNoContact) {
       deliver(*message);
       message = under_way.erase(message);
     }
-    for (Robot& robot : robots_) {
+    for (SimulatedRobot& robot : robots_) {
       if (chance(random) < 0.005) robot.is_stopped = !robot.is_stopped;
       if (chance(random) < 0.05) robot.is_stopped = false;
       drive(robot);

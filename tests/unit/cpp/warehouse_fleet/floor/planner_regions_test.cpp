@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tables whose far part is shared by all goals of a region: they lead to the goal from everywhere,
-// hardly by a longer way, and are the same for any number of threads and after a file.
+// with hardly a detour, and are the same for any number of threads and after a file.
 #include <array>
 #include <sstream>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distance tables: made when they are asked for, and renewed as the traffic changes what edges
-// cost.
+// Distance tables: made on demand, and renewed as traffic changes the costs of edges.
 #include <vector>
 
 #include "core/floor/distance_tables.h"
@@ -14,13 +13,13 @@ constexpr int kGoals = 10, kAge = 3, kWidth = 20, kStates = kWidth * kHeadings;
 
 class Tables : public testing::Test {
  protected:
-  /// Has each edge cost so many ticks.
+  /// Sets the cost of each edge to `ticks`.
   void price(int ticks) {
     costs_.assign(costs_.size(), static_cast<std::uint8_t>(ticks * kTickCost));
     tables_.reprice();
   }
 
-  /// A step in which all are asked for: how far each is from the far end, in ticks.
+  /// Steps with a need for all tables. Returns each goal's distance from the far end [ticks].
   std::vector<int> step(int urgent = -1) {
     tables_.begin(++now_, 0, kGoals * kStates);
     for (int goal = 0; goal < kGoals; ++goal) tables_.need(Deck::kUnder, goal);

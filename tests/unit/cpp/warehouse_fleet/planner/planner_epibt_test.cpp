@@ -100,7 +100,7 @@ FloorDescription loop() {
   return floor;
 }
 
-/// Drives until the first robot is at its goal, or so many ticks long; how many.
+/// Drives until the first robot is at its goal, or for `most` ticks. Returns the number of ticks.
 int ticksTo(const Floor& floor, Fleet& fleet, int most) {
   const auto planner = makeEpibt();
   planner->start(floor, {}, 1);
@@ -247,7 +247,7 @@ TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
 }
 
 TEST(Epibt, KeepsWhatIsCommittedAndGoesOnFromWhereRobotsAre) {
-  // Robots that don't do what they were told: each misses one action in ten.
+  // Robots that deviate from the plan: each misses one action in ten.
   std::mt19937_64 random(5);
   Shift shift(blocks(5, 4, 2), 25, 5);
   for (int tick = 0; tick < 300; ++tick) {

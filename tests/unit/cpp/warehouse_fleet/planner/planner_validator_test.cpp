@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each thing that a plan must not do is seen, with its robots; what is allowed is not.
+// Each violation of a plan is found, with its robots; permitted plans have none.
 #include "planner_shift.h"
 
 namespace fleet::test {
@@ -9,7 +9,7 @@ namespace {
 using Kind = Violation::Kind;
 
 /// Robots on a floor of 4 x 3 cells, its second row storage places at x = 2 and 3.
-struct Case {
+struct PlanCase {
   const Floor floor{drawn({"....", "..SS", "...."})};
   Fleet fleet;
   Plan plan;
@@ -36,7 +36,7 @@ struct Case {
 constexpr Action W = Action::kWait, F = Action::kForward, P = Action::kTurnPositive;
 
 TEST(Validator, SeesTwoInOneCell) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {F});
   is.robot(2, 2, {F});
   EXPECT_EQ(is.violations({"kiva3", "kiva7"}),
@@ -44,14 +44,14 @@ TEST(Validator, SeesTwoInOneCell) {
 }
 
 TEST(Validator, SeesASwap) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {W, F});
   is.robot(1, 2, {W, F});
   EXPECT_EQ(is.violations(), "robot 0 and robot 1 would exchange their cells at (1, 0) (tick 1)\n");
 }
 
 TEST(Validator, SeesARingUnlessItIsAllowed) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {F});
   is.robot(1, 1, {F});
   is.robot(5, 2, {F});
@@ -64,7 +64,7 @@ TEST(Validator, SeesARingUnlessItIsAllowed) {
 }
 
 TEST(Validator, SeesFollowingWhereItIsForbidden) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {F});
   is.robot(1, 0, {F});
   EXPECT_EQ(is.violations(), "");
@@ -75,7 +75,7 @@ TEST(Validator, SeesFollowingWhereItIsForbidden) {
 }
 
 TEST(Validator, SeesWallsStoragePlacesAndClosedCells) {
-  Case is;
+  PlanCase is;
   is.robot(3, 0, {F});
   is.robot(5, 0, {F}, true);
   is.robot(9, 0, {F});
@@ -90,7 +90,7 @@ TEST(Validator, SeesWallsStoragePlacesAndClosedCells) {
 }
 
 TEST(Validator, SeesLoadedRobotsTurnSideBySide) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {P}, true);
   is.robot(1, 0, {P}, true);
   is.robot(8, 0, {P}, true);
@@ -100,7 +100,7 @@ TEST(Validator, SeesLoadedRobotsTurnSideBySide) {
 }
 
 TEST(Validator, SeesWhatWasPromisedOtherwise) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {W, F});
   is.robot(8, 0, {F, W});
   is.fleet.committed = {1, Fleet::kFree, Fleet::kFree, Fleet::kFree};
@@ -112,7 +112,7 @@ TEST(Validator, SeesWhatWasPromisedOtherwise) {
 }
 
 TEST(Validator, RefusesAPlanOfAnotherSize) {
-  Case is;
+  PlanCase is;
   is.robot(0, 0, {F});
   is.plan.actions.push_back(W);
   EXPECT_THROW(is.violations(), FloorError);

@@ -10,13 +10,13 @@
 namespace kiva {
 namespace {
 
-// [s] for which the way may be found free.
+// Durations for which a way is tested [s].
 constexpr double kHorizons[] = {0.3, 0.08, 0.02}, kShortest = kHorizons[2];
-constexpr double kWorthwhile = 0.015;  // [s]: less is no clearance to cruise on
-constexpr double kAstray = 0.001;      // [m] that a robot may be beside its way at the horizon
-constexpr double kPushed = 0.5;     // [m/s] by which a robot in Bullet may be faster than it drives
-constexpr double kStill = 1e-9;     // [m/s, rad/s]
-constexpr double kWanders = 0.003;  // [m/s] that wheels of unequal sizes move one that turns
+constexpr double kWorthwhile = 0.015;  // [s]; a shorter clearance is not worth a cruise
+constexpr double kAstray = 0.001;      // [m] that a robot may be off its way at the horizon
+constexpr double kPushed = 0.5;        // [m/s] by which a robot in Bullet may exceed its speed
+constexpr double kStill = 1e-9;        // [m/s, rad/s]
+constexpr double kWanders = 0.003;     // [m/s] of drift while turning with unequal wheels
 
 bool standsStill(const FleetState& f, int i) {
   if (!f.awake[i]) return true;
@@ -28,15 +28,15 @@ bool standsStill(const FleetState& f, int i) {
   return !task.segment() || task.lifts();
 }
 
-/// Its circle stays where it is, or nearly, until it begins another segment, and then it looks
-/// around itself.
+/// Returns whether the robot's circle stays in place, or nearly, until its next segment, when it is
+/// tested again.
 bool turnsInPlace(const FleetState& f, int i) {
   const double most = f.localises ? kWanders : kStill;
   return !f.activated[i] && f.tasks[i].isAt(MotionSegment::Kind::kTurn) &&
          std::abs(f.vx[i]) < most && std::abs(f.vy[i]) < most;
 }
 
-/// Returns how fast its circle may come nearer [m/s].
+/// Returns the largest speed at which its circle may approach [m/s].
 double approachSpeed(const FleetState& f, int i) {
   if (turnsInPlace(f, i)) return f.localises ? kWanders : 0;
   const double speed = f.robots[i].drive.speed;
@@ -57,14 +57,14 @@ Footprint boxOf(const Fleet& f, int i) {
   return own;
 }
 
-/// Returns the circle that holds it however it turns.
+/// Returns the circle that contains the box at any heading.
 Footprint turned(Footprint box) {
   box.kind = Footprint::Kind::kCircle;
   box.hx = std::hypot(box.hx, box.hy);
   return box;
 }
 
-/// Returns what it covers while it goes by (dx, dy) [m] along its heading.
+/// Returns the area that a box covers while it moves by (dx, dy) [m] along its heading.
 Footprint shifted(Footprint box, double dx, double dy) {
   box.x += dx / 2;
   box.y += dy / 2;
@@ -72,23 +72,23 @@ Footprint shifted(Footprint box, double dx, double dy) {
   return box;
 }
 
-/// Returns how far the reference of a robot that cruises goes at most in that time.
+/// Returns the largest distance that the reference of a cruising robot covers in that time.
 double wayWithin(const FleetState& f, int i, double time) {
   const double most = f.top_speed[i] * time;
   return std::clamp(f.reference_end[i] - f.reference[i], -most, most);
 }
 
-/// Returns whether a robot that cruises does it in place.
+/// Returns whether a cruising robot turns in place.
 bool cruisesInPlace(const FleetState& f, int i) { return f.per_x[i] == 0 && f.per_y[i] == 0; }
 
-/// Returns the floor that a robot covers which follows its reference exactly.
+/// Returns the area that a robot covers while it follows its reference exactly.
 Footprint cruiseSweep(const FleetState& f, int i, double time) {
   if (cruisesInPlace(f, i)) return turned(boxOf(f, i));
   const double way = wayWithin(f, i, time);
   return shifted(boxOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
 }
 
-/// Returns the floor that any other may cover, by what it is at: a driving one goes either way.
+/// Returns the area that any other robot may cover, by its phase: a driving one may go either way.
 Footprint sweep(const FleetState& f, int i, double time) {
   const Task& task = f.tasks[i];
   Footprint own = boxOf(f, i);
@@ -100,8 +100,8 @@ Footprint sweep(const FleetState& f, int i, double time) {
   return own;
 }
 
-/// Returns whether meets(footprint) is true for any of a robot and its load. Keeps nothing, so that
-/// several threads may ask.
+/// Returns whether meets(footprint) is true for any footprint of a robot and its load. Stores
+/// nothing, so that several threads may call it.
 template <typename Meets>
 bool anyOfRobot(const Scene& world, int robot, Meets meets) {
   const FleetState& f = world.fleet;
@@ -114,10 +114,10 @@ bool anyOfRobot(const Scene& world, int robot, Meets meets) {
   });
 }
 
-/// Returns whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
+/// Returns whether nothing comes near the area `swept`, which the robot covers within `time` [s].
 bool isClear(const Scene& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
-  Footprint lifted = swept;  // it counts from the floor
+  Footprint lifted = swept;  // down to the floor
   lifted.z_min += world.floor.extent.z;
   lifted.z_max += world.floor.extent.z;
   const auto meets = [&](const Footprint& other) {
@@ -140,8 +140,8 @@ bool isClear(const Scene& world, int robot, const Footprint& swept, double time)
                                     approaches);
 }
 
-/// Returns the part of the horizon for which a cruising robot stays within the slack of its place
-/// among the obstacles.
+/// Returns the part of the horizon in which a cruising robot stays within the slack of its obstacle
+/// index.
 double horizonOf(const FleetState& f, int i, double horizon) {
   if (f.cruising[i] == 0 || cruisesInPlace(f, i)) return horizon;
   return std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
@@ -153,7 +153,7 @@ bool isClearFor(const Scene& world, int i, double time) {
   return isClear(world, i, f.cruising[i] != 0 ? cruiseSweep(f, i, time) : sweep(f, i, time), time);
 }
 
-/// Returns the circle that holds all of them.
+/// Returns the circle that contains all of them.
 Footprint holding(const std::vector<Footprint>& all) {
   Footprint circle = circleAt(all.front().x, all.front().y, 0);
   for (const Footprint& footprint : all) {
@@ -167,14 +167,14 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 double clearTime(const Scene& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
-  // In long steps the shorter horizons are one step, and nothing is indexed for longer.
+  // With long steps the shorter horizons are one step, and nothing is indexed for longer.
   if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.clock.dt) {
     for (const double horizon : {kHorizons[0], kShortest}) {
       if (isClearFor(world, i, horizon)) return horizon;
     }
     return 0;
   }
-  // A hemmed-in robot asks at each step, and a way that is clear for longer is clear for less.
+  // A hemmed-in robot tests at each step. A way that is clear for longer is clear for less.
   if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {
     const double time = horizonOf(f, i, horizon);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clearance: the time for which a robot can't come near anything, wherever it may go.
-// FleetState::clear_until keeps the answer until the robot's motion changes, so that a standing
+// Clearance: the time in which a robot can't come near anything, wherever it may go.
+// FleetState::clear_until keeps the result until the robot's motion changes, so that a standing
 // robot is not treated as a moving one.
 #pragma once
 
@@ -16,8 +16,8 @@ constexpr double kNear = 0.004;
 constexpr double kCornerSpeed = 3.2;
 
 /// Returns the time for which nothing can come near the robot [s]; 0 if it is very short.
-/// `is_crowded` changes the order of the search, not its result: short times are tried first.
-/// Callable from any thread while nothing is changed.
+/// `is_crowded` changes the order of the tests, not the result: short times come first. Callable
+/// from any thread while nothing changes.
 double clearTime(const Scene& world, int robot, bool is_crowded);
 
 /// Sets clear_until by the result of clearTime. Returns false, with nothing changed, if that is 0.
@@ -30,8 +30,8 @@ bool findClearance(RobotView& world, Obstacles& obstacles, int robot, bool is_cr
 bool hasClearance(const Scene& world, int robot);
 
 /// Appends to `close` the slots of models that a model or robot with the footprints `own` could
-/// touch in the next step, if no point of it is faster than `speed` [m/s]. Returns the smallest gap
-/// to others, at most `reach` [m].
+/// touch in the next step, if none of its points is faster than `speed` [m/s]. Returns the smallest
+/// gap to others, at most `reach` [m].
 double findClose(const Scene& world, const std::vector<Footprint>& own, double speed, double reach,
                  std::vector<int>* close);
 

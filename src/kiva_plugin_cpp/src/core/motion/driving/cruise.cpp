@@ -16,7 +16,7 @@
 namespace kiva {
 namespace {
 
-/// Returns whether the chassis is just as fast as its reference says.
+/// Returns whether the chassis moves exactly as its reference.
 bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
   const double v = f.reference_speed[i];
   return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
@@ -32,7 +32,7 @@ double peakSpeed(const FleetState& f, int i, const ReferenceMotion& per) {
 
 bool hasForce(const FleetState& f, int i, const ReferenceMotion& per, const Ground& ground) {
   const Robot& robot = f.robots[i];
-  if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
+  if (robot.drive.acceleration == 0) return true;  // grip and motors have no limit
   if (per.acceleration == 0) return false;
   const double hardest = std::max(per.acceleration, f.deceleration[i]);
   const Vehicle vehicle = vehicleOf(robot, ground);
@@ -42,8 +42,8 @@ bool hasForce(const FleetState& f, int i, const ReferenceMotion& per, const Grou
          1;
 }
 
-/// Returns what a reference with an acceleration leaves of its way to the robot's motors [m, rad]:
-/// its last steps, which are uneven.
+/// Returns the last, uneven steps of a reference's way, which are left to the robot's motors [m,
+/// rad].
 inline double endOf(double acceleration, double deceleration, double speed, double dt) {
   const double end = std::abs(speed) * dt + deceleration * dt * dt;
   return acceleration > 0 ? end : 0.0;
@@ -54,9 +54,9 @@ bool hasEnded(const FleetState& f, int i, double dt) {
          endOf(f.acceleration[i], f.deceleration[i], f.reference_speed[i], dt);
 }
 
-constexpr int kBlock = 16;           // robots of which it is noted together what they need
-constexpr int kLanes = 4;            // robots of a vector: it is left out if none of them cruises
-constexpr int kBlocksTogether = 96;  // on one thread: less is not worth waking another
+constexpr int kBlock = 16;           // robots that share an entry of StepSchedule::cruised
+constexpr int kLanes = 4;            // robots of a vector: skipped if none of them cruises
+constexpr int kBlocksTogether = 96;  // on one thread: fewer do not justify waking another
 constexpr int kLooksTogether = 32;   // the same
 
 /// Implements advance() for robots whose motors lag, or don't.
@@ -134,19 +134,19 @@ __attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, 
   return attention != 0;
 }
 
-/// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
-/// reference has ended, or step `now` is the one that it waits for.
+/// Advances robots [begin, end) that cruise by one step. Returns whether one of them needs
+/// attention: its reference has ended, or `now` is the step that it waits for.
 __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
                                                                double dt, double now) {
   return f.lag.isNone() ? advanceAll<false>(f, begin, end, dt, now)
                         : advanceAll<true>(f, begin, end, dt, now);
 }
 
-/// Returns how many steps the robot's reference needs at least to come to `place`: speeding up all
-/// the way, or at top speed all the way.
+/// Returns the least number of steps in which the robot's reference can reach `place`:
+/// accelerating, or at top speed, all the way.
 double stepsTo(const FleetState& f, int i, double place, double dt) {
   const double way = place - f.reference[i];
-  const double faster = f.acceleration[i] * dt * dt;  // a step goes that much farther than the last
+  const double faster = f.acceleration[i] * dt * dt;  // gain of each step's length over the last
   double steps = way / (f.top_speed[i] * dt);
   if (faster > 0 && f.reference_speed[i] < f.top_speed[i]) {
     const double first = f.reference_speed[i] * dt + faster / 2;
@@ -155,7 +155,7 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
   return std::max(1.0, std::ceil(steps - 1e-6));
 }
 
-/// Plans when a robot that cruises on after step number `after` needs its next look.
+/// Plans the next step after number `after` at which a cruising robot needs attention.
 void planAttention(RobotView& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
@@ -168,42 +168,42 @@ void planAttention(RobotView& world, int i, double after) {
   f.attend_at[i] = std::min(f.attend_at[i], next);
 }
 
-/// The same where its way has changed.
+/// Does the same after a change of its way.
 void replanAttention(RobotView& world, int i) {
   world.fleet.count_at[i] = nextCount(world, i);
   planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
-/// Counts the points that the robot has come to or left.
+/// Counts the points that the robot has reached or left.
 void count(RobotView& world, int i) {
   countPoints(world, i, world.fleet.reference[i]);
   world.fleet.count_at[i] = nextCount(world, i);
 }
 
-/// A robot that cruises and needs a look now.
+/// A cruising robot that needs attention now.
 struct Attention {
   int robot = -1;
-  bool ended = false;     ///< Its reference has.
-  double clear_time = 0;  ///< [s] for which its way is free from here, if it has to be known.
+  bool ended = false;     ///< Whether its reference has ended.
+  double clear_time = 0;  ///< Duration for which its way is free from here [s], if needed.
 };
 
-void attend(MotionView& world, const Attention& due, double now) {
+void attend(TaskView& world, Obstacles& obstacles, const Attention& due, double now) {
   FleetState& f = world.fleet;
   const int i = due.robot;
   bool ended = due.ended;
   if (f.reference[i] >= f.count_at[i]) count(world, i);
   if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.clock.dt);
   if (ended) return moved(f, i);
-  // A robot that has just read a code may take another way.
+  // A robot that has just read a code may change its way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
-  if (f.clear_until[i] <= now && !noteClearance(world, world.obstacles, i, time()))
-    return moved(f, i);
+  if (f.clear_until[i] <= now && !noteClearance(world, obstacles, i, time())) return moved(f, i);
   planAttention(world, i, now);
 }
 
 enum : char { kNeedsALook = 1, kCarries = 2 };
 
-/// One step of those of block `b` that cruise; tells what is to be done for it then.
+/// Advances the cruising robots of block `b` by one step. Returns the attention that the block
+/// needs.
 char advanceBlock(FleetState& f, int b, double dt, double now) {
   const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
   std::int64_t any = 0, loaded = 0;
@@ -216,7 +216,7 @@ char advanceBlock(FleetState& f, int b, double dt, double now) {
   return static_cast<char>((needs_a_look ? kNeedsALook : 0) | (loaded ? kCarries : 0));
 }
 
-/// Adds those of block `b` that need a look.
+/// Adds the robots of block `b` that need attention.
 void findAttention(const Scene& world, int b, double now, std::vector<Attention>* out) {
   const FleetState& f = world.fleet;
   const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
@@ -227,9 +227,9 @@ void findAttention(const Scene& world, int b, double now, std::vector<Attention>
   }
 }
 
-/// What each finds on its way is worked out on all threads, where all have gone: what is noted then
-/// changes nothing of it.
-void attendAll(MotionView& world, std::vector<Attention> all, double now) {
+/// Computes clear times on all threads, after all robots have moved. Storing them later does not
+/// change their results.
+void attendAll(TaskView& world, Obstacles& obstacles, std::vector<Attention> all, double now) {
   const FleetState& f = world.fleet;
   world.schedule.workers->share(
       static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
@@ -239,10 +239,10 @@ void attendAll(MotionView& world, std::vector<Attention> all, double now) {
           if (asks) all[k].clear_time = clearTime(world, i, false);
         }
       });
-  for (const Attention& due : all) attend(world, due, now);
+  for (const Attention& due : all) attend(world, obstacles, due, now);
 }
 
-/// What a unit of reference moves, exactly or by the robot's own estimate.
+/// Sets the motion per unit of reference, exactly or by the robot's own estimate.
 void setMotion(RobotView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   if (f.localises) return beginStretch(world, i, per.yaw != 0);
@@ -258,7 +258,7 @@ void setMotion(RobotView& world, int i, const ReferenceMotion& per) {
 
 }  // namespace
 
-bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
+bool tryCruise(RobotView& world, Obstacles& obstacles, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   const double way = std::abs(f.reference_end[i] - f.reference[i]);
@@ -276,12 +276,12 @@ bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, world.obstacles, i, true)) {
+  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, obstacles, i, true)) {
     replanAttention(world, i);
     return true;
   }
   f.cruising[i] = 0;
-  if (f.localises) f.localisation[i].stretch.under_way = false;  // it has not gone anywhere
+  if (f.localises) f.localisation[i].stretch.under_way = false;  // it has not moved yet
   return false;
 }
 
@@ -293,7 +293,7 @@ void setReferenceEnd(RobotView& world, Obstacles& obstacles, int i, double goal)
   const bool goes_farther = goal > f.reference_end[i];
   f.reference_end[i] = goal;
   if (f.cruising[i] == 0) return;
-  // Its way was found free up to the old goal only.
+  // Its way was clear up to the old goal only.
   if (goes_farther && isPatchy(world)) return moved(f, i);
   if (saw_the_end && goes_farther && !findClearance(world, obstacles, i, false)) return moved(f, i);
   replanAttention(world, i);
@@ -314,7 +314,7 @@ void cruise(MotionView& world) {
     any |= world.schedule.cruised[b];
     if (world.schedule.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
   }
-  attendAll(world, std::move(due), next);
+  attendAll(world, world.obstacles, std::move(due), next);
   if (any & kCarries) world.storage.noteMove();
 }
 

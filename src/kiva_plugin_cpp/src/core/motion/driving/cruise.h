@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A robot cruises while it follows the reference of its segment exactly and nothing can come near:
-// its motors and the floor have force to spare, so that wheels and chassis do what the profile
-// says. Then a step is a few operations on arrays, several robots at a time; the same motion, to
-// rounding errors, as traction's equations give.
+// Cruising: a robot follows the reference of its segment exactly and nothing can come near. Its
+// motors and the floor have force to spare, so that wheels and chassis move as the profile. A step
+// then is a few operations on arrays, for several robots at a time. The motion is that of
+// traction's equations, up to rounding errors.
 #pragma once
 
 #include <cmath>
@@ -12,27 +12,27 @@
 
 namespace kiva {
 
-/// The direction of a reference: motion of the chassis in world a unit of reference [m or rad], and
-/// the limits of its speed.
+/// The motion of the chassis in world a unit of reference [m or rad], and the limits of the
+/// reference's speed.
 struct ReferenceMotion {
-  double x = 0, y = 0, yaw = 0;  ///< [m, m, rad] a unit.
+  double x = 0, y = 0, yaw = 0;  ///< [m, m, rad] a unit of reference.
   double top_speed = 0;          ///< [m/s or rad/s]
   double acceleration = 0;       ///< [m/s² or rad/s²]; 0 = at once.
 };
 
-/// Returns whether an error [m, rad, m/s, rad/s] may be rounding's: steps that add to coordinates
-/// of hundreds of metres leave up to 1e-9 m.
+/// Returns whether an error [m, rad, m/s, rad/s] may be due to rounding: steps that add to
+/// coordinates of hundreds of metres leave up to 1e-9 m.
 inline bool isExact(double error) { return std::abs(error) < 1e-8; }
 
-/// Lets the robot cruise along its segment from this step on, if it can and its way is free. It
-/// cruises until something else moves it, see moved(). Returns whether it cruises.
-bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
+/// Starts a cruise along the segment with this step, if the robot can and its way is free. The
+/// cruise lasts until something else moves the robot, see moved(). Returns whether it cruises.
+bool tryCruise(RobotView& world, Obstacles& obstacles, int robot, const ReferenceMotion& per);
 
-/// Sets the end of the robot's reference; its speed changes without a dip.
+/// Sets the end of the robot's reference, without a dip in its speed.
 void setReferenceEnd(RobotView& world, Obstacles& obstacles, int robot, double goal);
 
-/// Moves all cruising robots by one step. A robot stops cruising where its reference ends, or where
-/// it may meet others.
+/// Advances all cruising robots by one step. A robot stops cruising where its reference ends, or
+/// where it may meet others.
 void cruise(MotionView& world);
 
 }  // namespace kiva

@@ -11,9 +11,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kGripReserve = 0.9;    // share of the grip that plans count on
-constexpr double kLeastPlanned = 0.05;  // [m/s²]: plans need some
-constexpr double kGripsAll = 1e16;      // Coulomb coefficient: the wheels' decides
+constexpr double kGripReserve = 0.9;    // share of the grip that plans use
+constexpr double kLeastPlanned = 0.05;  // [m/s²]; plans need a positive one
+constexpr double kGripsAll = 1e16;  // Coulomb coefficient of a floor where the wheels' own decides
 
 double plannedLimit(const Scene& world, int robot, double (*limit)(const Vehicle&),
                     double nominal) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limits by which robots of either drive model plan: accelerations, with their load and the floor.
+// Limits of plans for robots of either drive model: accelerations with their load on the floor.
 #pragma once
 
 #include "core/motion/wheels/vehicle.h"
@@ -11,16 +11,16 @@ namespace kiva {
 /// Returns the vector from the robot's origin to its centre of mass, along the world's axes [m].
 Vector3 centreFromOrigin(const Fleet& fleet, int robot);
 
-/// Returns the vehicle by which a robot plans: itself with its load, on a floor with the friction
-/// of its drive's parameters, less a reserve for corrections.
+/// Returns the vehicle for plans: the robot with its load, on a floor with the friction of its
+/// drive's parameters, less a reserve for corrections.
 Vehicle plannedVehicle(const Scene& world, int robot);
 
 /// Returns the largest acceleration at which a robot's load does not tip [m/s²]; +inf without a
 /// load, or where loads are ideal.
 double loadLimit(const Scene& world, int robot);
 
-/// Returns the acceleration by which drives are planned, within the limits of motors and wheels
-/// under the load [m/s²]; 0 = at once.
+/// Returns the acceleration of planned drives [m/s²], within the limits of motors and wheels under
+/// the load; 0 = at once.
 double plannedAcceleration(const Scene& world, int robot);
 /// Returns the deceleration before obstacles, at least as large [m/s²].
 double plannedBraking(const Scene& world, int robot);

@@ -11,9 +11,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kView = 0.05;         // [m] around the camera in which a code's middle is seen
-constexpr double kSlipLength = 0.25;   // [m] on which a wheel slips alike
-constexpr double kMostDeviations = 3;  // what deviates more is not delivered
+constexpr double kView = 0.05;         // [m] around the camera in which it sees a code's centre
+constexpr double kSlipLength = 0.25;   // [m] over which a wheel's slip is constant
+constexpr double kMostDeviations = 3;  // limit of drawn errors in standard deviations
 
 RandomStream streamOf(RobotView& world, int robot, Matter matter) {
   Localisation& l = world.fleet.localisation[robot];

@@ -9,7 +9,7 @@
 
 namespace kiva {
 
-/// Distance before a code's middle at which it is read, as soon as it is in view [m].
+/// Distance before a code's centre from which it is read, as soon as it is in view [m].
 constexpr double kReadBefore = 0.04;
 
 /// Draws the calibration of a new robot's wheels, and sets its estimate to its pose.
@@ -19,15 +19,15 @@ void relocate(RobotView& world, int robot);
 /// Updates the estimate after a step in which the robot did not cruise, by its wheels and by codes
 /// that come into view.
 void track(TaskView& world, int robot);
-/// Reads codes in view. A code is read, or missed, once as it is passed, and again if the robot
-/// `stands` on it.
+/// Reads codes in view. A code is read, or missed, once in passing, and again if the robot `stands`
+/// on it.
 void readCode(RobotView& world, int robot, bool stands);
-/// Draws the slip of its wheels on the next `length` [m].
+/// Draws the slip of the wheels for the next `length` [m].
 void drawSlip(RobotView& world, int robot, double length);
 /// Returns the robot's odometry.
 Odometry odometryOf(const Scene& world, int robot);
 /// Stops a robot that has gone too far without a code, and reports it as lost. Returns whether it
-/// is.
+/// is lost.
 bool checkLost(TaskView& world, int robot);
 
 }  // namespace kiva

@@ -14,34 +14,34 @@ namespace {
 constexpr double kMostLag = 0.002;       // [m, rad]
 constexpr double kMostHeading = 0.02;    // [rad]
 constexpr double kMostAcross = 0.03;     // [m]
-constexpr double kMostMended = 0.005;    // [m/s] that motors mend in a step
-constexpr double kMostYawRate = 0.1;     // [rad/s] the same
-constexpr double kSteering = 0.5;        // [m] on which it comes back to its line, in two arcs;
-constexpr double kLeastSteering = 0.15;  // [m]: on less it goes straight on
-constexpr double kGentle = 0.05;         // [1/m]: where they were narrower it takes all the room,
-constexpr double kNarrowest = 0.3;       // [1/m]: and drives none that is narrower still
-constexpr double kJustRead = 0.02;       // [m] by which a reading may put it back
-constexpr double kTiny = 1e-9;           // [m]
+constexpr double kMostMended = 0.005;    // [m/s] that motors correct in a step
+constexpr double kMostYawRate = 0.1;     // [rad/s] likewise
+constexpr double kSteering = 0.5;        // [m] on which it returns to its line, in two arcs;
+constexpr double kLeastSteering = 0.15;  // [m]; on a shorter way it drives straight on
+constexpr double kGentle = 0.05;    // [1/m]; tighter arcs are stretched to all the room there is,
+constexpr double kNarrowest = 0.3;  // [1/m]; and even tighter ones are not driven
+constexpr double kJustRead = 0.02;  // [m] by which a reading may move it back
+constexpr double kTiny = 1e-9;      // [m]
 
-/// The believed place seen along a segment.
-struct OnLine {
+/// The believed pose relative to a segment.
+struct PoseOnLine {
   double along, across;  // [m]; across to the left
   double heading;        // [rad]
 };
 
-OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
+PoseOnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
   const double dx = at.x - segment.x, dy = at.y - segment.y;
   return {c * dx + s * dy, c * dy - s * dx, at.yaw - segment.yaw};
 }
 
-/// Returns where along the segment the next code comes into view.
+/// Returns the distance along the segment at which the next code comes into view.
 double nextCode(const WorldSettings& settings, double along) {
   const double cell = settings.grid_spacing;
   return std::ceil((along + kReadBefore + kJustRead) / cell) * cell - kReadBefore;
 }
 
-/// What a unit of reference moves the chassis and turns the wheels, as the robot really is.
+/// Sets the motion of chassis and wheels per unit of reference, by the robot's true properties.
 void setMotion(FleetState& f, int i) {
   const Localisation& l = f.localisation[i];
   const DriveParameters& drive = f.robots[i].drive;
@@ -49,21 +49,21 @@ void setMotion(FleetState& f, int i) {
   const double aside = (stretch.turns ? 1 : stretch.curvature) * l.believed.separation / 2;
   double rolled[2];
   for (int wheel = 0; wheel < 2; ++wheel) {
-    const double way = (stretch.turns ? 0 : 1) + (wheel == 0 ? -aside : aside);  // believed
+    const double way = (stretch.turns ? 0 : 1) + (wheel == 0 ? -aside : aside);  // as believed
     f.per_wheel[wheel][i] = way / (l.believed.radius[wheel] * (1 + l.slip[wheel]));
     rolled[wheel] = f.per_wheel[wheel][i] * drive.wheel_radius;
   }
   const double ahead = stretch.turns ? 0 : (rolled[0] + rolled[1]) / 2;
   f.per_yaw[i] = (rolled[1] - rolled[0]) / drive.wheel_separation;
-  // Along the chord of the arc: it ends where the arc does.
+  // The chassis moves along the arc's chord, and so ends where the arc does.
   const double length = stretch.turns ? 0 : stretch.until - stretch.from;
   const double heading = f.yaw[i] + f.per_yaw[i] * length / 2;
   f.per_x[i] = ahead * std::cos(heading);
   f.per_y[i] = ahead * std::sin(heading);
 }
 
-/// Two arcs of half the length each that end on the line, along it.
-void setArcs(Stretch* stretch, const OnLine& at, double length) {
+/// Sets two arcs of half the length each that end on the line, along it.
+void setArcs(Stretch* stretch, const PoseOnLine& at, double length) {
   stretch->curvature = -4 / (length * length) * (at.across + 0.75 * at.heading * length);
   stretch->next_curvature = -2 * at.heading / length - stretch->curvature;
   stretch->next_length = length / 2;
@@ -74,7 +74,7 @@ double narrowest(const Stretch& stretch) {
   return std::max(std::abs(stretch.curvature), std::abs(stretch.next_curvature));
 }
 
-void steerBack(Stretch* stretch, const OnLine& at, double room) {
+void steerBack(Stretch* stretch, const PoseOnLine& at, double room) {
   stretch->curvature = stretch->next_curvature = stretch->next_length = 0;
   stretch->until = stretch->from + room;
   if (room < kLeastSteering) return;
@@ -85,7 +85,7 @@ void steerBack(Stretch* stretch, const OnLine& at, double room) {
   stretch->next_curvature *= share;
 }
 
-/// Returns the way to the next code, the goal, or where it would be lost.
+/// Returns the distance to the next code, to the goal, or to the point where it would be lost.
 double roomAhead(const Scene& world, int i, double along) {
   const FleetState& f = world.fleet;
   const Localisation& l = f.localisation[i];
@@ -94,7 +94,7 @@ double roomAhead(const Scene& world, int i, double along) {
   return std::min({to_code, to_goal, std::max(kTiny, l.lost_at - l.since_code)});
 }
 
-/// The end of its drive is where it was, but it is elsewhere: it brakes as hard as that takes.
+/// Adapts the deceleration to the goal, since the robot is not where it believed to be.
 void brakeFor(RobotView& world, int i) {
   FleetState& f = world.fleet;
   if (f.acceleration[i] == 0) return;
@@ -109,7 +109,8 @@ void brakeFor(RobotView& world, int i) {
   }
 }
 
-/// Begins the next arc of the way back. Returns false if there is none: straight on then.
+/// Begins the next arc of the way back to the line. Returns false if there is none: straight on
+/// then.
 bool nextArc(RobotView& world, int i, double along) {
   Stretch& stretch = world.fleet.localisation[i].stretch;
   if (stretch.next_length == 0) return false;
@@ -147,7 +148,7 @@ void beginStretch(RobotView& world, int i, bool turns) {
     drawSlip(world, i,
              std::max(0.1, std::abs(f.reference_end[i] - l.pose.yaw) * l.believed.separation / 2));
   } else {
-    const OnLine at = onLine(l.pose, f.tasks[i].segments.front());
+    const PoseOnLine at = onLine(l.pose, f.tasks[i].segments.front());
     f.reference[i] = at.along;
     stretch.from = at.along;
     steerBack(&stretch, at, roomAhead(world, i, at.along));
@@ -169,7 +170,7 @@ bool continueStretch(TaskView& world, int i) {
   readCode(world, i, false);
   const bool looked = l.draws != draws;
   if (checkLost(world, i)) return false;
-  const OnLine at = onLine(l.pose, f.tasks[i].segments.front());
+  const PoseOnLine at = onLine(l.pose, f.tasks[i].segments.front());
   f.reference[i] = stretch.from = at.along;
   if (looked) {
     steerBack(&stretch, at, roomAhead(world, i, at.along));

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stretches: how a robot cruises that drives by an estimated pose. On each stretch it steers an arc
-// by its odometry, while its true path deviates a little. At the end of a stretch it uses the codes
-// that it read, and steers back onto its line.
+// Stretches: the cruise of a robot with an estimated pose. On each stretch it steers an arc by its
+// odometry, while its true path deviates a little. At the end of a stretch it uses the codes that
+// it read, and steers back onto its line.
 #pragma once
 
 #include "core/state/views/task_view.h"
 
 namespace kiva {
 
-/// Returns whether the errors of the reference and off the line [m, rad] allow a stretch to begin.
+/// Returns whether lag and errors off the line [m, rad] allow a stretch to begin.
 bool isOnCourse(double lag, double heading, double across);
-/// Returns whether the chassis moves as its reference, but for errors that motors correct in a
-/// step.
+/// Returns whether the chassis moves as its reference, up to errors that motors correct in a step.
 bool keepsUpByEstimate(const FleetState& fleet, int robot, bool turns);
 /// Plans the robot's next stretch from its estimated pose. The reference follows the estimate.
 void beginStretch(RobotView& world, int robot, bool turns);

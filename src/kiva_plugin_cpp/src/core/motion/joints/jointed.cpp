@@ -11,14 +11,14 @@
 namespace kiva {
 namespace {
 
-constexpr double kForeseen = 0.01;      // [m] above the floor at which a contact is looked at
-constexpr double kMending = 0.2;        // share of a contact's depth that a step takes back,
-constexpr double kMendSpeed = 0.05;     // [m/s] but no faster
+constexpr double kForeseen = 0.01;      // [m] above the floor up to which a contact is foreseen
+constexpr double kMending = 0.2;        // share of a contact's depth that a step corrects,
+constexpr double kMendSpeed = 0.05;     // [m/s], the limit of that
 constexpr double kSteady = 1e-6;        // [m/s, rad/s]
-constexpr double kSteepest = 0.01;      // cosine of a pitch beyond which headings mean nothing
+constexpr double kSteepest = 0.01;      // cosine of the largest pitch at which a heading is defined
 constexpr double kUnlimitedPush = 1e6;  // [Nm s]
 
-/// The chassis frame against the one that looks along the robot's heading, z up.
+/// The rotation of the chassis frame against the horizontal frame along the robot's heading, z up.
 struct Tilt {
   explicit Tilt(const Stance& s)
       : cos_pitch(std::max(kSteepest, std::cos(s.pitch))),
@@ -31,12 +31,13 @@ struct Tilt {
                        0, cos_roll, -sin_roll,                                 //
                        -sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll);
   }
-  /// Turning in the chassis frame from its rates about x and y and the heading's.
+  /// Returns the angular velocity in the chassis frame from the rates about x and y and that of the
+  /// heading.
   btVector3 turning(const Stance& s, double heading_rate) const {
     return {s.roll_rate, s.pitch_rate,
             (heading_rate * cos_pitch - s.pitch_rate * sin_roll) / cos_roll};
   }
-  /// Returns the rate of the heading, and so of yaw, of a chassis that turns like that.
+  /// Returns the rate of the heading, and so of yaw, for an angular velocity of the chassis.
   double headingRate(const btVector3& turning) const {
     return (turning.y() * sin_roll + turning.z() * cos_roll) / cos_pitch;
   }
@@ -44,33 +45,34 @@ struct Tilt {
   double cos_pitch, sin_pitch, cos_roll, sin_roll;
 };
 
-/// All in the chassis frame.
+/// Velocities in the chassis frame.
 struct Velocities {
   btVector3 linear;   // velocity of the centre of mass [m/s]
   btVector3 turning;  // [rad/s]
   double spin[2];     // rates of the wheels against the chassis [rad/s]
 };
 
-/// One direction at a contact, as the velocities see it.
-struct Row {
+/// One direction at a contact, with its effect on the velocities.
+struct ContactRow {
   btVector3 linear, angular;
   double spin[2];
-  // What a unit impulse along it does.
+  // Change of the turning velocities by a unit impulse.
   double turning[5];
 };
 
 struct FloorContacts {
   ContactProblem problem;
-  Row rows[ContactProblem::kMaxRows];
-  double wanted[ContactProblem::kMaxRows];  // least velocity along a normal [m/s]; else 0
+  ContactRow rows[ContactProblem::kMaxRows];
+  double target_speed[ContactProblem::kMaxRows];  // least velocity along a normal, 0 along the
+                                                  // ground [m/s]
 };
 
-/// A point of the robot close above, on or in the floor.
-struct Touch {
-  btVector3 at;  // chassis frame
+/// A point of the robot just above, on or in the floor.
+struct FloorTouch {
+  btVector3 at;  // position in the chassis frame
   double gap;    // [m]
   double friction;
-  int wheel;  // -1: of the chassis
+  int wheel;  // -1: the chassis itself
 };
 
 class JointedStep {
@@ -94,8 +96,8 @@ class JointedStep {
     findContacts();
     loadSprings();
     const double limit = drive_.acceleration == 0 ? kUnlimitedPush : drive_.motor_torque * dt_;
-    // A motor holds its wheel at the target as long as its torque suffices; then it gives what it
-    // has, and the wheel's speed is found with the floor's.
+    // A motor holds its wheel at the target while its torque suffices. Otherwise it gives its whole
+    // torque, and the wheel's speed is solved together with the floor's impulses.
     int free = 0;
     double motor[2] = {0, 0};
     for (int round = 0; round < 3; ++round) {
@@ -146,7 +148,7 @@ class JointedStep {
   void findContacts() {
     const double level = up_.dot(body_.axle);
     const double upright = std::sqrt(std::max(1e-12, 1 - level * level));
-    // From a wheel's centre towards its lowest point, per radius.
+    // Vector from a wheel's centre towards its lowest point, per radius.
     const btVector3 down = (body_.axle * level - up_) / upright;
     for (int wheel = 0; wheel < 2; ++wheel) {
       const JointedBody::Wheel& w = body_.wheels[wheel];
@@ -164,7 +166,7 @@ class JointedStep {
     }
   }
 
-  /// Casters are sprung: they bear their share of the weight wherever the chassis leans to.
+  /// Casters are sprung: each bears its share of the weight however the chassis leans.
   void loadSprings() {
     const double force = body_.spring_share * gravity_ / body_.inverse_mass;
     for (int i = 0; i < body_.low_feet && force > 0; ++i) {
@@ -175,25 +177,25 @@ class JointedStep {
     }
   }
 
-  void add(const Touch& touch) {
+  void add(const FloorTouch& touch) {
     if (touch.gap > kForeseen || contacts_.problem.contacts() == ContactProblem::kMaxContacts) {
       return;
     }
     const int row = contacts_.problem.rows();
     contacts_.problem.add(touch.friction);
     fill(row, touch, up_);
-    // A foreseen contact is met at the end of the step; one that sank in is lifted gently.
-    contacts_.wanted[row] =
+    // A foreseen contact closes at the end of the step; a point in the floor is lifted gently.
+    contacts_.target_speed[row] =
         touch.gap > 0 ? -touch.gap / dt_ : std::min(kMendSpeed, -kMending * touch.gap / dt_);
     if (touch.friction <= 0) return;
     const btVector3 ahead = body_.axle.cross(up_).normalized();
     fill(row + 1, touch, ahead);
     fill(row + 2, touch, up_.cross(ahead));
-    contacts_.wanted[row + 1] = contacts_.wanted[row + 2] = 0;
+    contacts_.target_speed[row + 1] = contacts_.target_speed[row + 2] = 0;
   }
 
-  void fill(int row, const Touch& touch, const btVector3& direction) {
-    Row& r = contacts_.rows[row];
+  void fill(int row, const FloorTouch& touch, const btVector3& direction) {
+    ContactRow& r = contacts_.rows[row];
     r.linear = direction;
     r.angular = (touch.at - body_.centre).cross(direction);
     r.spin[0] = r.spin[1] = 0;
@@ -202,8 +204,8 @@ class JointedStep {
     r.spin[touch.wheel] = body_.axle.cross(arm).dot(direction);
   }
 
-  /// Velocities after the step, with the wheels of bit mask `free` driven by the impulses `motor`
-  /// [Nm s], and the others held at their targets.
+  /// Computes the velocities after the step. Wheels in the bit mask `free` are driven by the
+  /// impulses `motor` [Nm s]; the others are held at their targets.
   void solve(int free, const double motor[2]) {
     const JointedBody::Response& response = body_.response[free];
     advanceFreely(free, response, motor);
@@ -211,20 +213,20 @@ class JointedStep {
     for (int i = 0; i < problem.rows(); ++i) respond(response, free, &contacts_.rows[i]);
     for (int i = 0; i < problem.rows(); ++i) {
       for (int j = 0; j <= i; ++j) problem.a[i][j] = problem.a[j][i] = coupling(i, j);
-      problem.b[i] = velocity(contacts_.rows[i]) - contacts_.wanted[i];
+      problem.b[i] = velocity(contacts_.rows[i]) - contacts_.target_speed[i];
     }
     problem.solve();
     for (int i = 0; i < problem.rows(); ++i) push(contacts_.rows[i], problem.x[i]);
   }
 
-  /// Without the floor.
+  /// Computes the velocities without the floor.
   void advanceFreely(int free, const JointedBody::Response& response, const double motor[2]) {
     const btVector3& w = before_.turning;
     const double around = w.dot(body_.axle);
     const double spins = before_.spin[0] + before_.spin[1];
     const btVector3 momentum =
         body_.inertia * w + body_.axle * (body_.spin_inertia * (spins + 2 * around));
-    btVector3 twist = momentum.cross(w) * dt_;  // Euler's equation in the turning frame
+    btVector3 twist = momentum.cross(w) * dt_;  // Euler's equation in the rotating frame
     double spin[2] = {0, 0};
     for (int wheel = 0; wheel < 2; ++wheel) {
       if (free >> wheel & 1) {
@@ -240,7 +242,7 @@ class JointedStep {
       change[i] = 0;
       for (int j = 0; j < 5; ++j) change[i] += response[i][j] * impulse[j];
     }
-    // The origin's velocity is what was kept: since then the centre has gone on around it.
+    // The velocity that is stored is that of the origin: the centre has moved on around it since.
     const btVector3 centripetal = w.cross(w.cross(body_.centre));
     after_.linear = before_.linear - (centripetal + up_ * gravity_) * dt_ + springs_push_;
     after_.turning = w + btVector3(change[0], change[1], change[2]);
@@ -250,10 +252,10 @@ class JointedStep {
     }
   }
 
-  static void respond(const JointedBody::Response& response, int free, Row* row) {
+  static void respond(const JointedBody::Response& response, int free, ContactRow* row) {
     const double impulse[5] = {row->angular.x(), row->angular.y(), row->angular.z(), row->spin[0],
                                row->spin[1]};
-    const int responding = free ? 5 : 3;  // held wheels keep their spins
+    const int responding = free ? 5 : 3;  // held wheels keep their speeds
     row->turning[3] = row->turning[4] = 0;
     for (int i = 0; i < responding; ++i) {
       row->turning[i] = 0;
@@ -262,24 +264,24 @@ class JointedStep {
   }
 
   double coupling(int i, int j) const {
-    const Row &r = contacts_.rows[i], &s = contacts_.rows[j];
+    const ContactRow &r = contacts_.rows[i], &s = contacts_.rows[j];
     return r.linear.dot(s.linear) * body_.inverse_mass + r.angular.x() * s.turning[0] +
            r.angular.y() * s.turning[1] + r.angular.z() * s.turning[2] + r.spin[0] * s.turning[3] +
            r.spin[1] * s.turning[4];
   }
 
-  double velocity(const Row& r) const {
+  double velocity(const ContactRow& r) const {
     return r.linear.dot(after_.linear) + r.angular.dot(after_.turning) +
            r.spin[0] * after_.spin[0] + r.spin[1] * after_.spin[1];
   }
 
-  void push(const Row& r, double impulse) {
+  void push(const ContactRow& r, double impulse) {
     after_.linear += r.linear * (impulse * body_.inverse_mass);
     after_.turning += btVector3(r.turning[0], r.turning[1], r.turning[2]) * impulse;
     for (int wheel = 0; wheel < 2; ++wheel) after_.spin[wheel] += r.turning[3 + wheel] * impulse;
   }
 
-  /// Returns what the motor of a held wheel had to give in this step [Nm s].
+  /// Returns the impulse that the motor of a held wheel gave in this step [Nm s].
   double motorImpulse(int wheel) const {
     const btVector3 turned = after_.turning - before_.turning;
     double needed =
@@ -298,14 +300,14 @@ class JointedStep {
   Stance& stance_;
   const Tilt tilt_;
   const btMatrix3x3 to_heading_;
-  const btVector3 up_;  // in the chassis frame
+  const btVector3 up_;  // vertical, in the chassis frame
   const double dt_, gravity_, floor_friction_;
-  const Ground ground_;  // under its wheels
+  const Ground ground_;  // ground under its wheels
   double cos_yaw_ = 1, sin_yaw_ = 0;
-  double target_[2];  // targets of the spins
+  double target_[2];  // target speeds of the wheels
   Velocities before_, after_;
-  btVector3 springs_push_{0, 0, 0};   // what they change of the velocity [m/s]
-  btVector3 springs_twist_{0, 0, 0};  // their angular impulse [Nm s]
+  btVector3 springs_push_{0, 0, 0};   // change of velocity by the springs [m/s]
+  btVector3 springs_twist_{0, 0, 0};  // angular impulse of the springs [Nm s]
   FloorContacts contacts_;
 };
 

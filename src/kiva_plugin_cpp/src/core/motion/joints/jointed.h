@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The reference drive model: a chassis on two jointed, motorised wheels and casters, with rigid
-// contacts and Coulomb friction at the floor. Each robot is a small system of its own, in eight
-// degrees of freedom: the chassis' six and the wheels' spins. The wheel joints hold by the choice
-// of coordinates (Featherstone 2008, chapter 3); motors and contacts are solved for as impulses of
-// a step (Stewart and Trinkle 1996). Robots and other things touch each other in Bullet, which
-// moves a robot in the plane as one of the traction drive.
+// contacts and Coulomb friction at the floor. Each robot is a small system of its own with eight
+// degrees of freedom: the chassis' six and the wheels' two. The choice of coordinates keeps the
+// wheel joints exact (Featherstone 2008, chapter 3). Motors and contacts are solved as impulses of
+// a step (Stewart and Trinkle 1996). Contacts with other models are Bullet's, which moves a robot
+// in the plane like one of the traction drive.
 #pragma once
 
 #include "core/motion/wheels/vehicle.h"
@@ -13,16 +13,16 @@
 
 namespace kiva {
 
-/// Changes velocities and wheel speeds of robot `i` by one step's gravity, motors and floor;
+/// Changes velocities and wheel speeds of the robot by one step of gravity, motors and floor;
 /// positions stay.
 void driveJointed(RobotView& world, int robot);
-/// Returns the vehicle that a jointed robot is: casters ahead of and behind the axle bear a part of
-/// the weight, and more of it when the robot speeds up or brakes.
+/// Returns the vehicle of a jointed robot. Casters ahead of and behind the axle bear a part of the
+/// weight, and more of it when the robot accelerates or brakes.
 Vehicle jointedVehicle(const Scene& world, int robot, const Ground& ground);
 
-/// Moves the chassis up, down and about by one step; its place in the plane has been found.
+/// Moves the chassis vertically, in roll and in pitch by one step, after its planar motion.
 void settleJointed(RobotView& world, int robot);
-/// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
+/// Ends the rocking of a standing chassis if it is small enough. Returns whether it was.
 bool restJointed(FleetState& fleet, int robot);
 
 }  // namespace kiva

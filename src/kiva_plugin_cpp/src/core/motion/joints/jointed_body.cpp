@@ -8,7 +8,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kLow = 0.01;  // [m] above the floor: a foot that is looked at in every step
+constexpr double kLow = 0.01;  // [m] above the floor up to which a foot is tested in every step
 
 const char* const kWheelNames[2] = {"left_wheel", "right_wheel"};
 
@@ -37,8 +37,8 @@ const Collision* tyreOf(const Link& wheel) {
   return nullptr;
 }
 
-/// Its radius is that of the tyre, which touches the floor in one point beneath its middle, as a
-/// crowned tyre does.
+/// Makes a wheel with the radius of its tyre, which touches the floor in one point beneath its
+/// centre, as a crowned tyre does.
 JointedBody::Wheel makeWheel(const Link& link, const DriveParameters& drive) {
   JointedBody::Wheel wheel{toBullet(link.pose_in_model.Pos()), drive.wheel_radius,
                            std::min(drive.friction, tyreFriction(link))};
@@ -56,7 +56,8 @@ void addBoxFeet(const Vector3& half, const Pose& pose, const Collision& collisio
   }
 }
 
-/// Where the shape could touch the floor. Round ones but balls stand on the box around them.
+/// Adds the points at which the shape could touch the floor. Round shapes except balls count as
+/// their boxes.
 void addFeet(const Collision& collision, const Pose& in_model,
              std::vector<JointedBody::Foot>* feet) {
   const Shape& shape = collision.shape;
@@ -90,7 +91,7 @@ void addFeet(const Link& link, const Pose& in_model, std::vector<JointedBody::Fo
   for (const Collision& collision : link.collisions) addFeet(collision, in_model, feet);
 }
 
-/// Low feet first, and how far the others keep from the floor.
+/// Sorts low feet first, and limits the tilt up to which the others stay off the floor.
 void sortFeet(JointedBody* body) {
   const auto height = [](const JointedBody::Foot& foot) { return foot.centre.z() - foot.radius; };
   const auto high =
@@ -99,13 +100,13 @@ void sortFeet(JointedBody* body) {
   body->low_feet = static_cast<int>(high - body->feet.begin());
   body->low_feet_reach = 1;
   for (auto foot = high; foot != body->feet.end(); ++foot) {
-    // It may come half of its height down and still be off the floor.
+    // The chassis may sink by half of the foot's height without floor contact.
     const double far = foot->centre.length() + foot->radius;
     body->low_feet_reach = std::min(body->low_feet_reach, 0.5 * height(*foot) / far);
   }
 }
 
-/// The casters' springs, and how far from the axle the robot leans on what.
+/// Sets the casters' springs, and their distances from the axle.
 void measureCasters(const Robot& robot, JointedBody* body) {
   int casters = 0;
   body->front_reach = body->rear_reach = 0;
@@ -121,7 +122,7 @@ void measureCasters(const Robot& robot, JointedBody* body) {
   body->spring_share = casters > 0 ? (1 - robot.drive.drive_wheel_load) / casters : 0;
 }
 
-/// Returns where the unit is on its robot; upright on the floor plane, as far as this goes.
+/// Returns the pose of the unit on its robot; in this model it is upright on the floor plane.
 Pose unitInModel(const Scene& world, int robot, int unit) {
   const double height = world.fleet.robots[robot].height + world.fleet.tower[robot];
   return Pose(0, 0, height, 0, 0, 0) * world.storage.units[unit].pose_on_carrier;
@@ -144,7 +145,7 @@ SpatialInertia addUp(const Scene& world, int robot, JointedBody* body) {
   return sum;
 }
 
-/// Returns the moment of the wheels' links about their axle.
+/// Returns the moment of inertia of the wheels' links about their axle.
 double axialMoment(const Model& model, const Vector3& axle) {
   double moment = 0;
   for (int side = 0; side < 2; ++side) {
@@ -156,7 +157,8 @@ double axialMoment(const Model& model, const Vector3& axle) {
   return moment;
 }
 
-/// Inverse of the rows and columns `dofs` of a symmetric matrix by Gauss-Jordan; the rest is 0.
+/// Computes the inverse of the rows and columns `dofs` of a symmetric matrix by Gauss-Jordan
+/// elimination; the rest is 0.
 void invert(const double matrix[5][5], const std::vector<int>& dofs, double out[5][5]) {
   const int n = static_cast<int>(dofs.size());
   double work[5][10] = {};
@@ -164,7 +166,7 @@ void invert(const double matrix[5][5], const std::vector<int>& dofs, double out[
     for (int j = 0; j < n; ++j) work[i][j] = matrix[dofs[i]][dofs[j]];
     work[i][n + i] = 1;
   }
-  for (int pivot = 0; pivot < n; ++pivot) {  // positive definite: no need to look for one
+  for (int pivot = 0; pivot < n; ++pivot) {  // no pivoting: the matrix is positive definite
     const double scale = 1 / work[pivot][pivot];
     for (int j = 0; j < 2 * n; ++j) work[pivot][j] *= scale;
     for (int i = 0; i < n; ++i) {
@@ -198,7 +200,7 @@ void fillResponses(JointedBody* body) {
   }
 }
 
-/// From the model's frame to the chassis frame.
+/// Transforms from the model's frame to the chassis frame.
 void raiseOrigin(JointedBody* body) {
   body->axle_height = 0.5 * (body->wheels[0].centre.z() + body->wheels[1].centre.z());
   const btVector3 up(0, 0, body->axle_height);
@@ -243,7 +245,7 @@ bool isFor(const JointedBody& body, const FleetState& fleet, int robot) {
   return body.tower == fleet.tower[robot] && hasLoadOf(body, fleet, robot);
 }
 
-/// Returns the inertia of the load, summed up again only if the load has changed.
+/// Returns the inertia of the load, summed again only after a change of the load.
 SpatialInertia loadOf(const Scene& world, int robot) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return SpatialInertia();
@@ -251,8 +253,8 @@ SpatialInertia loadOf(const Scene& world, int robot) {
   return old && hasLoadOf(*old, world.fleet, robot) ? old->load : sumUnit(world, unit);
 }
 
-/// Robots of one description are the same while they carry nothing and the tower is down; a step
-/// of a whole fleet spends much of its time on fetching what it knows about each robot.
+/// Returns the mechanism that robots of one description share while they carry nothing and the
+/// tower is down. A step of a whole fleet spends much of its time on loading each robot's data.
 std::shared_ptr<const JointedBody> shareBare(const Scene& world, int robot) {
   auto& known = world.jointed_bodies.bare;
   const ModelDescription* description =

@@ -11,13 +11,13 @@
 namespace kiva {
 namespace {
 
-constexpr double kNoLimit = 1e15;      // what is beyond is none
+constexpr double kNoLimit = 1e15;      // from here on a limit counts as none
 constexpr double kFastestMotor = 1e6;  // speed of a motor [rad/s, m/s]
 constexpr double kMostPush = 1e9;      // [Nm, N]
 
 bool isSlider(const Joint& joint) { return joint.kind == Joint::Kind::kPrismatic; }
 
-/// A joint in Bullet: its ends, where it sits and which way it goes, in world.
+/// A joint in Bullet: its bodies, its anchor and its axis in world.
 struct Mount {
   btTypedConstraint& constraint;
   btRigidBody& parent;
@@ -55,7 +55,7 @@ double rateOf(const Mount& mount, bool slides) {
   return (velocity(mount.child) - velocity(mount.parent)).dot(mount.axis);
 }
 
-/// Returns what resists a change of the joint's rate [kg m²] or [kg].
+/// Returns the inertia against a change of the joint's rate [kg m²] or [kg].
 double inertiaOf(const Mount& mount, bool slides) {
   const auto yields = [&](const btRigidBody& body) {
     if (body.isStaticObject()) return 0.0;
@@ -85,7 +85,7 @@ void setMotor(const Mount& mount, bool slides, double speed, double effort, doub
     slider(mount).setPoweredLinMotor(effort > 0);
     slider(mount).setTargetLinMotorVelocity(speed);
     slider(mount).setMaxLinMotorForce(effort);
-  } else {  // Bullet counts a hinge's angle from parent to child the other way round
+  } else {  // Bullet's angle of a hinge has the opposite sign
     hinge(mount).enableAngularMotor(effort > 0, -speed, effort * dt);
   }
 }
@@ -111,8 +111,8 @@ bool wantsToMove(const Model& model) {
   });
 }
 
-/// No stiffer than the step can follow (the symplectic Euler method is stable up to four times
-/// that).
+/// Limits the stiffness to what the step can integrate; the symplectic Euler method is stable up to
+/// four times that.
 void spring(const Mount& mount, const Joint& joint, double position, double dt) {
   const bool slides = isSlider(joint);
   const double stiffness = std::min(joint.stiffness, inertiaOf(mount, slides) / (dt * dt));
@@ -129,7 +129,7 @@ void driveJoint(const Model& model, int index, double dt) {
   setMotor(mount, slides, motor ? s.motor_speed : 0,
            std::min(motor ? s.motor_effort : s.friction, kMostPush), dt);
   if (s.damping <= 0) return;
-  // Exact for a joint alone, so that strong damping stops it and never throws it back.
+  // The exact solution for an isolated joint: strong damping stops it and never reverses it.
   const double inertia = inertiaOf(mount, slides);
   const double lost = inertia * (1 - std::exp(-s.damping * dt / std::max(inertia, 1e-12)));
   push(mount, slides, -rateOf(mount, slides) * lost / dt);
@@ -156,7 +156,7 @@ void forAxes(const Model& model, Visit visit) {
   }
 }
 
-/// Which wheel of a robot's a joint turns: 0 left, 1 right, -1 none.
+/// Returns the robot's wheel that a joint turns: 0 left, 1 right, -1 none.
 int wheelOf(const Joint& joint) {
   if (joint.child == "left_wheel") return 0;
   return joint.child == "right_wheel" ? 1 : -1;
@@ -169,7 +169,7 @@ int wheelOf(const Joint& joint) {
 struct Target {
   int joint;
   double position;
-  std::vector<int> links;  ///< What moves with it.
+  std::vector<int> links;  ///< Links that move with it.
 };
 
 Target makeTarget(const Model& model, const std::string& name, double position) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The joints of ordinary models: hinges and sliders in Bullet, with motors, damping and friction. A
-// robot's joints are its plugins' own.
+// The joints of ordinary models: hinges and sliders in Bullet, with motors, damping and friction.
+// Joints of robots belong to the robots' plugins.
 #pragma once
 
 #include <map>
@@ -12,9 +12,9 @@
 
 namespace kiva {
 
-/// Puts the joints of a rebuilt model at zero, as its description has them.
+/// Sets the joints of a rebuilt model to zero, as in its description.
 void initJoints(Model& model);
-/// Gives rebuilt joints the limits that were set since.
+/// Sets the limits of rebuilt joints that were changed since the description.
 void restoreLimits(Model& model);
 
 /// Applies motors, damping and friction before Bullet's step.
@@ -32,8 +32,8 @@ void setJoint(Model& model, int joint, const JointSettings& settings);
 void placeJoints(MotionView& world, Model& model, const std::map<std::string, double>& positions);
 /// Applies an effort for the next step [Nm] or [N].
 void pushJoint(Model& model, int joint, double effort);
-/// Returns the indices of the links that joints hold to `link`, itself among them; `without` is a
-/// joint that does not count, -1 = none.
+/// Returns the indices of the links that joints connect to `link`, including itself. The joint
+/// `without` is ignored, -1 = none.
 std::vector<int> linksHeldTo(const ModelDescription& description, int link, int without = -1);
 
 }  // namespace kiva

@@ -12,37 +12,37 @@ namespace kiva {
 namespace {
 
 constexpr double kFarthest = 1e6;  // [m] from the origin
-constexpr double kOffLine = 0.1;   // [m] off its line that a robot may drive
+constexpr double kOffLine = 0.1;   // [m] off its line up to which a robot may drive
 
-/// A cell of the grid, by its point.
-struct Cell {
+/// A cell of the grid, by its grid point.
+struct GridCell {
   std::int64_t column, row;
 };
 
-Cell cellAt(const WorldSettings& settings, double x, double y) {
+GridCell cellAt(const WorldSettings& settings, double x, double y) {
   return {std::llround(x / settings.grid_spacing), std::llround(y / settings.grid_spacing)};
 }
 
-bool isSlippery(const WorldSettings& settings, const Cell& cell) {
+bool isSlippery(const WorldSettings& settings, const GridCell& cell) {
   RandomStream random(settings.options.seed, Matter::kFloor,
                       static_cast<std::uint64_t>(cell.column),
                       static_cast<std::uint64_t>(cell.row));
   return random.chance(settings.realism.floor.slippery_cells);
 }
 
-/// Returns what the surface at (x, y) grips with as it was built.
+/// Returns the friction of the surface at (x, y) as built.
 double builtFriction(const Scene& world, double x, double y) {
   const double usual = world.floor.friction;
   return world.floor.cover ? world.floor.cover->frictionAt(x, y, usual) : usual;
 }
 
-/// Returns the least of it in a rectangle [m].
+/// Returns the smallest friction as built in a rectangle [m].
 double leastBuiltFriction(const FloorState& floor, const FloorPatch& area) {
   const double usual = floor.friction;
   return floor.cover ? floor.cover->leastFriction(area, usual) : usual;
 }
 
-/// Returns the friction of the uppermost patch at (x, y), or, without one, of the cell.
+/// Returns the friction of the uppermost patch at (x, y); without a patch, that of the cell.
 double frictionAt(const Scene& world, double x, double y) {
   for (auto patch = world.floor.patches.rbegin(); patch != world.floor.patches.rend(); ++patch) {
     if (patch->has(x, y)) return patch->friction;
@@ -53,7 +53,7 @@ double frictionAt(const Scene& world, double x, double y) {
   return std::min(real.friction, built);
 }
 
-/// Returns the least friction in a rectangle [m].
+/// Returns the smallest friction in a rectangle [m].
 double leastFriction(const Scene& world, const FloorPatch& area) {
   double least = leastBuiltFriction(world.floor, area);
   for (const FloorPatch& patch : world.floor.patches) {
@@ -61,8 +61,8 @@ double leastFriction(const Scene& world, const FloorPatch& area) {
   }
   const FloorRealism& real = world.settings.realism.floor;
   if (!real.enabled || real.friction >= least) return least;
-  const Cell first = cellAt(world.settings, area.min_x, area.min_y);
-  const Cell last = cellAt(world.settings, area.max_x, area.max_y);
+  const GridCell first = cellAt(world.settings, area.min_x, area.min_y);
+  const GridCell last = cellAt(world.settings, area.max_x, area.max_y);
   for (std::int64_t row = first.row; row <= last.row; ++row) {
     for (std::int64_t column = first.column; column <= last.column; ++column) {
       if (isSlippery(world.settings, {column, row})) return real.friction;
@@ -71,7 +71,7 @@ double leastFriction(const Scene& world, const FloorPatch& area) {
   return least;
 }
 
-/// Returns what a robot's wheels will have stood on when its reference has come to its goal.
+/// Returns the area on which a robot's wheels stand until its reference has come to its goal.
 FloorPatch areaAhead(const FleetState& f, int robot) {
   const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
   const double way = drives ? f.reference_end[robot] - f.reference[robot] : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots drive on: the floor, and what on it is more slippery, or grips better.
+// The ground of robots: the floor, and areas of it with another friction.
 #pragma once
 
 #include "core/motion/wheels/vehicle.h"
@@ -11,20 +11,19 @@ namespace kiva {
 /// The file name by which a world asks for a patch of floor with a friction of its own.
 constexpr char kFloorPatchPlugin[] = "libkiva_floor_patch.so";
 
-/// Throws DescriptionError.
+/// Reads a patch. Throws DescriptionError.
 FloorPatch readFloorPatch(const Parameters& parameters);
 
-/// Returns the floor as it is where nothing is said of it.
+/// Returns the ground outside of all patches.
 Ground groundOf(const Scene& world);
-/// Returns whether it is not the same everywhere.
+/// Returns whether friction differs between parts of the floor.
 bool isPatchy(const Scene& world);
-/// Returns what the robot's wheels stand on.
+/// Returns the ground under the robot's wheels.
 Ground groundUnder(const Scene& world, int robot);
-/// Returns what a robot may count on until its reference has come to its goal: the floor as it was
-/// built, which it knows; not what is slippery for a time.
+/// Returns the friction that a robot may rely on until its reference has come to its goal: that of
+/// the floor as built, which it knows, without temporary slipperiness.
 double knownFriction(const Scene& world, int robot);
-/// Returns the most slippery of what they will have stood on when its reference has come to its
-/// goal.
+/// Returns the most slippery ground under its wheels until its reference has come to its goal.
 Ground groundAhead(const Scene& world, int robot);
 
 }  // namespace kiva

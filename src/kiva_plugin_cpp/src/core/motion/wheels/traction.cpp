@@ -10,8 +10,8 @@
 namespace kiva {
 namespace {
 
-constexpr double kRestSpeed = 1e-9;  // [m/s, rad/s]: below, a braked robot stands
-constexpr double kSettled = 1e-12;   // [N s] of change in a sweep
+constexpr double kRestSpeed = 1e-9;  // [m/s, rad/s] below which a braked robot stands
+constexpr double kSettled = 1e-12;   // [N s], largest change in the last sweep
 constexpr int kMaxSweeps = 100;
 
 enum { kAhead, kAside, kTurn };  // components of a planar velocity
@@ -19,9 +19,10 @@ enum { kAhead, kAside, kTurn };  // components of a planar velocity
 /// The velocity of the centre of mass, along and across the heading, and about z.
 using Velocity = std::array<double, 3>;
 
-/// One wheel within a step. A motor holds its wheel at the target as long as its torque suffices;
-/// then it gives what it has, and the wheel's speed is found with the floor's.
-struct Wheel {
+/// One wheel within a step. A motor holds its wheel at the target while its torque suffices.
+/// Otherwise it gives its whole torque, and the wheel's speed is solved together with the floor's
+/// impulses.
+struct TractionWheel {
   double speed = 0;             // at the beginning of the step [rad/s]
   double target = 0;            // [rad/s]
   bool saturated = false;       // the motor is at its limit
@@ -29,7 +30,7 @@ struct Wheel {
   double friction[2] = {0, 0};  // impulse of the floor on the wheel, ahead and aside [N s]
 };
 
-/// What the floor does to a vehicle within one step.
+/// The floor's impulses on a vehicle within one step.
 class FloorFriction {
  public:
   FloorFriction(const Vehicle& vehicle, const Velocity& before, double dt)
@@ -44,9 +45,9 @@ class FloorFriction {
     share_[1] = 1 - share_[0];
   }
 
-  /// Finds the impulses that end the slip of both wheels, or, where that takes more than they
-  /// grip, those of Coulomb's friction: a circle that driving and holding sideways share.
-  void solve(Wheel wheels[2]) {
+  /// Computes the impulses that end the slip of both wheels. Where these exceed the grip, they are
+  /// those of Coulomb friction, whose circle driving and sideways holding share.
+  void solve(TractionWheel wheels[2]) {
     holdBoth(wheels);
     bool holds = true;
     for (int wheel = 0; wheel < 2; ++wheel) {
@@ -57,7 +58,7 @@ class FloorFriction {
     if (!holds) slide(wheels);
   }
 
-  Velocity after(const Wheel wheels[2]) const {
+  Velocity after(const TractionWheel wheels[2]) const {
     Velocity velocity = before_;
     for (int wheel = 0; wheel < 2; ++wheel) {
       const double* friction = wheels[wheel].friction;
@@ -69,13 +70,13 @@ class FloorFriction {
   }
 
  private:
-  /// Returns how much the floor's impulse on a saturated wheel changes its own rim's speed [1/kg].
-  double yielding(const Wheel& wheel) const {
+  /// Returns the change of a saturated wheel's rim speed per impulse of the floor on it [1/kg].
+  double yielding(const TractionWheel& wheel) const {
     return wheel.saturated ? v_.radius * v_.radius / v_.wheel_inertia : 0;
   }
 
   /// Returns the slip of the rim over the floor without friction in this step [m/s].
-  double slipAhead(const Wheel& wheel, int side, const Velocity& velocity) const {
+  double slipAhead(const TractionWheel& wheel, int side, const Velocity& velocity) const {
     const double spin =
         wheel.saturated ? wheel.speed + wheel.motor / v_.wheel_inertia : wheel.target;
     return velocity[kAhead] - velocity[kTurn] * arm_[side] - v_.radius * spin;
@@ -85,9 +86,9 @@ class FloorFriction {
     return velocity[kAside] - velocity[kTurn] * v_.centre[0];
   }
 
-  /// Both wheels hold: three unknowns, of which the one sideways is shared by their grips, since
-  /// wheels on one axle slip sideways as one.
-  void holdBoth(Wheel wheels[2]) const {
+  /// Holds both wheels: three unknowns. The sideways one is shared in proportion to their grips,
+  /// since wheels on one axle slip sideways together.
+  void holdBoth(TractionWheel wheels[2]) const {
     const double mass = 1 / v_.mass, turn = 1 / v_.inertia, cx = v_.centre[0];
     const double a00 = mass + arm_[0] * arm_[0] * turn + yielding(wheels[0]);
     const double a11 = mass + arm_[1] * arm_[1] * turn + yielding(wheels[1]);
@@ -96,7 +97,7 @@ class FloorFriction {
     const double a02 = arm_[0] * cx * turn, a12 = arm_[1] * cx * turn;
     const double b0 = slipAhead(wheels[0], 0, before_), b1 = slipAhead(wheels[1], 1, before_);
     const double b2 = slipAside(before_);
-    // By elimination of the last, which is alone where the centre of mass is over the axle.
+    // Eliminates the last unknown, which is decoupled if the centre of mass is over the axle.
     const double f0 = a02 / a22, f1 = a12 / a22;
     const double s00 = a00 - f0 * a02, s01 = a01 - f0 * a12, s11 = a11 - f1 * a12;
     const double c0 = b0 - f0 * b2, c1 = b1 - f1 * b2;
@@ -109,8 +110,8 @@ class FloorFriction {
     for (int wheel = 0; wheel < 2; ++wheel) wheels[wheel].friction[1] = share_[wheel] * aside;
   }
 
-  /// Block Gauss-Seidel over the wheels, each solved for exactly.
-  void slide(Wheel wheels[2]) const {
+  /// Iterates by block Gauss-Seidel over the wheels, each solved exactly.
+  void slide(TractionWheel wheels[2]) const {
     for (int wheel = 0; wheel < 2; ++wheel) {
       double* x = wheels[wheel].friction;
       const double size = std::hypot(x[0], x[1]);
@@ -125,8 +126,8 @@ class FloorFriction {
     }
   }
 
-  /// Returns how far its friction was from what it is with the other's as it is [N s].
-  double slideOne(Wheel wheels[2], int wheel) const {
+  /// Solves one wheel with the other fixed. Returns the change of its friction [N s].
+  double slideOne(TractionWheel wheels[2], int wheel) const {
     const double was[2] = {wheels[wheel].friction[0], wheels[wheel].friction[1]};
     wheels[wheel].friction[0] = wheels[wheel].friction[1] = 0;
     const Velocity others = after(wheels);
@@ -145,13 +146,14 @@ class FloorFriction {
   double share_[2];  // shares of the sideways hold
 };
 
-/// Impulse that the motor needs to have the wheel at its target after the step [Nm s].
-double neededMotor(const Vehicle& v, const Wheel& wheel) {
+/// Returns the impulse with which the motor brings the wheel to its target in the step [Nm s].
+double neededMotor(const Vehicle& v, const TractionWheel& wheel) {
   return v.wheel_inertia * (wheel.target - wheel.speed) + v.radius * wheel.friction[0];
 }
 
-/// Finds which motors are at their limits, and the floor's friction with it.
-void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit, Wheel wheels[2]) {
+/// Determines the motors that are at their limits, together with the floor's friction.
+void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit,
+                 TractionWheel wheels[2]) {
   for (int round = 0; round < 3; ++round) {
     floor->solve(wheels);
     bool changed = false;
@@ -165,7 +167,7 @@ void solveWheels(const Vehicle& v, FloorFriction* floor, double motor_limit, Whe
   }
 }
 
-double speedAfter(const Vehicle& v, const Wheel& wheel) {
+double speedAfter(const Vehicle& v, const TractionWheel& wheel) {
   if (!wheel.saturated) return wheel.target;
   return wheel.speed + (wheel.motor - v.radius * wheel.friction[0]) / v.wheel_inertia;
 }
@@ -176,11 +178,12 @@ void applyTraction(FleetState& fleet, int i, const Ground& ground, double dt) {
   const Vehicle v = vehicleOf(fleet.robots[i], ground);
   const double c = std::cos(fleet.yaw[i]), s = std::sin(fleet.yaw[i]);
   const double cx = v.centre[0], cy = v.centre[1], turn = fleet.yaw_rate[i];
-  // The robot's own velocity is what is kept: since then the centre has gone on around it.
+  // The velocity that is stored is that of the robot's origin: the centre has moved on around it
+  // since.
   const double around = turn * turn * dt;
   const Velocity before{c * fleet.vx[i] + s * fleet.vy[i] - turn * cy + around * cx,
                         -s * fleet.vx[i] + c * fleet.vy[i] + turn * cx + around * cy, turn};
-  Wheel wheels[2];
+  TractionWheel wheels[2];
   for (int side = 0; side < 2; ++side) {
     wheels[side].speed = fleet.wheel_speed[side][i];
     wheels[side].target = fleet.wheel_target[side][i];

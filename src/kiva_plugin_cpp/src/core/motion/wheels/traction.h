@@ -8,14 +8,14 @@
 
 namespace kiva {
 
-/// Changes velocities and wheel speeds of robot `i` by one step's motor torques and floor friction;
-/// positions stay. `dt` in [s].
+/// Changes velocities and wheel speeds of robot `i` by one step of motor torques and floor
+/// friction; positions stay. `dt` in [s].
 void applyTraction(FleetState& fleet, int i, const Ground& ground, double dt);
 
-/// Moves robot `i` by one step at its velocities (semi-implicit Euler, as Bullet does).
+/// Moves robot `i` by one step of its velocities (semi-implicit Euler, as Bullet does).
 void integrate(Fleet& fleet, int i, double dt);
 
-/// Exactly at rest: no motion, no motor asked for any.
+/// Returns whether a robot is exactly at rest, with no motor commanded to move.
 bool atRest(const FleetState& fleet, int i);
 
 }  // namespace kiva

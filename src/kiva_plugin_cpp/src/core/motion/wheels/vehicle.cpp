@@ -7,10 +7,10 @@
 namespace kiva {
 namespace {
 
-constexpr double kLeast = 1e-3;  // [m/s², rad/s²]: plans need some
+constexpr double kLeast = 1e-3;  // [m/s², rad/s²]; plans need a positive one
 
-/// Returns the largest acceleration [m/s²] along the heading without yaw: each wheel gives its
-/// share.
+/// Returns the largest acceleration [m/s²] along the heading without yaw, at which each wheel gives
+/// its share.
 double alongLimit(const Vehicle& v, double lift) {
   double limit = kUnlimited;
   for (int wheel = 0; wheel < 2; ++wheel) {
@@ -84,7 +84,8 @@ double turningEffort(const Vehicle& v, double a, double speed) {
 }
 
 double turningLimit(const Vehicle& v, double angle) {
-  // It is fastest halfway, at the root of acceleration times angle: all forces go with the former.
+  // The load is highest halfway, at the largest speed; all forces are proportional to the
+  // acceleration.
   double effort = 0;
   for (double a : {1.0, -1.0}) {
     for (double speed : {0.0, std::sqrt(angle)}) {

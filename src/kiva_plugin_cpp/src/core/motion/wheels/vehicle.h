@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A robot with its load as what its motors move, and the accelerations that can be asked of it:
-// what motors give and wheels hold without slip.
+// A robot with its load as its motors move it, and the accelerations that motors can give and
+// wheels can hold without slip.
 #pragma once
 
 #include <algorithm>
@@ -13,35 +13,36 @@ namespace kiva {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// What robots drive on.
+/// The ground under a robot.
 struct Ground {
   double gravity = 9.81;        ///< [m/s²]
   double friction[2] = {1, 1};  ///< Coulomb coefficient of its surface under each wheel.
 };
 
-/// In the chassis frame, wheels upright on the floor; index 0 is the left wheel.
+/// A robot with its load in the chassis frame, wheels upright on the floor; index 0 is the left
+/// wheel.
 struct Vehicle {
   double mass;             ///< [kg]
   double inertia;          ///< About z through the centre of mass [kg m²].
-  double centre[2];        ///< The centre of mass [m].
-  double radius;           ///< A wheel's [m].
-  double half_separation;  ///< Between the wheels [m].
+  double centre[2];        ///< Position of the centre of mass [m].
+  double radius;           ///< Radius of a wheel [m].
+  double half_separation;  ///< Half of the distance between the wheels [m].
   double wheel_inertia;    ///< Moment of one wheel with its motor about the axle [kg m²].
   double torque;           ///< Limit of one motor [Nm].
   double grip[2];          ///< Largest friction force of each wheel at rest [N].
   double friction[2];      ///< Coulomb coefficient of each wheel on this ground.
   /// Load that an acceleration takes off the wheels, per mass and acceleration: half of it off each
-  /// when it drives off or brakes, off the inner one for sideways.
+  /// wheel when it accelerates or brakes, off the inner wheel for sideways accelerations.
   double lift_ahead = 0, lift_braking = 0, lift_sideways = 0;
 
-  /// Returns the share of a force along the heading that each wheel gives where it is not to yaw,
-  /// and of the weight where all of it is on the wheels.
+  /// Returns each wheel's share of a force along the heading without yaw, which is also its share
+  /// of the weight if the wheels bear all of it.
   double share(int wheel) const {
     const double aside = centre[1] / (2 * half_separation);
     return wheel == 0 ? 0.5 + aside : 0.5 - aside;
   }
-  /// Returns the share of the weight on a wheel where casters bear all but `on_wheels` of it, in
-  /// the middle.
+  /// Returns a wheel's share of the weight if the wheels bear `on_wheels` of it, and casters in the
+  /// middle the rest.
   double weight(int wheel, double on_wheels) const {
     return std::max(0.0, share(wheel) - (1 - on_wheels) / 2);
   }
@@ -54,8 +55,8 @@ double wheelFriction(const Robot& robot, int wheel, const Ground& ground);
 /// Returns the vehicle of the traction drive, whose weight stays where it is.
 Vehicle vehicleOf(const Robot& robot, const Ground& ground);
 
-/// Returns the acceleration, in any direction, from which on a robot's load tips off it [m/s²];
-/// +inf without one.
+/// Returns the acceleration, in any direction, from which a robot's load tips [m/s²]; +inf without
+/// a load.
 double tippingAcceleration(const Robot& robot, double gravity);
 
 /// Returns the largest acceleration along the heading [m/s²].
@@ -63,11 +64,12 @@ double drivingLimit(const Vehicle& vehicle);
 /// Returns the largest deceleration along the heading [m/s²]; a robot that brakes harder slides.
 double brakingLimit(const Vehicle& vehicle);
 
-/// Returns the acceleration [rad/s²] of a turn in place about the middle of the axle, from rest to
-/// rest over `angle` [rad] with half of it at that and half at minus that.
+/// Returns the largest acceleration [rad/s²] of a turn in place about the middle of the axle. The
+/// turn goes from rest to rest over `angle` [rad], the first half at that acceleration, the second
+/// at minus that.
 double turningLimit(const Vehicle& vehicle, double angle);
-/// Returns the share of what motors and wheels can give that such a turn takes at an acceleration
-/// [rad/s²] and a speed [rad/s]: a load off the centre has to be held on its circle, too.
+/// Returns the share of the motors' and wheels' limits that such a turn takes at an acceleration
+/// [rad/s²] and a speed [rad/s]: a load off the centre also has to be held on its circle.
 double turningEffort(const Vehicle& vehicle, double acceleration, double speed);
 
 }  // namespace kiva

@@ -14,9 +14,9 @@ bool setWheelSpeeds(World& world, int robot, double left, double right) {
   if (f.failures[robot] & (bitOf(Failure::kMotor) | kEmptyBattery)) return false;
   const DriveParameters& drive = f.robots[robot].drive;
   const double most = drive.speed / drive.wheel_radius;
-  const double wanted[2] = {left, right};
+  const double speeds[2] = {left, right};
   for (int wheel = 0; wheel < 2; ++wheel) {
-    f.wheel_target[wheel][robot] = std::clamp(wanted[wheel], -most, most);
+    f.wheel_target[wheel][robot] = std::clamp(speeds[wheel], -most, most);
   }
   if (left != 0 || right != 0) moved(f, robot);
   return true;

@@ -5,10 +5,9 @@
 
 namespace kiva {
 
-/// Sets the speeds that the wheel motors of an idle robot are commanded [rad/s], from the
-/// next step on and until its next command: no more than its top speed, and with all the torque
-/// that they have; its laser does not stop it. Returns false, and nothing changes, if it is at a
-/// command.
+/// Commands the wheel motors of an idle robot to speeds [rad/s], from the next step until its next
+/// command. Speeds are limited to its top speed; motors give all their torque, and the laser does
+/// not stop it. Returns false, with nothing changed, if the robot has a command.
 bool setWheelSpeeds(World& world, int robot, double left, double right);
 
 }  // namespace kiva

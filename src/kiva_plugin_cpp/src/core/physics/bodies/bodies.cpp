@@ -10,10 +10,11 @@
 namespace kiva {
 namespace {
 
-// What is slower for two seconds falls asleep; Bullet's own 0.8 m/s would stop a pendulum.
+// Speed below which a body falls asleep after two seconds; Bullet's own 0.8 m/s would stop a
+// pendulum.
 constexpr double kAsleep = 0.005;  // [m/s, rad/s]
 
-/// What the bodies of one model share.
+/// The data that the bodies of one model share.
 struct BodyContext {
   bool is_static;
   btTransform model_pose;
@@ -61,7 +62,7 @@ LinkBody makeBody(const Link& link, int index, const BodyContext& context) {
   }
   btCollisionShape* shape = out.shape.compound.get();
   LinkBody body = finishBody(std::move(out), link, context, shape);
-  // A contact that is foreseen slows a body down before it could bounce.
+  // A foreseen contact would slow a body down before it could bounce.
   const bool bounces = std::any_of(link.collisions.begin(), link.collisions.end(),
                                    [](const Collision& c) { return c.restitution > 0; });
   if (bounces) body.body->setContactProcessingThreshold(0);

@@ -15,15 +15,15 @@
 namespace kiva {
 namespace {
 
-// GJK works on a core shape and rounds its edges by this margin; contacts stay exact to less than
-// half of it.
+// Margin by which GJK shrinks a shape and rounds its edges; the error of contacts is less than half
+// of it.
 constexpr double kMargin = 0.0002;  // [m]
 
-// Bullet's own distance at which contacts are foreseen.
+// Distance at which Bullet itself foresees contacts.
 constexpr double kForesight = 0.02;  // [m]
 
-/// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
-/// boxes, and a fast body would sink in before its parts are looked at.
+/// A shape whose bounding box is padded by that distance. Bullet compares bare boxes within
+/// compounds, and a fast body would sink in before its parts are tested.
 template <typename Base>
 class Foreseeing : public Base {
  public:
@@ -35,9 +35,9 @@ class Foreseeing : public Base {
   }
 };
 
-/// A box whose faces are worked out once for all of its size: a body is built again whenever
-/// it comes near another, and has them as soon as they may touch.
-class Box : public Foreseeing<btBoxShape> {
+/// A box that computes its faces once for all boxes of that size. A body is rebuilt whenever it
+/// comes near another, and needs its faces as soon as they may touch.
+class FacetedBox : public Foreseeing<btBoxShape> {
  public:
   using Foreseeing<btBoxShape>::Foreseeing;
   bool initializePolyhedralFeatures(int shift) override {
@@ -62,7 +62,7 @@ class Box : public Foreseeing<btBoxShape> {
 };
 
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
-  auto box = std::make_unique<Box>(toBullet(shape.size * 0.5));
+  auto box = std::make_unique<FacetedBox>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
   return box;
 }
@@ -82,7 +82,7 @@ std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
   return ellipsoid;
 }
 
-/// The convex hull of a mesh that moves.
+/// Returns the convex hull of a movable mesh.
 std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
   std::vector<btVector3> points;
   for (const Vector3& vertex : mesh.vertices) points.push_back(toBullet(vertex));
@@ -95,7 +95,7 @@ std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
   return hull;
 }
 
-/// The triangles of a mesh that stands still, as they are.
+/// Sets the triangles of a static mesh.
 void setTriangles(const std::shared_ptr<const Mesh>& mesh, BodyPart* part) {
   part->triangles = treeOf(mesh);
   part->shape = part->triangles->makeShape();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversions between poses and vectors of descriptions and those of Bullet.
+// Converts poses and vectors of descriptions to those of Bullet, and back.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -6,7 +6,8 @@
 namespace kiva {
 namespace {
 
-/// Joint frame: origin at the anchor, `along` (0 = x, 2 = z) on the axis; in world.
+/// Returns the joint frame in world: origin at the anchor, axis `along` (0 = x, 2 = z) on the
+/// joint's axis.
 btTransform jointFrame(const Joint& joint, const btTransform& model, int along) {
   const btVector3 axis = toBullet(joint.axis_in_model).normalized();
   btVector3 u, v;
@@ -24,7 +25,7 @@ std::unique_ptr<btTypedConstraint> makeHinge(const Joint& joint, const JointEnds
   auto hinge = std::make_unique<btHingeConstraint>(
       ends.parent, ends.child, ends.parent.getWorldTransform().inverse() * frame,
       ends.child.getWorldTransform().inverse() * frame);
-  // Bullet counts a hinge's angle from parent to child the other way round.
+  // Bullet's angle of a hinge, from parent to child, has the opposite sign.
   if (joint.kind == Joint::Kind::kRevolute && joint.upper - joint.lower < 2 * SIMD_PI) {
     hinge->setLimit(-joint.upper, -joint.lower);
   }

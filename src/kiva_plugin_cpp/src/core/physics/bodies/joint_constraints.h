@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joints of a description as constraints of Bullet.
+// Builds joints of a description as constraints of Bullet.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -17,7 +17,7 @@ struct JointEnds {
   btRigidBody& child;
 };
 
-/// Returns the constraint that holds both ends where they are now as `joint` says; `model` is the
+/// Returns the constraint of `joint` between its bodies at their present poses; `model` is the
 /// model's pose in world.
 std::unique_ptr<btTypedConstraint> makeJoint(const Joint& joint, const JointEnds& ends,
                                              const btTransform& model);

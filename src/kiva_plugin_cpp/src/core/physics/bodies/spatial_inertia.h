@@ -6,21 +6,21 @@
 
 namespace kiva {
 
-/// Mass, centre and inertia of several bodies as one, all in one frame.
+/// Mass, centre and inertia of several bodies as one, in one frame.
 class SpatialInertia {
  public:
   using Matrix = Matrix3;
 
   void add(const Link& link, const Pose& link_in_frame);
   void addPoint(double mass, const Vector3& at);
-  /// Adds a sum in another frame, which stands at `pose` in this one.
+  /// Adds the inertia of another frame, which is at `pose` in this one.
   void add(const SpatialInertia& other, const Pose& pose);
 
   double mass() const { return mass_; }  ///< [kg]
   Vector3 centre() const { return mass_ > 0 ? moment_ / mass_ : Vector3::Zero; }
   /// Returns the moment of inertia about the frame's z axis [kg m²].
   double aboutZ() const { return about_origin_(2, 2); }
-  /// Inertia tensor about the centre, along the frame's axes [kg m²].
+  /// Returns the inertia tensor about the centre, along the frame's axes [kg m²].
   Matrix inertia() const { return about_origin_ - ofPoint(mass_, centre()); }
 
  private:

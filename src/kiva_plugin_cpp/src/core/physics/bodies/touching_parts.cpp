@@ -7,8 +7,8 @@
 namespace kiva {
 namespace {
 
-// Share of its depth by which a body that could bounce is lifted out in a step; more would throw
-// it. What moves faster than Bullet lets bounce is not lifted: it leaves by itself.
+// Share of its depth by which a step lifts a body that could bounce; more would throw it. A body
+// faster than kBouncing is not lifted: it leaves by itself.
 constexpr double kGentle = 0.02;
 constexpr double kBouncing = 0.2;  // [m/s]
 
@@ -16,7 +16,8 @@ const BodyPart* partOf(const btCollisionShape* shape) {
   return static_cast<const BodyPart*>(shape->getUserPointer());
 }
 
-/// Of a mesh, what touches is one of its triangles, which knows no part.
+/// Returns the part of a contact's shape. In a mesh that is a single triangle, which does not refer
+/// to its part.
 const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
   for (; wrapper; wrapper = wrapper->m_parent) {
     if (const BodyPart* part = partOf(wrapper->getCollisionShape())) return part;
@@ -24,7 +25,7 @@ const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
   return nullptr;
 }
 
-/// Of the contact's points against each other, along its normal [m/s].
+/// Returns the relative speed of a contact's points along its normal [m/s].
 double normalSpeed(const btManifoldPoint& point, const btCollisionObject* a,
                    const btCollisionObject* b) {
   btScalar speed = 0;
@@ -59,7 +60,8 @@ bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a,
   if (part_a && part_b) {
     point.m_combinedFriction = std::min(part_a->friction, part_b->friction);
     point.m_combinedRestitution = std::min(part_a->restitution, part_b->restitution);
-    if (part_a->restitution > 0 || part_b->restitution > 0) {  // not foreseen: they sink in a bit
+    if (part_a->restitution > 0 ||
+        part_b->restitution > 0) {  // not foreseen: they sink in slightly
       const bool bounces =
           point.m_combinedRestitution > 0 &&
           normalSpeed(point, a->getCollisionObject(), b->getCollisionObject()) > kBouncing;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parts of bodies that a contact of Bullet is between.
+// The parts of bodies in a contact of Bullet.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -9,13 +9,13 @@
 
 namespace kiva {
 
-/// Returns the part of a body that a contact touches; null for a plane, which has but one.
+/// Returns the part of a body in a contact; null for a plane, which has one part only.
 const BodyPart* touchedPart(const btCollisionObject* object, int part);
 /// Returns the model of that part.
 int modelOfPart(const btCollisionObject* object, int part);
 
-/// Gives a contact the friction and restitution of the two parts that touch: as in Gazebo, the
-/// smaller of both. Bullet calls this in every step that finds the contact.
+/// Sets friction and restitution of a contact by its two parts: as in Gazebo, the smaller value of
+/// both. Bullet calls this in every step that finds the contact.
 bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
                       const btCollisionObjectWrapper* b, int, int);
 

@@ -13,7 +13,7 @@ TriangleTree::TriangleTree(std::shared_ptr<const Mesh> of)
   }
   for (const auto& [a, b, c] : mesh_->triangles) triangles_->addTriangleIndices(a, b, c);
   first_ = std::make_unique<btBvhTriangleMeshShape>(triangles_.get(), true);
-  // Or each shape would go through all triangles to find its box.
+  // Set in advance: otherwise each shape would compute its box from all triangles.
   triangles_->setPremadeAabb(first_->getLocalAabbMin(), first_->getLocalAabbMax());
 }
 

@@ -9,16 +9,16 @@
 
 namespace kiva {
 
-/// Bullet's tree of the triangles of a mesh, which takes long to grow: all that stand in a world
-/// with that mesh share it.
+/// Bullet's tree of a mesh's triangles, which is slow to build. All models of a world with that
+/// mesh share it.
 struct TriangleTree {
   explicit TriangleTree(std::shared_ptr<const Mesh> of);
 
-  /// Returns a shape on it, which must not outlive it.
+  /// Returns a shape on the tree, which the tree must outlive.
   std::unique_ptr<btBvhTriangleMeshShape> makeShape() const;
 
  private:
-  std::shared_ptr<const Mesh> mesh_;  ///< Kept, so that no other mesh gets its address.
+  std::shared_ptr<const Mesh> mesh_;  ///< Kept, so that no other mesh has its address.
   std::unique_ptr<btTriangleMesh> triangles_;
   std::unique_ptr<btBvhTriangleMeshShape> first_;  ///< Owns the tree.
 };

@@ -14,10 +14,10 @@ namespace {
 
 using Input = btDiscreteCollisionDetectorInterface::ClosestPointInput;
 
-// GJK tells distances no worse than that.
+// Largest error of GJK's distances.
 constexpr btScalar kGjkExact = 1e-4;  // [m]
 
-// Boxes no farther apart than that may lie on each other, and keep what pressed them together.
+// Distance up to which boxes may lie on each other, and keep the impulses between them.
 constexpr btScalar kTouches = 1e-3;  // [m]
 
 /// The closest points of two shapes that are apart.
@@ -36,7 +36,7 @@ struct Closest : btDiscreteCollisionDetectorInterface::Result {
   btScalar distance = 0;
 };
 
-/// Passes contacts on, and tells whether there were any.
+/// Passes contacts on, and notes whether there was any.
 struct Counting : btDiscreteCollisionDetectorInterface::Result {
   explicit Counting(btManifoldResult& result) : out(result) {}
   void setShapeIdentifiersA(int part, int index) override { out.setShapeIdentifiersA(part, index); }
@@ -54,7 +54,7 @@ const btBoxShape* boxOf(const btCollisionObjectWrapper* wrapper) {
   return static_cast<const btBoxShape*>(wrapper->getCollisionShape());
 }
 
-/// Faces and edges of the box. Few boxes ever come so near to another that they are needed.
+/// Returns faces and edges of the box. Few boxes ever come so near to another that they need them.
 const btConvexPolyhedron& polyhedronOf(const btBoxShape* box) {
   if (!box->getConvexPolyhedron()) {
     const_cast<btBoxShape*>(box)->initializePolyhedralFeatures();
@@ -62,16 +62,16 @@ const btConvexPolyhedron& polyhedronOf(const btBoxShape* box) {
   return *box->getConvexPolyhedron();
 }
 
-/// Forgets contacts foreseen in the last step: where boxes turn fast, a normal of then says of
-/// corners that pass each other that they touch.
+/// Drops contacts foreseen in the last step. Where boxes turn fast, an old normal lets corners
+/// touch that pass each other.
 void forgetForeseen(btPersistentManifold& manifold) {
   for (int i = manifold.getNumContacts(); i-- > 0;) {
     if (manifold.getContactPoint(i).getDistance() > kTouches) manifold.removeContactPoint(i);
   }
 }
 
-/// Returns whether the boxes are farther apart than that along one of their axes: most that are
-/// near are.
+/// Returns whether the boxes are farther apart than `distance` along one of their axes, which holds
+/// for most of those that are near.
 bool areFarther(btScalar distance, const btBoxShape* a, const btBoxShape* b, const Input& input) {
   const btMatrix3x3 turn =
       input.m_transformA.getBasis().transposeTimes(input.m_transformB.getBasis());

@@ -9,11 +9,10 @@
 namespace kiva {
 
 /// Contacts of two boxes, foreseen while they are still apart.
-///
-/// Bullet offers two ways, and alone each lets fast boxes sink into each other: its box-box
-/// detector sees overlapping boxes only, and GJK loses the contact once a corner is in. So GJK
-/// finds the distance while there is one, its normal gives the whole patch of the faces that
-/// oppose, and the detector takes over where boxes overlap.
+/// Each of Bullet's two algorithms alone lets fast boxes sink into each other: its box-box detector
+/// sees overlapping boxes only, and GJK loses the contact once a corner is inside. So GJK computes
+/// the distance while there is one, its normal gives the whole patch between the opposing faces,
+/// and the detector takes over where boxes overlap.
 class BoxBoxContacts : public ContactAlgorithm {
  public:
   BoxBoxContacts(const btCollisionAlgorithmConstructionInfo& info,
@@ -37,7 +36,7 @@ class BoxBoxContacts : public ContactAlgorithm {
                btManifoldResult* result);
 
   btPersistentManifold* manifold_;
-  btAlignedObjectArray<btVector3> scratch_[2];  // of the clipping
+  btAlignedObjectArray<btVector3> scratch_[2];  // memory for clipping
 };
 
 }  // namespace kiva

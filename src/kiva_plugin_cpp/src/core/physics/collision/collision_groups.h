@@ -3,8 +3,8 @@
 
 namespace kiva {
 
-/// Collision filter groups: which bodies touch which others. Bodies of one model touch each other
-/// only where one of them is of `kSelfCollidingGroup` too.
+/// Collision filter groups of bodies. Bodies of one model touch each other only if one of them also
+/// is in `kSelfCollidingGroup`.
 enum CollisionGroup : int {
   kFloorGroup = 1,
   kStaticGroup = 2,

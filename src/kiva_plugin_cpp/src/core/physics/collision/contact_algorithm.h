@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// Base of algorithms that find contacts of two bodies step by step, without times of impact.
+/// Base of algorithms that compute contacts of two bodies step by step, without times of impact.
 class ContactAlgorithm : public btActivatingCollisionAlgorithm {
  public:
   using btActivatingCollisionAlgorithm::btActivatingCollisionAlgorithm;

@@ -12,30 +12,31 @@
 namespace kiva {
 namespace {
 
-constexpr btScalar kUpright = 1 - 1e-9;  // cosine of a tilt that is none
+constexpr btScalar kUpright = 1 - 1e-9;  // cosine of the largest tilt that counts as none
 
-// What is farther apart has no manifold, and bodies are never foreseen to touch beyond half of it:
-// what they go in a step lies between.
+// Distance up to which a pair has a manifold. Contacts are foreseen up to half of it at most, which
+// leaves the other half for the motion of a step.
 constexpr btScalar kNear = 0.04;  // [m]
 
-// Contacts are foreseen that far, and as far as both go in two steps.
+// Distance at which contacts are foreseen, besides the motion of both bodies in two steps, and its
+// limit.
 constexpr btScalar kClose = 0.002, kForeseen = 0.02;  // [m]
 
-// What reaches less far into the other's height stands on it, or is pressed against its underside.
+// Overlap of heights up to which a body stands on the other, or is pressed against its underside.
 constexpr btScalar kOnTop = 0.001;  // [m]
 
-// A point that is no farther from one of the last step is the same [m].
+// Largest distance of a point from the same point in the last step [m].
 constexpr btScalar kSamePoint = 0.01;
 
 const btCompoundShape& shapeOf(const btCollisionObjectWrapper* body) {
   return *static_cast<const btCompoundShape*>(body->getCollisionShape());
 }
 
-/// A part that stays upright, and where it is.
+/// A part that stays upright, and its place.
 struct Column {
-  Rectangle outline;  ///< In its body's frame, so that it is the same whichever way that turns.
+  Rectangle outline;  ///< In its body's frame, so that it does not depend on the body's heading.
   btScalar z_min = 0, z_max = 0;  ///< In world [m].
-  bool is_box = false;            ///< If not, the outline is that of the box that holds it.
+  bool is_box = false;            ///< If not, the outline is that of its bounding box.
 };
 
 Rectangle outlineOf(const btBoxShape& box, const btTransform& pose) {
@@ -60,7 +61,7 @@ Column columnOf(const btCompoundShape& shape, int child, btScalar body_z) {
   } else {
     column.outline.x = (min.x() + max.x()) / 2;
     column.outline.y = (min.y() + max.y()) / 2;
-    column.outline.hx = (max.x() - min.x()) / 2 - kForeseen;  // Bullet is told of more
+    column.outline.hx = (max.x() - min.x()) / 2 - kForeseen;  // Bullet's box is padded
     column.outline.hy = (max.y() - min.y()) / 2 - kForeseen;
   }
   column.z_min = min.z() + body_z;
@@ -77,12 +78,12 @@ std::vector<Column> columnsOf(const btCollisionObjectWrapper* body) {
   return columns;
 }
 
-/// Returns whether one is beside the other, and does not merely touch its top.
+/// Returns whether both are side by side, and not only one on top of the other.
 bool shareHeight(const Column& a, const Column& b) {
   return a.z_min + kOnTop < b.z_max && b.z_min + kOnTop < a.z_max;
 }
 
-/// Returns whether all of what `inner` covers on the floor is covered by `outer`.
+/// Returns whether `outer` covers all of the area of `inner`.
 bool covers(const Rectangle& outer, const Rectangle& inner) {
   const double dx = inner.x - outer.x, dy = inner.y - outer.y;
   const double c = std::abs(outer.c * inner.c + outer.s * inner.s);
@@ -91,7 +92,7 @@ bool covers(const Rectangle& outer, const Rectangle& inner) {
          std::abs(outer.c * dy - outer.s * dx) + s * inner.hx + c * inner.hy <= outer.hy;
 }
 
-/// Returns whether `other` always meets a box of that body before the part.
+/// Returns whether `other` always touches a box of that body before it touches the part.
 bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column& other) {
   for (std::size_t i = 0; i < body.size(); ++i) {
     const bool hides = i != part && body[i].is_box && shareHeight(body[i], other) &&
@@ -101,7 +102,8 @@ bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column
   return false;
 }
 
-/// Parts that could touch, whatever the bodies do; none if one of these is no upright box.
+/// Returns the parts that could touch in any motion of the bodies; nothing if one of them is not an
+/// upright box.
 std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Column>& a,
                                                            const std::vector<Column>& b) {
   std::vector<PlanarContacts::Pair> pairs;
@@ -121,7 +123,7 @@ std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Col
   return pairs;
 }
 
-/// Along the body's axes.
+/// Returns the bounding rectangle along the body's axes.
 Rectangle hullOf(const std::vector<Column>& columns) {
   Bounds box;
   for (const Column& column : columns) {
@@ -140,7 +142,7 @@ bool staysUpright(const btCollisionObject& object) {
          (body->isStaticObject() || isPlanar(*body));
 }
 
-/// Returns the height of their centres of mass in world [m]; that of what is higher, and can move.
+/// Returns the height of the centre of mass of the higher movable body, in world [m].
 btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
   btScalar height = 0;
   for (const auto* body : {a, b}) {
@@ -150,7 +152,7 @@ btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrap
   return height;
 }
 
-/// Returns how fast a point of the body may go [m/s].
+/// Returns the largest speed of a point of the body [m/s].
 btScalar speedOf(const btCollisionObject& object) {
   btVector3 centre;
   btScalar radius;
@@ -160,7 +162,7 @@ btScalar speedOf(const btCollisionObject& object) {
          std::abs(body.getAngularVelocity().z()) * (centre.length() + radius);
 }
 
-/// Returns what pressed there in the last step, if something did.
+/// Returns the impulse near that point in the last step; 0 if there was none.
 btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& local_a) {
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
@@ -171,7 +173,7 @@ btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& loca
   return 0;
 }
 
-/// Returns what Bullet calls a part among its body's.
+/// Returns Bullet's wrapper of a part of a body.
 btCollisionObjectWrapper partOf(const btCollisionObjectWrapper* body, int child) {
   return {body,
           shapeOf(body).getChildShape(child),
@@ -198,7 +200,7 @@ btManifoldPoint pointAt(const OutlineContact& contact, btScalar height,
   return point;
 }
 
-/// Instead of those of the last step.
+/// Replaces the points of the last step.
 void setPoints(const PlanarContacts::Pair& pair, btScalar height,
                const btCollisionObjectWrapper* body_a, const btCollisionObjectWrapper* body_b) {
   const OutlineContacts& contacts = pair.contacts;
@@ -212,7 +214,7 @@ void setPoints(const PlanarContacts::Pair& pair, btScalar height,
   for (int i = 0; i < contacts.count; ++i) pair.manifold->addManifoldPoint(points[i]);
 }
 
-/// In world, of an outline in the frame of a body that stands upright.
+/// Returns an outline in world that is in the frame of an upright body.
 Rectangle inWorld(const btCollisionObjectWrapper* body, const Rectangle& in_body) {
   const btTransform& pose = body->getWorldTransform();
   const btScalar c = pose.getBasis()[0][0], s = pose.getBasis()[1][0];
@@ -291,8 +293,8 @@ bool PlanarContacts::findPairContacts(const btCollisionObjectWrapper* a,
   return pair->contacts.count > 0;
 }
 
-/// Faces that press on each other keep the bodies upright, as far as they reach: the force acts as
-/// near to the height of the centre of mass as it can.
+/// Returns the height at which the force acts. Faces that press on each other keep the bodies
+/// upright, so that it acts as near to the centre of mass as the faces reach.
 double PlanarContacts::heightOfPush(double centre) const {
   double z_min = centre, z_max = centre;
   bool is_first = true;

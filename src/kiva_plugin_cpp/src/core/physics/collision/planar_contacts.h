@@ -11,19 +11,19 @@
 
 namespace kiva {
 
-/// Returns whether the body can do nothing but slide on the floor and turn on it.
+/// Returns whether the body can only slide and turn on the floor.
 bool isPlanar(const btRigidBody& body);
 
-/// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points
+/// Contacts between bodies of upright boxes that stay upright, one of which is planar: two points
 /// wherever outlines come near.
 class PlanarContacts : public ContactAlgorithm {
  public:
-  /// Two parts that share heights, and where they touch.
+  /// Two parts with common heights, and their contacts.
   struct Pair {
     int a = 0, b = 0;                          ///< Children of the compounds.
-    double z_min = 0, z_max = 0;               ///< Heights that they share, in world [m].
-    btPersistentManifold* manifold = nullptr;  ///< Null until they have come near.
-    OutlineContacts contacts;                  ///< Contacts of the last look.
+    double z_min = 0, z_max = 0;               ///< Common heights, in world [m].
+    btPersistentManifold* manifold = nullptr;  ///< Null until they come near.
+    OutlineContacts contacts;                  ///< Contacts of the last test.
   };
 
   PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
@@ -35,7 +35,7 @@ class PlanarContacts : public ContactAlgorithm {
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
-  /// Creates the algorithm for two compounds: this, or Bullet's own where one of them may tip or
+  /// Creates the algorithm for two compounds: this one, or Bullet's own if a compound may tip or
   /// has parts other than upright boxes.
   struct Creator : btCompoundCompoundCollisionAlgorithm::CreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,

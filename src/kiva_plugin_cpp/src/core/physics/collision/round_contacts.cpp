@@ -15,17 +15,17 @@ namespace {
 
 constexpr btScalar kInfinity = std::numeric_limits<btScalar>::infinity();
 
-/// What share of a line's load each of its ends carries where it rests evenly: with the rest in the
-/// middle it resists spinning as an even load does, by a quarter of friction times load times
-/// length.
+/// Share of a line contact's load at each of its ends if it rests evenly. With the rest in the
+/// middle, the resistance to spinning is that of an even load: a quarter of friction times load
+/// times length.
 constexpr btScalar kEndShare = 0.25;
 
 constexpr btScalar kRounding = 1e-9;  // [m]
 
-/// Bullet's solver begins with that share of a contact's last impulse.
+/// Share of a contact's last impulse with which Bullet's solver starts.
 constexpr btScalar kWarmStart = 0.85;
 
-/// A cylinder, or with round ends a capsule.
+/// A cylinder, or a capsule with its round ends.
 struct Round {
   explicit Round(const btCollisionObjectWrapper& wrapper)
       : centre(wrapper.getWorldTransform().getOrigin()),
@@ -47,14 +47,14 @@ struct Round {
   bool is_capsule;
 };
 
-/// A plane, or the face of a box; in world.
+/// A plane, or the face of a box, in world.
 struct Flat {
-  btVector3 normal, point;  // of the surface, outwards
+  btVector3 normal, point;  // outward normal, and a point of the surface
   btVector3 side[2];        // unit vectors along a face's edges
   btScalar half[2] = {kInfinity, kInfinity};
 
   btScalar above(const btVector3& at) const { return normal.dot(at - point); }
-  /// Returns whether that point lies straight over the surface or under it, and not beside.
+  /// Returns whether a point is above or below the surface itself, and not beside it.
   bool isLevelWith(const btVector3& at) const {
     for (int i = 0; i < 2; ++i) {
       if (half[i] < kInfinity && std::abs(side[i].dot(at - point)) > half[i] + kRounding) {
@@ -74,7 +74,7 @@ Flat planeOf(const btCollisionObjectWrapper& wrapper) {
   return flat;
 }
 
-/// Returns the face that lies towards `at`.
+/// Returns the face towards `at`.
 Flat faceOf(const btCollisionObjectWrapper& wrapper, const btVector3& at) {
   const btTransform& pose = wrapper.getWorldTransform();
   const btVector3 half =
@@ -97,15 +97,15 @@ Flat faceOf(const btCollisionObjectWrapper& wrapper, const btVector3& at) {
 }
 
 /// Points of the round body that may touch.
-struct Candidates {
+struct TouchCandidates {
   int count = 0;
   btVector3 at[4];
   bool is_line = false;  // the middle, then both ends
-  bool is_edge = false;  // none: what touches is an edge of the box
+  bool is_edge = false;  // no point: an edge of the box touches
   void add(const btVector3& point) { at[count++] = point; }
 };
 
-/// Shortens the line from a to b to what lies above the face. Returns whether any does.
+/// Clips the line from a to b to the part above the face. Returns false if nothing is left.
 bool clip(const Flat& flat, btVector3* a, btVector3* b) {
   btScalar from = 0, to = 1;
   const btVector3 way = *b - *a;
@@ -126,11 +126,11 @@ bool clip(const Flat& flat, btVector3* a, btVector3* b) {
   return true;
 }
 
-/// Finds contacts of the lower cap: corners of a face beneath it, and the part of its rim above the
-/// face.
-Candidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
-                     const btVector3& reach) {
-  Candidates out;
+/// Determines contacts of the lower cap: corners of a face beneath it, and the part of its rim
+/// above the face.
+TouchCandidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
+                          const btVector3& reach) {
+  TouchCandidates out;
   const btScalar lean = round.axis.dot(flat.normal);
   for (int corner = 0; corner < 4 && flat.half[0] < kInfinity; ++corner) {
     btVector3 at = flat.point + flat.side[0] * (corner & 1 ? flat.half[0] : -flat.half[0]) +
@@ -146,7 +146,7 @@ Candidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
   return out;
 }
 
-Candidates findCandidates(const Round& round, const Flat& flat, btScalar foresight) {
+TouchCandidates findCandidates(const Round& round, const Flat& flat, btScalar foresight) {
   const btScalar lean = round.axis.dot(flat.normal);  // cosine of the angle to the normal
   btVector3 down = round.axis * lean - flat.normal;   // across the axis, towards the surface
   if (down.length2() > SIMD_EPSILON) {
@@ -162,7 +162,7 @@ Candidates findCandidates(const Round& round, const Flat& flat, btScalar foresig
   if (!round.is_capsule && rim_rise < std::min(line_rise, foresight)) {
     return findOnCap(round, flat, round.centre + lower, reach);
   }
-  Candidates out;
+  TouchCandidates out;
   btVector3 a = round.centre + lower + reach, b = round.centre - lower + reach;
   if (line_rise < foresight && clip(flat, &a, &b)) {
     out.is_line = true;
@@ -176,7 +176,7 @@ Candidates findCandidates(const Round& round, const Flat& flat, btScalar foresig
   return out;
 }
 
-/// What the contacts carried in the last step.
+/// The impulses of the contacts in the last step.
 struct Load {
   int count = 0;
   btVector3 at[4];
@@ -216,15 +216,16 @@ void addContact(const btCollisionObjectWrapper& round, const btCollisionObjectWr
   manifold->addManifoldPoint(point);
 }
 
-/// Tyres are crowned: they bear on their middle. Between a light wheel and a heavy chassis the
-/// solver would not find in time that scrubbing at both edges comes to nothing.
+/// Returns whether the round body is a tyre. Tyres are crowned and bear on their middle: between a
+/// light wheel and a heavy chassis the solver would take too long to cancel the scrubbing of both
+/// edges.
 bool isTyre(const btPersistentManifold& manifold) {
   const btRigidBody* body = btRigidBody::upcast(manifold.getBody0());
   return body && body->getNumConstraintRefs() > 0;
 }
 
-/// The solver leaves the load about where it begins: spread over the line, with the moment that it
-/// had.
+/// Distributes the last load over the line, with its moment, since the solver hardly changes an
+/// initial distribution.
 void warmLine(const Load& load, btPersistentManifold* manifold) {
   const btVector3 middle = manifold->getContactPoint(0).getPositionWorldOnA();
   const btVector3 way = manifold->getContactPoint(2).getPositionWorldOnA() - middle;
@@ -243,7 +244,7 @@ void warmLine(const Load& load, btPersistentManifold* manifold) {
   }
 }
 
-/// What was carried there, or nearest to there.
+/// Starts each point with the impulse that was there, or nearest to there.
 void warmPoints(const Load& load, btPersistentManifold* manifold) {
   for (int i = 0; i < load.count; ++i) {
     int nearest = 0;
@@ -292,7 +293,7 @@ void RoundContacts::processCollision(const btCollisionObjectWrapper* a,
   const Round body(round);
   const Flat surface = edge_ ? faceOf(flat, body.centre) : planeOf(flat);
   const bool is_over = surface.isLevelWith(body.centre) && surface.above(body.centre) > 0;
-  const Candidates candidates =
+  const TouchCandidates candidates =
       findCandidates(body, surface, manifold_->getContactBreakingThreshold());
   if (edge_ && (!is_over || candidates.is_edge)) {
     result->setPersistentManifold(manifold_);

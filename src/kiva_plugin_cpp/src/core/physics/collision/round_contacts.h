@@ -7,17 +7,16 @@
 
 namespace kiva {
 
-/// Contacts of a cylinder or a capsule with a plane or the face of a box, found again in every
+/// Contacts of a cylinder or a capsule with a plane or the face of a box, computed anew in every
 /// step.
-///
-/// Bullet finds one point a step, at whichever end of the line of contact is lower by a rounding
-/// error, and keeps that of the other end while it rolls up and away with the body: a rolling
-/// cylinder gains energy by it, and a turning wheel scrubs over its edges. What is found here is
-/// the line itself, as its middle and its ends, or four points of a cylinder's rim if it stands.
+/// Bullet adds one point a step, at whichever end of the contact line is lower by a rounding error,
+/// and keeps the point of the other end while that rolls up and away with the body. So a rolling
+/// cylinder gains energy, and a turning wheel scrubs over its edges. This algorithm gives the whole
+/// line, as its middle and its ends, or four points of the rim of a standing cylinder.
 class RoundContacts : public ContactAlgorithm {
  public:
-  /// `round` is the cylinder or capsule, `flat` the plane or box; where such a body is met at an
-  /// edge of the box, what `at_edges` makes takes over.
+  /// `round` is the cylinder or capsule, `flat` the plane or box. Where the round body touches an
+  /// edge of the box, the algorithm that `at_edges` makes takes over.
   RoundContacts(const btCollisionAlgorithmConstructionInfo& info,
                 const btCollisionObjectWrapper* round, const btCollisionObjectWrapper* flat,
                 bool is_swapped, btCollisionAlgorithmCreateFunc* at_edges);

@@ -9,16 +9,16 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostRows = 400;          // of either kind: a direct solution takes their cube
-constexpr double kNoBound = 1e15;       // larger limits of an impulse count as unlimited
+constexpr int kMostRows = 400;          // limit of each kind: a direct solution takes cubic time
+constexpr double kNoBound = 1e15;       // limits of an impulse from which on it is unlimited
 constexpr double kSharing = 1e-9;       // see Ldl
-constexpr double kInert = 1e-6;         // least share of its mobility that joints left of a row
+constexpr double kInert = 1e-6;         // smallest share of a row's mobility that joints must leave
 constexpr double kNearlyStill = 1e-12;  // [m/s, rad/s]
-constexpr double kNoChange = 1e-9;      // [m/s, rad/s] of change in a sweep
+constexpr double kNoChange = 1e-9;      // [m/s, rad/s], largest change in the last sweep
 constexpr int kMostSweeps = 100;
 constexpr int kMostTrials = 8;
 
-/// What an impulse of 1 along `s` changes of the velocity along `r`.
+/// Returns the change of the velocity along `r` by an impulse of 1 along `s`.
 double coupling(btAlignedObjectArray<btSolverBody>& bodies, const btSolverConstraint& r,
                 const btSolverConstraint& s) {
   double sum = 0;
@@ -43,10 +43,10 @@ double coupling(btAlignedObjectArray<btSolverBody>& bodies, const btSolverConstr
   return sum;
 }
 
-/// What a unit of impulse yields to, in units of velocity.
+/// Returns the change of velocity per impulse due to softness.
 double softnessOf(const btSolverConstraint& row) { return row.m_cfm / row.m_jacDiagABInv; }
 
-/// The change of velocity along the row that is still missing.
+/// Returns the change of velocity along the row that is still missing.
 double missing(btAlignedObjectArray<btSolverBody>& bodies, const btSolverConstraint& row) {
   btSolverBody &a = bodies[row.m_solverBodyIdA], &b = bodies[row.m_solverBodyIdB];
   return row.m_rhs / row.m_jacDiagABInv - softnessOf(row) * row.m_appliedImpulse -
@@ -77,7 +77,7 @@ bool ArticulatedSolver::sortRows(const Island& island) {
   holding_.clear();
   yielding_.clear();
   kinds_.clear();
-  const auto add = [&](const Yielding& row, Kind kind) {
+  const auto add = [&](const YieldingRow& row, Kind kind) {
     yielding_.push_back(row);
     kinds_.push_back(kind);
   };
@@ -149,8 +149,8 @@ double ArticulatedSolver::residual(int i) const {
   return sum;
 }
 
-/// Takes it that all holds which does not pull, and finds by trial which contacts open, which
-/// motors give all they have. Returns whether nothing slips then.
+/// Assumes that every contact holds unless it pulls, then determines by trial which contacts open
+/// and which motors are at their limits. Returns whether nothing slips in that solution.
 bool ArticulatedSolver::solveHolding() {
   const int count = static_cast<int>(yielding_.size());
   hold_.assign(count, Hold::kFree);
@@ -193,7 +193,7 @@ bool ArticulatedSolver::solveHolding() {
   return false;
 }
 
-/// x of those rows so that nothing is missing along them.
+/// Computes x of those rows so that nothing is missing along them.
 void ArticulatedSolver::solveFree(const std::vector<int>& free) {
   const int count = static_cast<int>(free.size());
   SquareMatrix a;
@@ -211,7 +211,7 @@ void ArticulatedSolver::solveFree(const std::vector<int>& free) {
   for (int i = 0; i < count; ++i) x_[free[i]] = y[i];
 }
 
-/// Projected Gauss-Seidel (Jourdan, Alart, Jean 1998) from what was found.
+/// Iterates by projected Gauss-Seidel (Jourdan, Alart, Jean 1998) from the present solution.
 void ArticulatedSolver::iterate() {
   for (int sweeps = 0; sweeps < kMostSweeps && sweep() > kNoChange; ++sweeps) {
   }
@@ -232,13 +232,14 @@ double ArticulatedSolver::sweep() {
 
 double ArticulatedSolver::relax(int i) {
   if (a_[i][i] <= 0) return 0;
-  const double before = x_[i], given = yielding_[i].row->m_appliedImpulse;
-  x_[i] = std::clamp(before + residual(i) / a_[i][i], yielding_[i].least - given,
-                     yielding_[i].most - given);
+  const double before = x_[i], applied = yielding_[i].row->m_appliedImpulse;
+  x_[i] = std::clamp(before + residual(i) / a_[i][i], yielding_[i].least - applied,
+                     yielding_[i].most - applied);
   return std::abs(x_[i] - before) * a_[i][i];
 }
 
-/// Both directions of the surface at once, on Coulomb's circle. Joints may block one of them.
+/// Solves both directions of the surface together, on Coulomb's circle. Joints may block one of
+/// them.
 double ArticulatedSolver::relaxFriction(int i) {
   const double limit = yielding_[i].friction * std::max(0.0, impulse(yielding_[i].normal));
   const double a00 = a_[i][i], a01 = a_[i][i + 1], a11 = a_[i + 1][i + 1];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Islands with joints: robots with wheels, casters, arms.
+// The solver of islands with joints: robots with wheels, casters, arms.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -11,10 +11,10 @@
 
 namespace kiva {
 
-/// Finds the impulses of an island's joints and contacts. To go through them in turn, as Bullet
-/// does, takes thousands of rounds where light wheels bear a heavy chassis: until then it creeps.
-/// So what joints hold is eliminated directly (the Schur complement; Baraff 1996), and contacts,
-/// motors and limits are solved against what is left to move.
+/// Computes the impulses of an island's joints and contacts. Iterating over them, as Bullet does,
+/// takes thousands of rounds where light wheels bear a heavy chassis, which creeps until then. So
+/// the rows of joints are eliminated directly (the Schur complement; Baraff 1996), and contacts,
+/// motors and limits are solved for the remaining mobility.
 class ArticulatedSolver {
  public:
   /// Bullet's rows, set up for a step; a contact has two of friction.
@@ -25,17 +25,17 @@ class ArticulatedSolver {
     btConstraintArray& frictions;
   };
 
-  /// Sets the rows' impulses and what they change of velocities. Returns whether it did: not if
-  /// there are too many rows for a direct solution.
+  /// Sets the rows' impulses and applies them to the velocities. Returns false if there are too
+  /// many rows for a direct solution.
   bool solve(const Island& island);
 
  private:
-  /// A row that may give way: a contact, friction, a motor or a limit.
-  struct Yielding {
+  /// A row that may yield: a contact, friction, a motor or a limit.
+  struct YieldingRow {
     btSolverConstraint* row;
-    double least, most;   ///< Bounds of its impulse, without friction's [N s, Nm s].
-    int normal = -1;      ///< Row of the contact, for the first row of its friction.
-    double friction = 0;  ///< Its Coulomb coefficient.
+    double least, most;   ///< Limits of its impulse, except friction's [N s, Nm s].
+    int normal = -1;      ///< Row of the contact, in the first row of its friction.
+    double friction = 0;  ///< Coulomb coefficient of that friction.
   };
   enum class Hold : char { kFree, kAtLeast, kAtMost };
 
@@ -55,12 +55,12 @@ class ArticulatedSolver {
   enum class Kind : char { kBounded, kFriction };
 
   btAlignedObjectArray<btSolverBody>* bodies_ = nullptr;
-  std::vector<btSolverConstraint*> holding_;  ///< Rows of joints, which never give way.
-  std::vector<Yielding> yielding_;
+  std::vector<btSolverConstraint*> holding_;  ///< Rows of joints, which never yield.
+  std::vector<YieldingRow> yielding_;
   std::vector<Kind> kinds_;
   Ldl joints_;
-  SquareMatrix a_;             ///< What an impulse of a yielding row changes of another's velocity.
-  std::vector<double> b_, x_;  ///< Velocity that is missing; impulses to add.
+  SquareMatrix a_;  ///< Change of a yielding row's velocity by an impulse of another one.
+  std::vector<double> b_, x_;    ///< Missing velocities, and impulses to add.
   std::vector<double> missing_;  ///< Missing velocities of holding rows, multiplied by L⁻¹.
   std::vector<std::vector<double>> through_;  ///< L⁻¹ of the couplings of each yielding row.
   std::vector<Hold> hold_;

@@ -9,11 +9,11 @@
 namespace kiva {
 namespace {
 
-// Added to a row's own response: where contacts share a load that could rest on fewer, they share
-// it evenly, as if the ground were that soft.
+// Added to the diagonal, like a softness of the ground: contacts share a load evenly that could
+// rest on fewer.
 constexpr double kSoftness = 1e-9;
 constexpr double kHolds = 1e-12;    // [m/s]
-constexpr double kSettled = 1e-10;  // [m/s] of change in a sweep
+constexpr double kSettled = 1e-10;  // [m/s], largest change in the last sweep
 constexpr int kMaxSweeps = 100;
 constexpr int kMaxPivots = 4;
 
@@ -42,8 +42,8 @@ bool ContactProblem::isWithinFriction(int c) const {
   return along * along + across * across <= limit * limit;
 }
 
-/// Takes it that contacts hold which would sink in otherwise, and finds by trial which of them
-/// would have to pull and which others are needed. Returns whether that is the solution.
+/// Assumes that contacts hold which would sink in otherwise, then determines by trial which of them
+/// would pull and which others are needed. Returns whether that is the solution.
 bool ContactProblem::solveHolding() {
   bool holds[kMaxContacts];
   for (int c = 0; c < contacts_; ++c) holds[c] = b[first_[c]] < 0;
@@ -72,7 +72,7 @@ bool ContactProblem::holdWithinFriction() const {
   return true;
 }
 
-/// x of those rows so that their a x + b = 0, by a = L D L^T; of all others 0.
+/// Computes x of those rows so that their a x + b = 0, with a = L D L^T; x of all others is 0.
 void ContactProblem::solveActive(const int* active, int count) {
   double l[kMaxRows][kMaxRows], d[kMaxRows], y[kMaxRows];
   for (int i = 0; i < count; ++i) {
@@ -81,7 +81,7 @@ void ContactProblem::solveActive(const int* active, int count) {
     for (int j = 0; j < i; ++j) {
       double sum = a[active[i]][active[j]];
       for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      l[i][j] = sum;  // of L D, until it is divided below
+      l[i][j] = sum;  // row of L D, until it is divided below
     }
     for (int j = 0; j < i; ++j) {
       const double scaled = l[i][j] / d[j];
@@ -116,7 +116,7 @@ double ContactProblem::sweep() {
   return change;
 }
 
-/// Both directions along the ground at once, on Coulomb's circle.
+/// Solves both directions along the ground together, on Coulomb's circle.
 double ContactProblem::relaxFriction(int c) {
   const int row = first_[c] + 1;
   const double before[2] = {x[row], x[row + 1]};

@@ -19,14 +19,13 @@ class ContactProblem {
   int contacts() const { return contacts_; }
   bool hasFriction(int contact) const { return friction_[contact] > 0; }
 
-  /// Appends a contact; its rows' `a` and `b` are still to be filled.
+  /// Appends a contact; the caller then fills its rows of `a` and `b`.
   void add(double friction);
 
-  /// Finds x so that at every contact a x + b >= 0 along the normal, x >= 0 there, one of both
-  /// zero, and along the ground a x + b = 0 unless that takes more than friction · x_normal.
-  ///
-  /// Contacts that hold are solved for directly; where one slips or is about to lift off, by
-  /// projected Gauss-Seidel (Jourdan, Alart, Jean 1998) from there.
+  /// Computes x so that at every contact along the normal a x + b >= 0, x >= 0, and one of both is
+  /// zero; along the ground a x + b = 0, unless that takes more than friction · x_normal.
+  /// Contacts that hold are solved directly. If one slips or is about to lift off, projected
+  /// Gauss-Seidel (Jourdan, Alart, Jean 1998) continues from there.
   void solve();
 
   std::array<std::array<double, kMaxRows>, kMaxRows> a;  ///< Symmetric [1/kg]; both halves.

@@ -7,9 +7,9 @@ namespace kiva {
 namespace {
 
 constexpr int kMaxRounds = 30;
-constexpr double kExact = 1e-13;  // of the limit
+constexpr double kExact = 1e-13;  // relative to the limit
 
-/// x = -(a + shift)^-1 b.
+/// Computes x = -(a + shift)^-1 b.
 void solveShifted(double a00, double a01, double a11, double shift, const double b[2],
                   double x[2]) {
   const double d0 = a00 + shift, d1 = a11 + shift, determinant = d0 * d1 - a01 * a01;
@@ -26,8 +26,8 @@ void solveCoulomb(double a00, double a01, double a11, const double b[2], double 
     return;
   }
   solveShifted(a00, a01, a11, 0, b, x);
-  // On the circle slip and friction are opposite: a x + b = -shift x. Newton's method on
-  // 1 / |x(shift)|, which is nearly straight (Moré and Sorensen 1983), finds the shift.
+  // On the circle slip and friction are opposite: a x + b = -shift x. Newton's method on 1 /
+  // |x(shift)|, which is nearly linear (Moré and Sorensen 1983), computes the shift.
   double shift = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     const double size = std::sqrt(x[0] * x[0] + x[1] * x[1]);

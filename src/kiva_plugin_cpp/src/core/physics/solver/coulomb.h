@@ -3,9 +3,10 @@
 
 namespace kiva {
 
-/// The friction impulse x at one contact that ends its slip a x + b along both directions of the
-/// surface or, where that takes more than `limit`, one of that size against the slip that is left:
-/// Coulomb's law with its principle of largest dissipation. `a` is symmetric and positive definite.
+/// Computes the friction impulse x at one contact. It ends the slip a x + b along both directions
+/// of the surface; if that takes more than `limit`, it has that size and opposes the remaining
+/// slip, by Coulomb's law with the principle of maximum dissipation. `a` is symmetric and positive
+/// definite.
 void solveCoulomb(double a00, double a01, double a11, const double b[2], double limit, double x[2]);
 
 }  // namespace kiva

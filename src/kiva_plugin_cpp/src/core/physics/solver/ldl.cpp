@@ -15,15 +15,17 @@ void Ldl::factorise(SquareMatrix a, double softness) {
     d_[i] = own;
     for (int j = 0; j < i; ++j) {
       const double* const other = l_[j];
-      for (int k = 0; k < j; ++k) row[j] -= row[k] * other[k];  // of L D, until divided below
+      for (int k = 0; k < j; ++k)
+        row[j] -= row[k] * other[k];  // row of L D, until it is divided below
     }
     for (int j = 0; j < i; ++j) {
       const double scaled = row[j] / d_[j];
       d_[i] -= row[j] * scaled;
       row[j] = scaled;
     }
-    if (d_[i] < own * softness / 2) d_[i] = own * softness;  // rounding left less than there is
-    if (d_[i] <= 0) d_[i] = 1;                               // a row about nothing that moves
+    if (d_[i] < own * softness / 2)
+      d_[i] = own * softness;   // at least its softness, in spite of rounding
+    if (d_[i] <= 0) d_[i] = 1;  // a row without mobility
   }
 }
 

@@ -28,8 +28,8 @@ class SquareMatrix {
 /// A symmetric positive semidefinite matrix as L D Lᵀ.
 class Ldl {
  public:
-  /// Takes the lower half of `a`, each of its diagonal's elements grown by that share: what is held
-  /// more than once shares its load evenly.
+  /// Factorises the lower half of `a`, with each element of its diagonal increased by the share
+  /// `softness`: redundant constraints then share their load evenly.
   void factorise(SquareMatrix a, double softness);
   int size() const { return l_.size(); }
   /// Turns y into L⁻¹ y.

@@ -15,7 +15,7 @@
 namespace kiva {
 namespace {
 
-/// The parts of two compounds that Bullet is about to look at. It tells through a global hook only.
+/// The parts of two compounds that Bullet tests next; it reports them through a global hook only.
 thread_local const btCollisionShape* near_parts[2];
 
 bool noteParts(const btCollisionShape* a, const btCollisionShape* b) {
@@ -24,7 +24,7 @@ bool noteParts(const btCollisionShape* a, const btCollisionShape* b) {
   return true;
 }
 
-/// Which part of the body that is; 0 of one that has but one.
+/// Returns the index of that part in the body; 0 for a body with one part.
 int nearPart(const btCollisionObject* body) {
   if (!body->getCollisionShape()->isCompound()) return 0;
   const auto* compound = static_cast<const btCompoundShape*>(body->getCollisionShape());
@@ -52,7 +52,8 @@ bool jointComesBefore(const btTypedConstraint* a, const btTypedConstraint* b) {
   return key(a) < key(b);
 }
 
-/// What joins links of a model, and not what stands for contacts with the floor.
+/// Returns whether a constraint joins links of a model; contacts with the floor are constraints as
+/// well.
 bool isJoint(const btTypedConstraint* constraint) {
   return constraint->getConstraintType() != MAX_CONSTRAINT_TYPE;
 }
@@ -113,7 +114,8 @@ btScalar OrderedSolver::solveGroup(btCollisionObject** bodies, int body_count,
                                    btTypedConstraint** joints, int joint_count,
                                    const btContactSolverInfo& info, btIDebugDraw* draw,
                                    btDispatcher* dispatcher) {
-  // One without contacts may be about a body of another island: the solver must not move it twice.
+  // A manifold without contacts may belong to a body of another island, which the solver must not
+  // move twice.
   btPersistentManifold** const end = std::partition(manifolds, manifolds + manifold_count, touches);
   std::sort(manifolds, end, comesBefore);
   std::sort(joints, joints + joint_count, jointComesBefore);
@@ -162,7 +164,7 @@ void OrderedSolver::convertContacts(btPersistentManifold** manifolds, int count,
 void ContactIslandWorld::calculateSimulationIslands() {
   btSimulationIslandManager& islands = *getSimulationIslandManager();
   islands.updateActivationState(getCollisionWorld(), getDispatcher());  // numbers the bodies
-  islands.initUnionFind(islands.getUnionFind().getNumElements());       // its own unions are undone
+  islands.initUnionFind(islands.getUnionFind().getNumElements());       // discards its own unions
   const auto unite = [&](const btCollisionObject& a, const btCollisionObject& b) {
     if (!a.mergesSimulationIslands() || !b.mergesSimulationIslands()) return;
     islands.getUnionFind().unite(a.getIslandTag(), b.getIslandTag());

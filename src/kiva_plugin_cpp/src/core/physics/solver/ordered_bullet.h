@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet with its memory of the past taken out. As it comes, the outcome of a step depends on how
-// the lists came to be that it goes through: the solver takes contacts in the order in which they
-// were found, and bodies form an island when their boxes, grown in advance, overlap. Here a step
-// follows from bodies, contacts and joints alone, so that a world rebuilt from these goes on as the
-// original, bit by bit.
+// Bullet without memory of the past. Bullet's results depend on the history of the lists that it
+// iterates over: the solver takes contacts in the order of their creation, and bodies form an
+// island when their enlarged boxes overlap. Here a step depends on bodies, contacts and joints
+// alone, so that a world rebuilt from these continues as the original, bit by bit.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -15,7 +14,7 @@
 
 namespace kiva {
 
-/// Marks every manifold with the parts of both bodies that it is about, in its companion ids.
+/// Marks every manifold with its parts of both bodies, in its companion ids.
 class OrderedDispatcher : public btCollisionDispatcher {
  public:
   explicit OrderedDispatcher(btCollisionConfiguration* configuration);
@@ -23,25 +22,25 @@ class OrderedDispatcher : public btCollisionDispatcher {
   btPersistentManifold* getNewManifold(const btCollisionObject* a,
                                        const btCollisionObject* b) override;
   bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override;
-  /// Those with contacts, by when their bodies came into the world, then by parts.
+  /// Returns the manifolds with contacts, ordered by the arrival of their bodies, then by parts.
   std::vector<btPersistentManifold*> manifolds() const;
-  /// One for every two parts that are near each other, also of bodies asleep; without contacts.
+  /// Returns an empty manifold for every two parts near each other, also of sleeping bodies.
   std::vector<btPersistentManifold*> makeManifolds(btOverlappingPairCache* pairs,
                                                    const btDispatcherInfo& info);
 
  private:
-  bool minds_sleepers_ = false;  ///< Those asleep are looked at, too.
+  bool minds_sleepers_ = false;  ///< Whether sleeping bodies are tested, too.
 };
 
-/// Leaves out pairs of bodies of one model, unless it says that its links touch each other. Wheels
-/// turn within the hull of a chassis, and what holds them is no contact.
+/// Leaves out pairs of bodies of one model, unless the model says that its links touch each other.
+/// Wheels turn within the hull of a chassis, and the joint between them is no contact.
 class OwnPartsFilter : public btOverlapFilterCallback {
  public:
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 };
 
-/// Goes through an island's contacts and joints in the order of their bodies. It expects to be
-/// asked to move overlapping bodies apart without a change of their velocities.
+/// Solves an island's contacts and joints in the order of their bodies. Expects split impulses:
+/// overlapping bodies are moved apart without a change of their velocities.
 class OrderedSolver : public btSequentialImpulseConstraintSolver {
  public:
   btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
@@ -50,7 +49,7 @@ class OrderedSolver : public btSequentialImpulseConstraintSolver {
                       btDispatcher* dispatcher) override;
 
  protected:
-  /// Bounds the speed with which overlapping bodies are moved apart.
+  /// Limits the speed at which overlapping bodies are moved apart.
   void convertContacts(btPersistentManifold** manifolds, int count,
                        const btContactSolverInfo& info) override;
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -63,7 +62,7 @@ class OrderedSolver : public btSequentialImpulseConstraintSolver {
   ArticulatedSolver articulated_;
 };
 
-/// Islands of bodies with contacts or joints between them.
+/// A world whose islands are bodies with contacts or joints between them.
 class ContactIslandWorld : public btDiscreteDynamicsWorld {
  public:
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
@@ -72,7 +71,7 @@ class ContactIslandWorld : public btDiscreteDynamicsWorld {
   void calculateSimulationIslands() override;
 };
 
-/// What the solver orders a model's joints by.
+/// Sets the key by which the solver orders a model's joints.
 void mark(btTypedConstraint& joint, int model, int index);
 
 }  // namespace kiva

@@ -12,8 +12,8 @@
 namespace kiva {
 namespace {
 
-constexpr btScalar kLeaning = 1e-9;  // of a normal's height
-constexpr int kFixed = 0;            // among the bodies: all that stands still
+constexpr btScalar kLeaning = 1e-9;  // height of a normal that counts as level
+constexpr int kFixed = 0;            // index of all that is static, among the bodies
 constexpr btScalar kUnlimited = 1e30;
 
 struct Body {
@@ -21,24 +21,24 @@ struct Body {
   btScalar vx = 0, vy = 0, turn = 0;               // [m/s, rad/s]
 };
 
-/// What an impulse does to a body, and where.
+/// The effect of an impulse on a body, and its arm.
 struct Lever {
   int body = kFixed;
   btScalar arm = 0;                   // [m]
-  btScalar vx = 0, vy = 0, turn = 0;  // a unit of it [1/kg, 1/(kg m)]
+  btScalar vx = 0, vy = 0, turn = 0;  // change by a unit impulse [1/kg, 1/(kg m)]
 };
 
-/// One direction in which an impulse acts between two bodies, and what it may be.
+/// One direction in which an impulse acts between two bodies, with its limits.
 struct Row {
-  btScalar x = 0, y = 0;  // unit vector, of the impulse on a
+  btScalar x = 0, y = 0;  // unit vector of the impulse on a
   Lever a, b;
-  btScalar mass = 0;             // that it moves [kg]
-  btScalar speed = 0;            // of a seen from b, after it [m/s]
+  btScalar mass = 0;             // effective mass [kg]
+  btScalar speed = 0;            // velocity of a relative to b along it, after the impulse [m/s]
   btScalar least = 0, most = 0;  // [Ns]
   btScalar impulse = 0;          // [Ns]
 };
 
-/// A point of contact: what presses, and what rubs.
+/// A contact point: its row of pressure, and that of friction.
 struct Touch {
   btManifoldPoint* point;
   Row pressing, rubbing;
@@ -69,7 +69,7 @@ class Solver {
     });
   }
 
-  /// Moves bodies that overlap apart, and none into another one.
+  /// Moves overlapping bodies apart, and none into another one.
   void part() {
     std::vector<Row> rows;
     bool any = false;
@@ -117,7 +117,7 @@ class Solver {
     }
   }
 
-  /// Moves the body for one step as its place among the bodies says.
+  /// Moves the body for one step by the planar shift of its entry.
   void shift(btRigidBody& body) const {
     const Body& b = bodies_[body.getCompanionId()];
     btTransform pose;
@@ -131,7 +131,7 @@ class Solver {
     return static_cast<SlidingFriction&>(*island_.joints[i]);
   }
 
-  /// With what forces from outside add in the step.
+  /// Adds a body with the effect of external forces in the step.
   void addBody(int i) {
     btRigidBody& body = bodyOf(i);
     body.setCompanionId(static_cast<int>(bodies_.size()));
@@ -164,7 +164,7 @@ class Solver {
     return row;
   }
 
-  /// Returns the velocity of a seen from b [m/s].
+  /// Returns the velocity of a relative to b along the row [m/s].
   btScalar speedAlong(const Row& row) const {
     const Body &a = bodies_[row.a.body], &b = bodies_[row.b.body];
     return (a.vx - b.vx) * row.x + (a.vy - b.vy) * row.y + a.turn * row.a.arm - b.turn * row.b.arm;
@@ -181,7 +181,7 @@ class Solver {
     push(row.b, -impulse);
   }
 
-  /// Returns the square of the speed that it changed.
+  /// Solves a row. Returns the square of its change of speed.
   btScalar settle(Row& row) {
     const btScalar required = row.impulse + (row.speed - speedAlong(row)) * row.mass;
     const btScalar impulse = std::clamp(required, row.least, row.most);
@@ -198,10 +198,10 @@ class Solver {
     return settle(touch.rubbing);
   }
 
-  /// Along the way that each foot goes, and across.
+  /// Adds rows along the motion of each foot, and across.
   void addFeet(const SlidingFriction& friction) {
     const btRigidBody& body = friction.getRigidBodyA();
-    for (const Foot& foot : friction.feet()) {
+    for (const SlidingFoot& foot : friction.feet()) {
       const btVector3 arm = body.getWorldTransform().getBasis() * foot.at, none(0, 0, 0);
       const btVector3 along = friction.wayOf(arm);
       for (const btVector3& way : {along, btVector3(-along.y(), along.x(), 0)}) {
@@ -237,20 +237,20 @@ class Solver {
     }
   }
 
-  /// Returns the least speed at which points of contact part that had `before` [m/s].
+  /// Returns the least speed at which contact points part that approached at `before` [m/s].
   btScalar speedAfter(const btManifoldPoint& point, btScalar before) const {
     const bool bounces = -before > info_->m_restitutionVelocityThreshold;
     const btScalar back = bounces ? -before * point.m_combinedRestitution : 0;
     return back - std::max(btScalar(0), point.getDistance()) / dt_;
   }
 
-  /// Returns the share of an overlap that a step undoes.
+  /// Returns the share of an overlap that a step corrects.
   btScalar erpOf(const btManifoldPoint& point) const {
     const bool has_own = (point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0;
     return has_own ? point.m_contactERP : info_->m_erp2;
   }
 
-  /// Returns the first of those that are not its own.
+  /// Writes the impulses of a body's feet. Returns the first row after them.
   const Row* writeFeet(SlidingFriction& friction, const Row* row) const {
     const Row* const end = row + 2 * friction.feet().size();
     btVector3 force(0, 0, 0);
@@ -300,7 +300,7 @@ bool isPlanar(const ContactIsland& island) {
 }
 
 void solvePlanar(const ContactIsland& island, const btContactSolverInfo& info) {
-  static thread_local Solver solver;  // for its memory
+  static thread_local Solver solver;  // to reuse its memory
   solver.read(island, info);
   solver.solve();
   solver.part();

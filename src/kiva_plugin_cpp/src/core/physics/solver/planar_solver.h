@@ -5,7 +5,7 @@
 
 namespace kiva {
 
-/// An island as Bullet hands it to its solver: bodies, contacts and joints that may act on each
+/// An island as Bullet passes it to its solver: bodies, contacts and joints that may act on each
 /// other.
 struct ContactIsland {
   btCollisionObject** bodies = nullptr;
@@ -16,11 +16,11 @@ struct ContactIsland {
   int joint_count = 0;
 };
 
-/// Returns whether its bodies slide on the floor, push each other sideways and do no more.
+/// Returns whether its bodies only slide on the floor and push each other sideways.
 bool isPlanar(const ContactIsland& island);
 
 /// Solves such an island by the laws of Bullet's solver, in the same order, in the three degrees of
-/// freedom that its bodies have. Sets velocities, and impulses of contacts and feet.
+/// freedom of its bodies. Sets velocities, and impulses of contacts and feet.
 void solvePlanar(const ContactIsland& island, const btContactSolverInfo& info);
 
 }  // namespace kiva

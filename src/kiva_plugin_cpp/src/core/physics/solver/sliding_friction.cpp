@@ -7,11 +7,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kStands = 1e-9;  // [m/s]: what is slower has no direction
+constexpr double kStands = 1e-9;  // [m/s]; a slower motion has no direction
 
 }  // namespace
 
-SlidingFriction::SlidingFriction(btRigidBody& body, std::vector<Foot> feet)
+SlidingFriction::SlidingFriction(btRigidBody& body, std::vector<SlidingFoot> feet)
     : btTypedConstraint(MAX_CONSTRAINT_TYPE, body), feet_(std::move(feet)) {
   const btVector3 none(0, 0, 0);
   feedback_ = {none, none, none, none};
@@ -33,7 +33,7 @@ btVector3 SlidingFriction::wayOf(const btVector3& arm) const {
 void SlidingFriction::getInfo2(btConstraintInfo2* info) {
   const btRigidBody& body = getRigidBodyA();
   int row = 0;
-  for (const Foot& foot : feet_) {
+  for (const SlidingFoot& foot : feet_) {
     const btVector3 arm = body.getWorldTransform().getBasis() * foot.at;
     const btVector3 along = wayOf(arm);
     for (const btVector3& way : {along, btVector3(-along.y(), along.x(), 0)}) {

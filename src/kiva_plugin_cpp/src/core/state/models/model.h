@@ -30,7 +30,8 @@ struct CollisionGeometry {
   int handle =
       -1;  ///< Index in Obstacles; -1 for robots and loads, whose footprints are a mover's.
   int triangle = -1;  ///< Index in the mesh of a static model, if this is one triangle of it.
-  std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< That triangle's, in world.
+  std::shared_ptr<std::array<Vector3, 3>> corners =
+      nullptr;  ///< Corners of that triangle in world [m].
 };
 
 /// The level faces of a static model at one height near the ground.
@@ -91,7 +92,7 @@ class ModelOwner {
   virtual bool drivesJoints() const { return false; }
 
   /// Returns whether its contacts are reported as collisions; those with a floor never are.
-  virtual bool tellsCollisions() const { return false; }
+  virtual bool reportsCollisions() const { return false; }
   virtual bool isFloor() const { return false; }
   /// Follows a contact with a model that is no floor.
   virtual void touched(MotionView& /*world*/, Model& /*model*/) const {}

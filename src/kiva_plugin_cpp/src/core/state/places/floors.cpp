@@ -15,12 +15,11 @@ namespace kiva {
 namespace {
 
 constexpr double kLevel = 0.9994;    // cosine of 2°
-constexpr double kNearGround = 0.1;  // [m] from z = 0: where a floor may be
+constexpr double kNearGround = 0.1;  // [m] around z = 0 in which a floor may be
 constexpr double kRim = 1e-6;        // [m]
-constexpr double kMostRows = 4096;   // of a metre, half of them on each side of y = 0
+constexpr double kMostRows = 4096;   // rows of a metre, half of them on each side of y = 0
 
-/// A convex outline, level and seen from above, counterclockwise; three corners have the last
-/// twice.
+/// A convex, level outline seen from above, counterclockwise; a triangle repeats its last corner.
 using Outline = std::array<Vector3, 4>;
 
 double areaOf(const Outline& o) {
@@ -75,7 +74,7 @@ void widen(LevelSurface* surface, const Outline& outline) {
   }
 }
 
-/// `mesh` with its low triangles, or all the others; null if there are none.
+/// Returns `mesh` with its low triangles, or with all others; null if there are none.
 std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
                                    const FloorExtent& floor, bool low) {
   std::vector<std::array<int, 3>> triangles;
@@ -90,7 +89,7 @@ std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, cons
       Mesh{mesh->vertices, std::move(triangles), mesh->min, mesh->max});
 }
 
-/// The same, found once for all that stand in one way at one height over the floor with a mesh.
+/// A cache of these halves, for all models with that mesh at one height and tilt.
 class Halves {
  public:
   std::shared_ptr<const Mesh> of(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
@@ -113,7 +112,7 @@ class Halves {
   struct Key {
     const Mesh* mesh;
     bool low;
-    std::array<double, 4> place;  // the world's vertical seen from the mesh, its height
+    std::array<double, 4> place;  // the world's vertical in the mesh's frame, and its height
     bool operator<(const Key& o) const {
       return std::tie(mesh, low, place) < std::tie(o.mesh, o.low, o.place);
     }
@@ -123,7 +122,7 @@ class Halves {
     bool is_none = false;
   };
 
-  /// What has no mesh any more.
+  /// Drops entries whose mesh no longer exists.
   void forget() {
     for (auto at = known_.begin(); at != known_.end();) {
       at = at->second.whole.expired() ? known_.erase(at) : std::next(at);
@@ -134,7 +133,7 @@ class Halves {
   std::map<Key, Entry> known_;
 };
 
-/// Returns the part of a collision that is low, or the other one; nothing if there is none.
+/// Returns the low part of a collision, or the other one; nothing if it is empty.
 std::optional<Collision> partOf(const Collision& whole, const Pose& link, const FloorExtent& floor,
                                 bool low) {
   const Pose pose = link * whole.pose_in_link;
@@ -207,7 +206,7 @@ bool isFloor(const ModelInstance& instance) {
 }
 
 ModelBodies buildStatic(const Scene& world, const Model& model) {
-  // What stands still touches nothing that does.
+  // Static bodies do not touch each other.
   const int mask = ~(kFloorGroup | kStaticGroup);
   const auto build = [&](bool low, int group) {
     return world.physics.build(partOf(model, world.floor.extent, low), model.pose, model.slot,
@@ -301,13 +300,13 @@ double FloorCover::leastFriction(const FloorPatch& area, double otherwise) const
   return least;
 }
 
-/// They do unless the rectangle is wholly beyond one side of the outline, or of its bounds.
+/// They meet unless the rectangle is completely beyond one side of the outline, or of its bounds.
 bool FloorCover::meets(const Piece& piece, const FloorPatch& area) {
   if (!area.meets({piece.min_x, piece.max_x, piece.min_y, piece.max_y, 0})) return false;
   for (int i = 0; i < 4; ++i) {
     const Vector3& a = piece.corners[i];
     const Vector3 along = piece.corners[(i + 1) % 4] - a;
-    // The corner of the rectangle that lies farthest to the left of that side, where the inside is.
+    // The corner of the rectangle farthest to the left of that side, where the inside is.
     const double x = along.Y() < 0 ? area.max_x : area.min_x;
     const double y = along.X() > 0 ? area.max_y : area.min_y;
     if (along.X() * (y - a.Y()) - along.Y() * (x - a.X()) < 0) return false;
@@ -315,8 +314,8 @@ bool FloorCover::meets(const Piece& piece, const FloorPatch& area) {
   return true;
 }
 
-/// Returns whether what a rectangle has of a piece lies beneath one other piece, which is convex:
-/// it does if its corners do.
+/// Returns whether the part of a piece in a rectangle lies beneath one other piece. That is convex:
+/// it covers the part if it covers its corners.
 bool FloorCover::isCovered(const Piece& piece, const FloorPatch& area) const {
   const double min_x = std::max(piece.min_x, area.min_x), max_x = std::min(piece.max_x, area.max_x);
   const double min_y = std::max(piece.min_y, area.min_y), max_y = std::min(piece.max_y, area.max_y);

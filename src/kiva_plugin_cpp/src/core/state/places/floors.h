@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The surfaces of static models on which wheels can drive. Worlds have their floor as a plane, as a
-// box, or as a part of the mesh of a whole building, and not always with its top at zero.
+// box, or as a part of a building's mesh, and not always with its top at zero.
 #pragma once
 
 #include "core/state/views/scene.h"
 
 namespace kiva {
 
-/// Smallest area of a floor [m2]; smaller faces on a plane are things that lie there.
+/// Smallest area of a floor [m2]; smaller level faces are objects on a floor.
 constexpr double kRoom = 9;
 
-/// Largest difference in height of level surfaces that are one [m].
+/// Largest difference in height within one level surface [m].
 constexpr double kSameHeight = 0.005;
 
-/// Largest height above the floor that wheels get over [m].
+/// Largest step that wheels can climb [m].
 constexpr double kStep = 0.03;
 
-/// Returns whether a static model is floor and nothing else: a plane, or flat and near the ground.
+/// Returns whether a static model is only floor: a plane, or flat and near the ground.
 bool isFloor(const ModelInstance& instance);
 
 /// Returns the level surfaces of a static model that may be floor.
@@ -26,10 +26,10 @@ std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, con
 /// Returns a static model's bodies. Parts at the floor are in a group that robots don't touch.
 ModelBodies buildStatic(const Scene& world, const Model& model);
 
-/// Returns whether a thing that rises to `top` in world [m] is low enough to drive over.
+/// Returns whether an object that rises to `top` in world [m] is low enough to drive over.
 inline bool isLow(const FloorExtent& floor, double top) { return top <= floor.z + kStep + 1e-9; }
 
-/// Puts a storage unit that would stand in the floor on it.
+/// Raises a storage unit that would stand in the floor onto it.
 void raiseToFloor(const Scene& world, StorageUnit* unit, Model* model);
 
 /// The surfaces of the floor and their friction.
@@ -38,17 +38,19 @@ class FloorCover {
   explicit FloorCover(const Scene& world);
   /// Returns whether the square around (x, y) with edges of twice `half` [m] lies on them.
   bool covers(double x, double y, double half) const;
-  /// Returns the Coulomb coefficient of the uppermost surface at (x, y); of surfaces of one height
-  /// the smallest counts, as a slab that is set into a floor. `otherwise` where there is none.
+  /// Returns the Coulomb coefficient of the uppermost surface at (x, y). Of surfaces of one height,
+  /// such as a slab set into a floor, the smallest counts. Returns `otherwise` where there is none.
   double frictionAt(double x, double y, double otherwise) const;
-  /// Returns the least one of the surfaces that a rectangle meets, or `otherwise` if that is less.
+  /// Returns the smallest coefficient of the surfaces that a rectangle meets, or `otherwise` if
+  /// that is smaller.
   double leastFriction(const FloorPatch& area, double otherwise) const;
 
  private:
   struct Piece {
-    std::array<Vector3, 4> corners;  // of a convex outline, counterclockwise; the last may be twice
+    std::array<Vector3, 4>
+        corners;  // convex outline, counterclockwise; a triangle repeats the last corner
     double min_x, max_x, min_y, max_y;
-    double z, area;  // the latter of the whole surface that it is of
+    double z, area;  // height, and area of the whole surface
     double friction;
   };
   void add(const Collision& collision, const Pose& pose, const FloorExtent& floor);

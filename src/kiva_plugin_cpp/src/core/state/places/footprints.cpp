@@ -10,12 +10,12 @@
 namespace kiva {
 namespace {
 
-/// Adds the triangles of a building's mesh that stand in the way; those of its floor do not.
+/// Adds the triangles of a building's mesh that are obstacles; those of its floor are not.
 void addTriangles(const FloorExtent& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
       model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;
-  geometry.shape.mesh_file.clear();  // not once a triangle
+  geometry.shape.mesh_file.clear();  // once, not for each triangle
   model.geometries.reserve(model.geometries.size() + mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     geometry.triangle = static_cast<int>(i);
@@ -25,18 +25,18 @@ void addTriangles(const FloorExtent& floor, Model& model, CollisionGeometry geom
   }
 }
 
-/// In world [m].
+/// Returns the top of a geometry in world [m].
 double topOf(const Model& model, const CollisionGeometry& geometry) {
   const Pose link = model.pose * model.description->links[geometry.link].pose_in_model;
   return bounds(geometry.shape, link * geometry.pose_in_link).max.Z();
 }
 
-/// The footprints of one model, of `group`, in the frame whose inverse is given.
+/// Appends the footprints of one model, of `group`, in the frame whose inverse is `to_frame`.
 void appendFootprints(const Scene& world, const Model& model, const Pose& to_frame, int group,
                       std::vector<Footprint>* out) {
   constexpr int kNone = -2;  // -1 is a robot's base
   int link = kNone;
-  Pose link_in_frame;  // shared by several geometries, mostly
+  Pose link_in_frame;  // mostly shared by several geometries
   out->reserve(out->size() + model.geometries.size());
   for (const CollisionGeometry& geometry : model.geometries) {
     if (geometry.link != link) {
@@ -61,7 +61,7 @@ void appendFootprints(const Scene& world, const Model& model, const Pose& to_fra
   }
 }
 
-/// A robot and its load move as one.
+/// Updates the footprints of a robot with its load, which move as one.
 void updateMover(const Scene& world, Obstacles& obstacles, int robot) {
   const Pose to_robot =
       Pose(0, 0, world.floor.extent.z, 0, 0, 0) * basePose(world, robot).Inverse();
@@ -122,23 +122,23 @@ void moved(MotionView& world, Model& model) {
   if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0))
     world.storage.noteMove();
   if (mover < 0) return updateStanding(world, world.obstacles, model);
-  hideFootprints(world.obstacles, model);  // those of a unit that was taken up
+  hideFootprints(world.obstacles, model);  // the unit's own, before it was taken up
   updateMover(world, world.obstacles, mover);
 }
 
-void followRobot(MotionView& world, int robot) {
-  const FleetState& f = world.fleet;
+void followRobot(const FleetState& f, Obstacles& obstacles, Storage& storage, int robot) {
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
   if (still) return;
-  world.obstacles.follow(robot);
-  if (f.unit[robot] >= 0) world.storage.noteMove();
+  obstacles.follow(robot);
+  if (f.unit[robot] >= 0) storage.noteMove();
 }
 
-void raiseLoad(MotionView& world, int robot, double by) {
-  const int unit = world.fleet.unit[robot];
+void raiseLoad(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot,
+               double by) {
+  const int unit = fleet.unit[robot];
   if (unit < 0) return;
-  world.obstacles.raise(robot, world.storage.units[unit].model, by);
-  world.storage.noteMove();
+  obstacles.raise(robot, storage.units[unit].model, by);
+  storage.noteMove();
 }
 
 void hideFootprints(Obstacles& obstacles, Model& model) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models among the obstacles: the footprints of their collision shapes, which follow their poses.
+// The footprints of models' collision shapes among the obstacles; they follow the models' poses.
 #pragma once
 
 #include "core/geometry/footprint.h"
@@ -17,13 +17,14 @@ void refitGeometry(MotionView& world, Model& model);
 /// and needs nothing else.
 void moved(MotionView& world, Model& model);
 /// Updates the footprints of a robot that drove by itself in this step.
-void followRobot(MotionView& world, int robot);
+void followRobot(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot);
 /// Raises the footprints of a robot's load, if it has one [m].
-void raiseLoad(MotionView& world, int robot, double by);
-/// Takes the footprints away; the model keeps its geometry.
+void raiseLoad(const FleetState& fleet, Obstacles& obstacles, Storage& storage, int robot,
+               double by);
+/// Removes the footprints; the model keeps its geometry.
 void hideFootprints(Obstacles& obstacles, Model& model);
-/// Discards the clearances of all robots, since something came or was moved from outside: robots
-/// look around before they go on.
+/// Discards the clearances of all robots, after something was added or moved from outside: robots
+/// test their ways before they go on.
 void invalidateClearance(FleetState& fleet);
 
 /// Calls visit(footprint) for each of the model's footprints in world.
@@ -40,7 +41,7 @@ void forFootprints(const Scene& world, int slot, Visit visit) {
   }
 }
 
-/// Returns whether two footprints span a height in common.
+/// Returns whether two footprints overlap in height.
 inline bool shareHeight(const Footprint& a, const Footprint& b) {
   return a.z_min <= b.z_max && b.z_min <= a.z_max;
 }
@@ -50,7 +51,7 @@ inline double halfLength(const Robot& r) { return std::max(r.half_length, r.load
 inline double halfWidth(const Robot& r) { return std::max(r.half_width, r.load_half_width); }
 /// Returns the distance from its centre to the farthest corner of both [m].
 inline double cornerRadius(const Robot& r) { return std::hypot(halfLength(r), halfWidth(r)); }
-/// Returns the height above the floor up to which robot `i` reaches; a loaded one takes all [m].
+/// Returns the height above the floor up to which robot `i` reaches; unlimited with a load [m].
 inline double heightOf(const Fleet& f, int i) {
   return f.unit[i] < 0 ? f.robots[i].height + f.tower[i] : 1e9;
 }

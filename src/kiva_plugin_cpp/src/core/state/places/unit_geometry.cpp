@@ -10,7 +10,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kAboveFloor = 0.05;  // [m]: what is lower is a leg's foot, not an underside
+constexpr double kAboveFloor = 0.05;  // [m]; lower faces are feet, not an underside
 constexpr double kOnFloor = 0.005;    // [m]
 constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
 

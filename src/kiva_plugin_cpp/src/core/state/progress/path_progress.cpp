@@ -11,21 +11,22 @@
 namespace kiva {
 namespace {
 
-constexpr double kCentred = 0.001;      // [m] from a point: the robot has come to it
-constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may be pushed, standing
-constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
+constexpr double kCentred = 0.001;  // [m] from a point within which the robot has reached it
+constexpr double kFacing =
+    0.002;  // [rad] of heading error with which it can drive, even if it was pushed while it stood
+constexpr double kNearlyFacing = 0.02;  // [rad] likewise, for a robot with an estimated pose
 constexpr double kCellRounding = 1e-9;  // [m]
 
-/// A place seen from the origin of a run [m].
+/// A position relative to the origin of a run [m].
 struct OnRun {
   double along, beside;
 };
 
-/// The frame of the present run, which goes along an axis: its heading's cosine and sine are whole,
-/// and known without asking for them, at every point that is counted.
-class Run {
+/// The frame of the present run, which is along an axis: cosine and sine of its heading are
+/// integers, and known without computing them, at every point that is counted.
+class RunFrame {
  public:
-  explicit Run(const Task& task) : path_(task.path), segment_(task.segments.front()) {
+  explicit RunFrame(const Task& task) : path_(task.path), segment_(task.segments.front()) {
     constexpr double kCosine[] = {1, 0, -1, 0};
     const int quarters =
         static_cast<int>(segment_.yaw / kHalfPi + std::copysign(0.5, segment_.yaw));
@@ -44,8 +45,8 @@ class Run {
   double cosine_, sine_;
 };
 
-/// Returns how far the middle of a robot must be from that of a cell to be out of it, ahead and
-/// aside [m].
+/// Returns the distance from a cell's centre, ahead and aside, at which the robot is out of the
+/// cell [m].
 OnRun outOfCell(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const double half = world.settings.grid_spacing / 2 - kCellRounding;
@@ -95,7 +96,7 @@ double alongSegment(const FleetState& f, int i) {
   return std::cos(segment.yaw) * (at.x - segment.x) + std::sin(segment.yaw) * (at.y - segment.y);
 }
 
-double alongRun(const Task& task, std::uint32_t point) { return Run(task)(point).along; }
+double alongRun(const Task& task, std::uint32_t point) { return RunFrame(task)(point).along; }
 
 void countPoints(RobotView& world, int robot, double along) {
   FleetState& f = world.fleet;
@@ -103,7 +104,7 @@ void countPoints(RobotView& world, int robot, double along) {
   if (!task.isOnRun()) return;
   std::uint32_t& reached = f.reached[robot];
   std::uint32_t& left = f.left[robot];
-  const Run run(task);
+  const RunFrame run(task);
   while (reached <= task.path.end && along >= run(reached).along - kCentred) ++reached;
   const OnRun out = outOfCell(world, robot);
   const auto isLeft = [&](std::uint32_t point) {
@@ -119,7 +120,7 @@ double nextCount(const Scene& world, int robot) {
   double next = std::numeric_limits<double>::infinity();
   if (!task.isOnRun()) return next;
   const std::uint32_t reached = f.reached[robot], left = f.left[robot];
-  const Run run(task);
+  const RunFrame run(task);
   if (reached <= task.path.end) next = run(reached).along - kCentred;
   if (left < reached) next = std::min(next, run(left).along + outOfCell(world, robot).along);
   return next;

@@ -17,9 +17,9 @@ double alongSegment(const FleetState& fleet, int robot);
 double alongRun(const Task& task, std::uint32_t point);
 /// Counts the points reached and left by a robot whose centre is `along` the present run [m].
 void countPoints(RobotView& world, int robot, double along);
-/// Returns the distance along the run at which that count changes next; +inf = never.
+/// Returns the distance along the run at which one of these counts changes next; +inf = never.
 double nextCount(const Scene& world, int robot);
-/// Returns the points ahead at which the robot turns, or stops so far, and the last one.
+/// Returns the points ahead at which the robot turns or stops, and the last one.
 std::vector<PathPoint> pointsAhead(const FleetState& fleet, int robot);
 
 }  // namespace kiva

@@ -10,8 +10,8 @@
 namespace kiva {
 namespace {
 
-constexpr double kAstray = 0.05;             // [m] from its point: it can't begin its next run
-constexpr std::uint32_t kPointsToKeep = 64;  // left points of a path before they are forgotten
+constexpr double kAstray = 0.05;  // [m] from its point at which it can't begin its next run
+constexpr std::uint32_t kPointsToKeep = 64;  // left points of a path that are kept
 
 void becomeIdle(TaskView& world, int robot) {
   FleetState& f = world.fleet;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The phases of robots: a command begins and goes through its segments, until it is done or
+// The phases of robots: a command begins and proceeds through its segments, until it is done or
 // blocked.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace kiva {
 
-/// Begins the segments of the command that the robot's task names; without segments it is done.
+/// Begins the segments of the robot's command; without segments it is done.
 void beginTask(TaskView& world, int robot, std::deque<MotionSegment> segments);
 /// Begins a path; `segments` bring the robot to its point 0.
 void beginPath(TaskView& world, int robot, std::uint32_t id, ReleasedPath path,
@@ -26,8 +26,8 @@ void startSegment(TaskView& world, int robot);
 /// Ends the current segment: the next one begins, or the command is DONE, or BLOCKED if it was
 /// stopping.
 void finishSegment(TaskView& world, int robot);
-/// Ends the command in BLOCKED as soon as the robot has done what `phase` says: kBraking, kHalting
-/// or kAbandoning. The robot reports BLOCKED from now on; the first of several reasons counts.
+/// Ends the command in BLOCKED as soon as the robot has completed `phase`: kBraking, kHalting or
+/// kAbandoning. The robot reports BLOCKED from now on; the first of several reasons counts.
 void stopTask(TaskView& world, int robot, Phase phase, const std::string& by,
               const std::string& reason);
 /// Ends a stop: BLOCKED, then idle.
@@ -36,15 +36,15 @@ void endStop(TaskView& world, int robot);
 void endDone(TaskView& world, int robot);
 /// Ends the command in BLOCKED at once, in any phase.
 void endBlocked(TaskView& world, int robot, const std::string& by, const std::string& reason);
-/// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway, and a
-/// path on which it stands is over.
+/// Locks the wheels of a robot that turns or drives, at once. A robot that lifts stands anyway; a
+/// path on which it stands ends.
 void haltRobot(TaskView& world, int robot, const std::string& by, const std::string& reason);
 /// Sets the status that the robot reports, and records a change.
 void setStatus(TaskView& world, int robot, Status status, State state);
 /// Adds an event about a robot's command.
 void reportCommand(const Scene& world, EventLog& log, Event::Kind kind, int robot,
                    const std::string& other, const std::string& text);
-/// Puts the robot into that phase, and reports so.
+/// Puts the robot into that phase, and reports it.
 void enterPhase(TaskView& world, int robot, Phase phase, Status status, State state);
 
 }  // namespace kiva

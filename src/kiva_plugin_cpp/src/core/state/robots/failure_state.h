@@ -21,7 +21,7 @@ struct Defect {
 struct FailureState {
   std::vector<Defect> defects;  ///< In order of occurrence.
   double exposure = 0;          ///< Time until the next random defect [robot seconds].
-  std::uint64_t count = 0;      ///< Draws of that time so far.
+  std::uint64_t count = 0;      ///< Number of draws of `exposure` so far.
 };
 
 }  // namespace kiva

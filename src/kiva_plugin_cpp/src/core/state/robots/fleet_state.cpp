@@ -7,10 +7,10 @@
 namespace kiva {
 namespace {
 
-constexpr double kCaughtUp = 1e-6;       // [m, rad] that a lag leaves at the end
+constexpr double kCaughtUp = 1e-6;       // [m, rad] of lag that counts as none
 constexpr double kCommandStands = 1e-9;  // [m/s, rad/s]
 
-/// Calls visit(array) for every array that the world keeps beside the public ones.
+/// Calls visit(array) for every array that is not part of the public fleet.
 template <typename Visit>
 void forEachArray(FleetState& f, Visit visit) {
   for (int wheel = 0; wheel < 2; ++wheel) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fleet as the world itself sees it: beside what clients see, each robot's task, the reference
-// that its drive follows, and the time for which its way is free.
-//
+// The fleet inside the world: besides the public fleet, each robot's task, the reference that its
+// drive follows, and the time for which its way is free.
 // `robot` is an index in the fleet, `kiva_id` the number in a robot's name. `unit` is an index
 // among the storage units, `unit_id` the number in a unit's name, which messages call `shelf_id`.
 #pragma once
@@ -30,7 +29,7 @@ struct MotionSegment {
   bool reverse = false;            ///< Drive: backwards, against the heading.
   bool on_grid = true;             ///< Drive: along a grid line.
   int unit = -1;                   ///< Raise, lower: index of the storage unit.
-  State state = State::kRotating;  ///< The state that the robot reports meanwhile.
+  State state = State::kRotating;  ///< The state that the robot reports during this segment.
 };
 
 /// The phase of a robot's task, and the event that ends it.
@@ -64,7 +63,7 @@ struct Task {
   ReleasedPath path;                   ///< The path that the segments are taken from, if any.
   bool cancelled = false;              ///< It ends with the present segments.
   double overdue = 0;                  ///< Time since the reference ended short of its end [s].
-  double stop_at = Profile::kNowhere;  ///< Held: end of the reference.
+  double stop_at = Profile::kNowhere;  ///< Position at which the reference of a stopped robot ends.
   Sighting sighting, last_sighting;    ///< The newest one, and the one before.
   std::string blocked_by;              ///< A model's name, or empty.
   std::string blocked_reason;          ///< The reason in words.
@@ -117,7 +116,7 @@ struct Sway {
   std::uint64_t step = 0;
 };
 
-/// The newest report of a robot that arrived.
+/// The newest report of a robot that has arrived.
 struct Heard {
   std::uint64_t number = 0;  ///< The report's number, from 1; 0 = none yet.
   RobotReport report;
@@ -126,7 +125,7 @@ struct Heard {
 struct FleetState : Fleet {
   std::vector<Task> tasks;
   Column<double> wheel_target[2];  ///< Commands of the left and right motor [rad/s].
-  Column<std::uint8_t> awake;      ///< 0 = at rest without a command, so that it costs nothing.
+  Column<std::uint8_t> awake;      ///< 0 = at rest without a command, and skipped by a step.
   Column<Battery> battery;
   Column<Sway> sway;               ///< Empty unless loads may tip.
   Column<Heard> heard;             ///< Empty unless reports go by radio.
@@ -140,13 +139,13 @@ struct FleetState : Fleet {
   Column<double> reference_end;  ///< Position at which the reference ends.
   Column<double> deceleration;   ///< Deceleration at the end of the reference.
 
-  /// Step up to which nothing can come near the robot, as long as its motion stays. A double, so
+  /// Step up to which nothing can come near the robot while its motion stays the same. A double, so
   /// that several are compared at a time.
   Column<double> clear_until;
   /// Step at which a robot that cruises needs attention: `clear_until`, or the earliest step at
   /// which it may have reached or left the next point of a path.
   Column<double> attend_at;
-  /// Step before which a robot that found no way back to the grid does not search again.
+  /// Step before which a robot without a way back to the grid does not search again.
   Column<double> wedged_until;
   /// Reference at which a robot that cruises reaches or leaves the next point [m]; +inf = no point.
   Column<double> count_at;
@@ -164,7 +163,7 @@ struct FleetState : Fleet {
   /// Top speed of the fastest robot that the fleet has had [m/s].
   double fastest = 0;
 
-  /// Takes in the parts of realism that change driving, at that step size [s].
+  /// Applies the parts of realism that change driving, at step size `dt` [s].
   void applyRealism(const Realism& realism, double dt);
 
   /// Returns the pose that robot `i` believes to have.
@@ -178,7 +177,7 @@ struct FleetState : Fleet {
     reference[i] = profile.position;
     reference_speed[i] = command_speed[i] = profile.speed;
   }
-  /// Returns the profile that the wheel motors are commanded and the reference follows.
+  /// Returns the profile that is commanded to the wheel motors and that the reference follows.
   Profile command(int i) const {
     if (lag.isNone()) return profile(i);
     return {reference[i] + lag.behind * reference_speed[i], command_speed[i]};
@@ -192,8 +191,7 @@ struct FleetState : Fleet {
   void remove(int i);
 };
 
-/// Returns whether the robot holds its wheels, or its tower while that moves: it is stopped or
-/// broken.
+/// Returns whether the robot holds its wheels, or its moving tower: it is stopped or broken.
 bool isHeld(const FleetState& fleet, int i);
 
 /// Wakes robot `i` and ends its cruise, since a command, a push or another load changes its motion;

@@ -8,7 +8,7 @@ namespace kiva {
 /// A command that its robot has not answered yet.
 struct PendingCommand {
   Command command;
-  FollowPath path;  ///< What the command stands for, if it is kFollow; else empty.
+  FollowPath path;  ///< The path that the command stands for, if it is kFollow; else empty.
 };
 
 }  // namespace kiva

@@ -7,10 +7,9 @@
 
 namespace kiva {
 
-/// A reference that goes to a target with limited speed and acceleration and stands there.
-///
+/// A reference that moves to a target with limited speed and acceleration and stops there.
 /// The target and the deceleration may change at any step, so that a robot can stop earlier than
-/// planned. Positions and speeds are of one axis, in [m, m/s] or [rad, rad/s].
+/// planned. Positions and speeds are along one axis, in [m, m/s] or [rad, rad/s].
 struct Profile {
   double position = 0;
   double speed = 0;
@@ -18,8 +17,8 @@ struct Profile {
   /// Largest distance from the target that counts as rounding.
   static constexpr double kThere = 1e-12;
 
-  /// Advances by a step of `dt` towards `target`. `acceleration` 0: full speed at once, and rest at
-  /// once. `deceleration` is that of the run's end.
+  /// Advances by a step of `dt` towards `target`. `acceleration` 0: full speed, and rest, at once.
+  /// `deceleration` is that of the run's end.
   void advance(double target, double top_speed, double acceleration, double deceleration,
                double dt) {
     const double distance = std::abs(target - position);
@@ -35,7 +34,7 @@ struct Profile {
     position = distance - next * dt <= kThere ? target : moved;
   }
 
-  /// Advances by a step of `dt` towards a stop after v²/(2 deceleration), however long steps are;
+  /// Advances by a step of `dt` towards a stop after v²/(2 deceleration), for any step size;
   /// deceleration 0: rest at once. `stop_at` is the position of the stop, which the first step sets
   /// if it is kNowhere.
   void brake(double deceleration, double dt, double* stop_at) {
@@ -60,15 +59,15 @@ struct Profile {
     return speed - deceleration * dt <= stoppingSpeed(std::max(0.0, distance), deceleration, dt);
   }
 
-  /// Returns the highest speed now from which steps of constant deceleration end on `distance`:
-  /// v²/(2a) + v·dt/2 = distance, the sum of the steps' lengths.
+  /// Returns the highest speed from which steps of constant deceleration end at `distance`: v²/(2a)
+  /// + v·dt/2 = distance, the sum of the steps' lengths.
   static double stoppingSpeed(double distance, double deceleration, double dt) {
     const double half = 0.5 * deceleration * dt;
     return -half + std::sqrt(half * half + 2 * deceleration * distance);
   }
 
  private:
-  // Parameters by value, unlike those of std::min: a compiler can vectorise it.
+  // Parameters are passed by value, unlike those of std::min, so that a compiler can vectorise it.
   static double smaller(double a, double b) { return a < b ? a : b; }
   static double larger(double a, double b) { return a > b ? a : b; }
 };

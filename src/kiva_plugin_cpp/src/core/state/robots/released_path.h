@@ -10,9 +10,9 @@
 
 namespace kiva {
 
-/// Points are known by their numbers, counted from 0 at the beginning of the path.
+/// Points are numbered from 0 at the beginning of the path.
 struct ReleasedPath {
-  std::uint32_t first = 0;        ///< Number of points[0]; earlier points were left, and forgotten.
+  std::uint32_t first = 0;        ///< Number of points[0]; earlier points were left, and dropped.
   std::vector<PathPoint> points;  ///< Points from `first` to the end of the path.
   std::uint32_t released = 0;     ///< Count of released points; 0 = no path.
   std::uint32_t origin = 0;       ///< Point at which the present run begins, or the robot stands.
@@ -22,11 +22,11 @@ struct ReleasedPath {
   std::uint32_t size() const { return first + static_cast<std::uint32_t>(points.size()); }
   const PathPoint& operator[](std::uint32_t number) const { return points[number - first]; }
 
-  /// Returns whether point `number` goes on in the direction in which those two lie, which differ
-  /// along one axis.
+  /// Returns whether point `number` continues the direction of two points that differ along one
+  /// axis.
   bool isStraight(std::uint32_t from, std::uint32_t to, std::uint32_t number) const;
-  /// Extends the present run as far as it is straight and released; a run without length may take
-  /// any direction.
+  /// Extends the present run while it is straight and released; a run without length may take any
+  /// direction.
   void extendRun();
   /// Forgets points before `number`.
   void forgetBefore(std::uint32_t number);

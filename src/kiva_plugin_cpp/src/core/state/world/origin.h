@@ -7,7 +7,7 @@ namespace kiva {
 
 /// The checkpoint that a world was restored from; itself no part of a checkpoint.
 struct CheckpointOrigin {
-  std::uint64_t hash = 0;      ///< Hash of its bytes; 0 = no checkpoint to which a return is quick.
+  std::uint64_t hash = 0;  ///< Hash of its bytes; 0 = no checkpoint that returnTo() can return to.
   std::uint64_t fixtures = 0;  ///< Physics::fixtureChanges() at that time.
 };
 

@@ -12,7 +12,7 @@ struct WorldSettings {
   std::string name;
   Vector3 gravity;  ///< Gravity in world [m/s²].
   WorldOptions options;
-  Realism realism;                 ///< From the options, or else from the first robot that has it.
+  Realism realism;  ///< Realism of the options, or else of the first robot that has it.
   bool realism_of_models = false;  ///< `realism` is from that robot.
   double grid_spacing = 1;         ///< Edge of a cell [m].
 

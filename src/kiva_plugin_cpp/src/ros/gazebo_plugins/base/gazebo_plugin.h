@@ -25,7 +25,7 @@ struct PluginContext {
   const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
 };
 
-/// Tells when a message is due at a rate of simulated time, also after time was reset.
+/// Decides when a message is due at a rate of simulated time, also after a reset of time.
 class Schedule {
  public:
   /// `rate` [Hz]; 0 = every step.
@@ -58,17 +58,17 @@ class GazeboPlugin : public kiva::Plugin {
   /// of its own where that is missing or empty.
   void enter(const kiva::World& world, const std::string& model, const kiva::Parameters& parameters,
              const std::string& if_missing, const std::string& if_empty);
-  /// Marks parameters as known that Gazebo's plugin takes and this one has no use for.
+  /// Marks parameters of Gazebo's plugin as known that have no use here.
   static void skip(const kiva::Parameters& parameters, std::initializer_list<const char*> keys);
-  /// A frame's name behind the prefix that holds for this namespace; `prefix_by_namespace`: the
-  /// namespace itself is one where the parameter tf_prefix is not set.
+  /// Returns a frame's name with the tf prefix of this namespace. `prefix_by_namespace`: without
+  /// the parameter tf_prefix the namespace itself is the prefix.
   std::string frame(const std::string& name, bool prefix_by_namespace = false) const;
   /// Returns the text of a required parameter. Throws DescriptionError if it is missing or empty.
   static std::string required(const kiva::Parameters& parameters, const std::string& key);
-  /// Returns the sensor of this plugin. Throws DescriptionError if it is not of such a type.
+  /// Returns the sensor of this plugin. Throws DescriptionError if it has not that type.
   const kiva::SensorDescription& sensor(const kiva::Parameters& parameters,
                                         const std::string& types) const;
-  /// Returns a link's name, which is given with its model's name or without. Throws
+  /// Returns a link's name; `key` holds it with or without its model's name. Throws
   /// DescriptionError if there is no such link.
   std::string link(const kiva::Parameters& parameters, const std::string& key) const;
   /// Returns the movable joint named at `key`. Throws DescriptionError if there is none.

@@ -66,7 +66,7 @@ class TypedInputTopic : public InputTopic {
   }
 
   const Pointer& current() const { return current_; }
-  std::uint64_t revision() const { return revision_; }  ///< Counts up with each advance.
+  std::uint64_t revision() const { return revision_; }  ///< Grows with each advance.
 
  private:
   /// Receives a message, in any thread.
@@ -89,25 +89,24 @@ class PluginInput {
  public:
   PluginInput() = default;
   explicit PluginInput(std::shared_ptr<TypedInputTopic<Message>> topic)
-      : topic_(std::move(topic)), seen_(topic_->revision()) {}
+      : topic_(std::move(topic)), taken_revision_(topic_->revision()) {}
 
-  /// Returns the message that became current with this step; null if there is none since the last
-  /// call.
+  /// Returns the message that took effect at this step; null if there is none since the last call.
   const Message* take() {
-    if (!topic_ || topic_->revision() == seen_) return nullptr;
-    seen_ = topic_->revision();
+    if (!topic_ || topic_->revision() == taken_revision_) return nullptr;
+    taken_revision_ = topic_->revision();
     return topic_->current().get();
   }
 
  private:
   std::shared_ptr<TypedInputTopic<Message>> topic_;
-  std::uint64_t seen_ = 0;
+  std::uint64_t taken_revision_ = 0;
 };
 
 /// Holds all topics that plugins subscribe to. Must outlive the plugins.
 class PluginInputs : public StepHook {
  public:
-  /// `live`: false in a replay, which takes the place of the publishers.
+  /// `live`: false in a replay, which replaces the publishers.
   explicit PluginInputs(bool live) : live_(live) {}
 
   /// Returns a topic. Throws std::runtime_error if another plugin uses it with another type.
@@ -132,7 +131,8 @@ class PluginInputs : public StepHook {
   std::function<void(std::shared_ptr<const InputTopic>)> on_message_;
 };
 
-/// Returns what a topic is called where its world is in no namespace: recordings know of none.
+/// Returns the name of a topic as if its world were in no namespace: recordings store no
+/// namespaces.
 std::string withoutNamespace(const std::string& resolved);
 
 template <typename Message>

@@ -32,8 +32,8 @@ void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::P
   if (publish_wheel_joints_) joints_ = advertise<sensor_msgs::JointState>("joint_states");
 }
 
-/// Which wheel is the left one is seen from where it sits. Where <legacyMode> says so the sides are
-/// as they are called, in Gazebo's sense: swapped if it is true.
+/// Decides which wheel is the left one by their positions. With <legacyMode> the sides are as they
+/// are named; true swaps them, as in Gazebo.
 void DiffDrive::readWheels(const kiva::World& world, const kiva::Parameters& p) {
   const char* const keys[] = {"leftJoint", "rightJoint"};
   const char* const names[] = {"left_joint", "right_joint"};
@@ -47,7 +47,7 @@ void DiffDrive::readWheels(const kiva::World& world, const kiva::Parameters& p) 
   turn_sign_ = is_swapped ? -1 : 1;
 }
 
-double DiffDrive::wanted(Side side) const {
+double DiffDrive::desiredSpeed(Side side) const {
   const double sign = turn_sign_ * (side == kLeft ? -1 : 1);
   return command().speed + sign * command().turn * separation_ / 2;
 }
@@ -57,7 +57,7 @@ void DiffDrive::beforeStep(kiva::World& world, double dt) {
   const double most = acceleration_ > 0 ? acceleration_ * dt : std::numeric_limits<double>::max();
   for (Side side : {kLeft, kRight}) {
     Wheel& wheel = wheels_[side];
-    wheel.target += std::clamp(wanted(side) - wheel.target, -most, most);
+    wheel.target += std::clamp(desiredSpeed(side) - wheel.target, -most, most);
     wheel.motor.drive(world, model(), wheel.target / radius_, torque_);
   }
 }

@@ -29,7 +29,7 @@ class DiffDrive : public DrivePlugin {
   };
 
   void readWheels(const kiva::World& world, const kiva::Parameters& parameters);
-  double wanted(Side side) const;
+  double desiredSpeed(Side side) const;
   void integrate(const kiva::World& world, double dt);
   void publishWheels(const kiva::World& world);
 

@@ -31,8 +31,8 @@ bool DrivePlugin::takeCommand() {
 kiva::EntityState DrivePlugin::trueOdometry(const kiva::World& world) const {
   kiva::EntityState out = *world.state(model());
   const kiva::Quaternion heading(0, 0, out.pose.Rot().Yaw());
-  const kiva::Vector3 seen = heading.RotateVectorReverse(out.twist.linear);
-  out.twist = {{seen.X(), seen.Y(), 0}, {0, 0, out.twist.angular.Z()}};
+  const kiva::Vector3 local = heading.RotateVectorReverse(out.twist.linear);
+  out.twist = {{local.X(), local.Y(), 0}, {0, 0, out.twist.angular.Z()}};
   return out;
 }
 

@@ -17,7 +17,7 @@ class DrivePlugin : public GazeboPlugin {
  protected:
   static constexpr double kMost = 1e6;  ///< Largest speed and length, in SI units.
 
-  struct Command {
+  struct DriveCommand {
     double speed = 0;  ///< Ahead [m/s].
     double aside = 0;  ///< Speed to the left [m/s].
     double turn = 0;   ///< [rad/s]
@@ -31,8 +31,8 @@ class DrivePlugin : public GazeboPlugin {
   void setCovariance(const Covariance& covariance) { covariance_ = covariance; }
   /// Takes the newest message on the command topic. Returns whether there was one.
   bool takeCommand();
-  void setCommand(const Command& command) { command_ = command; }
-  const Command& command() const { return command_; }
+  void setCommand(const DriveCommand& command) { command_ = command; }
+  const DriveCommand& command() const { return command_; }
   /// Returns the model's pose in world, and its planar velocity in its own frame.
   kiva::EntityState trueOdometry(const kiva::World& world) const;
   void publishOdometry(const kiva::World& world, const kiva::EntityState& state);
@@ -40,7 +40,7 @@ class DrivePlugin : public GazeboPlugin {
   ros::Publisher& transforms() { return transforms_; }
 
  private:
-  Command command_;
+  DriveCommand command_;
   Covariance covariance_;
   std::string odometry_frame_, base_frame_;
   PluginInput<geometry_msgs::Twist> commands_;

@@ -16,8 +16,8 @@ void PlanarMove::load(kiva::World& world, const std::string& model, const kiva::
   openTopics(p);
 }
 
-/// As in Gazebo, collisions do not change the commanded velocity; unlike there the model falls, and
-/// its wheels keep rolling.
+/// Collisions do not change the commanded velocity, as in Gazebo. Unlike there, the model falls,
+/// and its wheels keep rolling.
 void PlanarMove::beforeStep(kiva::World& world, double) {
   if (takeCommand()) commanded_ = world.time();
   if (timeout_ >= 0 && world.time() - commanded_ > timeout_) setCommand({});

@@ -21,7 +21,7 @@ constexpr int kMostPixels = 1000000;
 constexpr double kMostRate = 30;     // [Hz] where a sensor names none
 constexpr double kMostDepth = 1000;  // [m]
 constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
-constexpr std::uint8_t kGrey = 128;  // of points whose colour is not known
+constexpr std::uint8_t kGrey = 128;  // colour of points, which is unknown
 
 }  // namespace
 
@@ -74,8 +74,9 @@ void DepthCamera::readImage(const kiva::SensorDescription& from, const kiva::Par
   farthest_ = farthest(p, std::min(far_clip, kMostDepth));
 }
 
-/// Rays through the middles of pixels, and `info_` for these: <Cx>, <Cy> and <focalLength>, which
-/// change only what Gazebo says of its camera, are not taken, so that image and cloud agree.
+/// Sets rays through the centres of pixels, and `info_` for them. <Cx>, <Cy> and <focalLength>,
+/// which in Gazebo change only the camera's description, are ignored, so that image and cloud
+/// agree.
 void DepthCamera::setRays() {
   const double x = 0.5 * (width_ - 1), y = 0.5 * (height_ - 1);
   directions_.clear();
@@ -126,8 +127,7 @@ void DepthCamera::afterStep(const kiva::World& world, double) {
   if (hasSubscribers(cloud_)) publishCloud(stamp, pixels);
 }
 
-/// Returns depths along the optical axis [m]; NaN where none is between the nearest and the
-/// farthest.
+/// Returns depths along the optical axis [m]; NaN for depths outside of nearest_ to farthest_.
 std::vector<float> DepthCamera::depths(const kiva::World& world, const kiva::Pose& pose) const {
   const double corner = 1 / directions_.front().X();  // the longest ray to a plane ahead
   const std::vector<double> ranges =

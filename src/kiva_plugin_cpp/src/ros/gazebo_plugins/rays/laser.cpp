@@ -56,8 +56,9 @@ void Laser::afterStep(const kiva::World& world, double) {
   publish(publisher_, std::move(out));
 }
 
-/// Casts the rays. Those of a level sensor go the quick way, which ignores the floor: a sensor that
-/// rocks with its robot by a fraction of a degree would else meet it far away.
+/// Casts the rays. A level sensor uses the faster cast, which ignores the floor: the rays of a
+/// sensor that rocks with its robot by a fraction of a degree would otherwise hit the floor far
+/// away.
 std::vector<double> Laser::cast(const kiva::World& world, const kiva::Pose& pose) const {
   if (pose.Rot().ZAxis().Z() < kLevel) {
     return castFrom(world, pose, directions_, scan_.range_max, model());

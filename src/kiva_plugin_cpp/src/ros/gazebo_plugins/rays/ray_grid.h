@@ -30,8 +30,8 @@ struct RayGrid {
   std::vector<kiva::Vector3> directions() const;
 };
 
-/// Returns distances [m] along directions of a sensor at that pose in world; rays pass through
-/// model `but`; +inf = no return.
+/// Returns distances [m] along directions of a sensor at that pose in world; +inf = no return. Rays
+/// pass through model `but`.
 std::vector<double> castFrom(const kiva::World& world, const kiva::Pose& pose,
                              const std::vector<kiva::Vector3>& directions, double range,
                              const std::string& but);

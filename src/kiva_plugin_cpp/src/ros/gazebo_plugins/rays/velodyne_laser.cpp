@@ -15,9 +15,9 @@ namespace {
 constexpr double kNoReturn = std::numeric_limits<double>::quiet_NaN();
 
 /// Writes points one after the other.
-class Writer {
+class PointWriter {
  public:
-  Writer(sensor_msgs::PointCloud2* cloud, std::size_t most) : modifier_(*cloud) {
+  PointWriter(sensor_msgs::PointCloud2* cloud, std::size_t most) : modifier_(*cloud) {
     using Field = sensor_msgs::PointField;
     modifier_.setPointCloud2Fields(6, "x", 1, Field::FLOAT32, "y", 1, Field::FLOAT32, "z", 1,
                                    Field::FLOAT32, "intensity", 1, Field::FLOAT32, "ring", 1,
@@ -75,7 +75,7 @@ void VelodyneLaser::afterStep(const kiva::World& world, double) {
   sensor_msgs::PointCloud2 out;
   out.header = header(world.time(), frame_);
   out.is_dense = !is_organized_;
-  Writer writer(&out, ranges.size());
+  PointWriter writer(&out, ranges.size());
   for (std::size_t ray = 0; ray < ranges.size(); ++ray) {
     const int ring = static_cast<int>(ray) / grid_.across.samples;
     const bool is_hit = std::isfinite(ranges[ray]) && ranges[ray] >= min_range_;

@@ -11,8 +11,9 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_velodyne_laser.so in a <sensor type="ray"> of several layers: the returns of a
-/// turn at once, with the ring of each, as a sensor_msgs/PointCloud2 in the sensor's frame.
+/// Stands in for libgazebo_ros_velodyne_laser.so in a <sensor type="ray"> of several layers:
+/// publishes the returns of a whole turn with their rings, as a sensor_msgs/PointCloud2 in the
+/// sensor's frame.
 class VelodyneLaser : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
@@ -27,7 +28,8 @@ class VelodyneLaser : public GazeboPlugin {
   std::vector<kiva::Vector3> directions_;
   double min_range_ = 0, max_range_ = 0;  ///< [m]
   double noise_ = 0;                      ///< Standard deviation [m].
-  bool is_organized_ = false;  ///< A point a ray, NaN where nothing returns; a row a ring.
+  bool is_organized_ = false;  ///< Whether there is a point for every ray, NaN without return, and
+                               ///< a row for every ring.
   Schedule schedule_;
   ros::Publisher publisher_;
 };

@@ -29,7 +29,7 @@ void FtSensor::afterStep(const kiva::World& world, double) {
   const auto wrench = world.jointWrench(model(), joint_);
   const auto child = world.state(model(), child_);
   if (!wrench || !child) return;
-  // The joint's wrench on its child is the negative of the child's on it.
+  // The joint's wrench on its child is the negative of the child's on the joint.
   const kiva::Quaternion& turned = child->pose.Rot();
   const kiva::Vector3 force = turned.RotateVectorReverse(-wrench->force);
   const kiva::Vector3 torque = turned.RotateVectorReverse(-wrench->torque);

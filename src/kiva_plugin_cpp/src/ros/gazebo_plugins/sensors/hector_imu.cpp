@@ -45,7 +45,7 @@ void HectorImu::load(kiva::World& world, const std::string& model, const kiva::P
   if (const double noise = p.number("gaussianNoise", 0, 0, 1e6); noise > 0) {
     acceleration_.noise = rate_.noise = kiva::Vector3::One * noise;
   }
-  // Like that plugin: an accelerometer that is mounted tilted by small angles.
+  // Models an accelerometer that is mounted with small tilts, as that plugin does.
   const auto rpy = p.numbers("rpyOffset", {0, 0, 0});
   acceleration_.offset += kiva::Vector3(rpy[1], -rpy[0], 0) * 9.8065;
   heading_.offset.Z() += rpy[2];
@@ -62,8 +62,8 @@ void HectorImu::load(kiva::World& world, const std::string& model, const kiva::P
 
 kiva::Vector3 HectorImu::disturbed(const kiva::World& world, const kiva::Vector3& vector,
                                    const Error& error, std::uint64_t index) const {
-  const kiva::Vector3 one = noisy(world, kiva::Vector3::Zero, 1, index);
-  return vector + error.offset + error.noise * one;
+  const kiva::Vector3 sample = noisy(world, kiva::Vector3::Zero, 1, index);
+  return vector + error.offset + error.noise * sample;
 }
 
 void HectorImu::afterStep(const kiva::World& world, double) {

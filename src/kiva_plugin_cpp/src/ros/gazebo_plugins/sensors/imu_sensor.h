@@ -22,7 +22,7 @@ class ImuSensor : public GazeboPlugin {
 
  private:
   InertialFrame frame_;
-  kiva::Quaternion offset_;    ///< Put before the orientation.
+  kiva::Quaternion offset_;    ///< Rotation that precedes the orientation.
   double turn_noise_ = 0;      ///< Standard deviations [rad/s].
   double motion_noise_ = 0;    ///< [m/s²]
   double rotation_noise_ = 0;  ///< [rad]

@@ -26,7 +26,7 @@ class InertialFrame {
   InertialFrame(std::string link, const kiva::Pose& pose_in_link)
       : link_(std::move(link)), pose_in_link_(pose_in_link) {}
 
-  /// Measures from the last call until now. Returns nothing if the link was deleted.
+  /// Measures since the last call. Returns nothing if the link was deleted.
   std::optional<InertialReading> measure(const kiva::World& world, const std::string& model);
   void reset() { measured_ = -1; }
 
@@ -34,7 +34,7 @@ class InertialFrame {
   std::string link_;
   kiva::Pose pose_in_link_;
   kiva::Vector3 velocity_;  ///< Velocity at the last measurement, in world [m/s].
-  double measured_ = -1;    ///< When that was [s], negative = never.
+  double measured_ = -1;    ///< Time of that measurement [s], negative = never.
 };
 
 /// Sets the three diagonals to the square of a deviation.
@@ -44,7 +44,7 @@ void setCovariance(double deviation, boost::array<double, 9>* covariance);
 sensor_msgs::Imu filled(const sensor_msgs::Imu& imu, double time, const kiva::Quaternion& rotation,
                         const kiva::Vector3& turn, const kiva::Vector3& acceleration);
 
-/// Advertises the calibration service of an IMU, which has nothing to do here.
+/// Serves an IMU's calibration, which does nothing here.
 bool calibrateImu(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
 
 }  // namespace kiva_ros

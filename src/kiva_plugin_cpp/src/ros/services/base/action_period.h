@@ -14,7 +14,7 @@
 namespace kiva_ros {
 
 /// Returns a period as Gazebo's clients mean it: a start in the past is now, a negative duration is
-/// unlimited, and the least duration is one step.
+/// unlimited, and the shortest duration is one step.
 inline kiva::Period periodOf(const kiva::World& world, const ros::Time& start_time,
                              const ros::Duration& duration) {
   const double start = std::max(start_time.toSec(), world.time());

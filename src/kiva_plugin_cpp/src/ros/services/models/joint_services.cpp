@@ -53,12 +53,12 @@ void describe(const kiva::World& world, const std::string& name, Properties* out
   out->rate = {state.rate};
 }
 
-/// Returns the first of a list with one value an axis; our joints have one axis.
+/// Reads the first value of a list with one value an axis; our joints have one axis.
 void read(const std::vector<double>& values, double* out) {
   if (!values.empty()) *out = values.front();
 }
 
-/// Sets a joint. ODE's fmax and vel become a motor; its other settings mean nothing to Bullet.
+/// Sets a joint. ODE's fmax and vel become a motor; Bullet has no equivalent of its other settings.
 std::string configure(kiva::World& world, const gazebo_msgs::SetJointProperties::Request& request) {
   const auto [model, joint] = jointNamed(world, request.joint_name, "SetJointProperties");
   const gazebo_msgs::ODEJointProperties& ode = request.ode_joint_config;

@@ -84,7 +84,7 @@ void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* 
   out->izz = tensor(2, 2);
 }
 
-/// Throws ServiceRefusal unless a value is finite and within what physics can compute with.
+/// Throws ServiceRefusal unless a value is finite and within the limits of the physics.
 void checkNumber(double value, double most, const char* what) {
   if (std::abs(value) <= most) return;
   throw ServiceRefusal("SetLinkProperties: " + std::string(what) + " must be finite and at most " +

@@ -11,7 +11,7 @@
 namespace kiva_ros {
 namespace {
 
-/// Throws ServiceRefusal for a document that is too large; parsed, it takes many times its size.
+/// Throws ServiceRefusal for a document that is too large; parsing takes many times its size.
 void checkBytes(const std::string& xml) {
   constexpr std::size_t kMost = 10'000'000;
   if (xml.size() <= kMost) return;
@@ -19,8 +19,8 @@ void checkBytes(const std::string& xml) {
                        " bytes; at most " + std::to_string(kMost) + " are read");
 }
 
-/// Places a document's models and lights in world: its poses are relative to `initial_pose`, and
-/// that to the frame.
+/// Places a document's models and lights in world. Its poses are relative to `initial_pose`, which
+/// is relative to the frame.
 void place(const kiva::World& world, const std::string& frame_name, const kiva::Pose& initial_pose,
            SpawnServices::Document* document) {
   const auto frame = frameState(world, frame_name);

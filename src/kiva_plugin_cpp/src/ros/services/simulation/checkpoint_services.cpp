@@ -72,7 +72,7 @@ double CheckpointServices::undoHere(kiva::World& world, double seconds_back) {
   const Saved& saved = *at;
   simulation_.restoreHere(world, saved.bytes);
   age_ = saved.age;
-  // Checkpoints taken after it belong to the undone time.
+  // Drops checkpoints of the time that was undone.
   while (!ring_.empty() && ring_.back().age > age_) {
     ring_bytes_ -= ring_.back().bytes.size();
     ring_.pop_back();

@@ -22,13 +22,15 @@ namespace kiva_ros {
 class CheckpointServices : public StepHook {
  public:
   struct Options {
-    bool undo = true;               ///< Whether the ring is kept.
-    int autosave = 0;               ///< Checkpoints kept, one a simulated second; 0 = none.
-    std::string folder;             ///< Folder of checkpoints that are files.
-    std::uintmax_t most_bytes = 0;  ///< Limit in memory, of the files, and of the ring, each.
+    bool undo = true;    ///< Whether the ring is kept.
+    int autosave = 0;    ///< Checkpoints kept, one a simulated second; 0 = none.
+    std::string folder;  ///< Folder of checkpoints that are files.
+    std::uintmax_t most_bytes =
+        0;  ///< Limit of those in memory, of the files, and of the ring, each.
   };
 
-  /// `root`: serves calls that write and read files, so preferably the node of a thread of its own.
+  /// `root` serves calls that write and read files, so it is preferably the node of a thread of its
+  /// own.
   CheckpointServices(ros::NodeHandle& root, SimulationThread& simulation, const Options& options);
 
   void beforeReset(kiva::World& world) override;

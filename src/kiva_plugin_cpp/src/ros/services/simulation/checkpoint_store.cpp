@@ -79,7 +79,8 @@ std::string CheckpointStore::load(const std::string& name) const {
                        (known.empty() ? "is none" : "are " + known));
 }
 
-/// Writes a file under a temporary name and renames it, so that readers never meet half a file.
+/// Writes a file under a temporary name and renames it, so that readers never see an incomplete
+/// file.
 void CheckpointStore::saveFile(const std::string& name, const std::string& bytes) const {
   const fs::path path = fs::path(folder_) / name;
   const fs::path partial = path.string() + ".part";

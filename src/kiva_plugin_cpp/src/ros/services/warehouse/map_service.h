@@ -8,8 +8,8 @@
 
 namespace kiva_ros {
 
-/// Serves `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, and in it a
-/// number of kiva::Occupancy.
+/// Serves `/warehouse/map` (nav_msgs/GetMap): the floor with a cell for each grid point, with the
+/// values of kiva::Occupancy.
 class MapService {
  public:
   MapService(ros::NodeHandle& root, SimulationThread& simulation);

@@ -10,8 +10,8 @@
 
 namespace kiva_ros {
 
-/// Serves `/warehouse/person` and `/warehouse/light_curtain`: where people walk, and where robots
-/// stop for them.
+/// Serves `/warehouse/person` and `/warehouse/light_curtain`: the walks of people, and the zones in
+/// which robots stop for them.
 class PeopleServices {
  public:
   PeopleServices(ros::NodeHandle& root, SimulationThread& simulation, kiva::ModelPaths model_paths);

@@ -9,9 +9,9 @@
 
 namespace kiva_ros {
 
-/// Takes in `/warehouse/shadows`: poses and states of robots that are elsewhere. Each robot in the
-/// world is the shadow of such a robot from then on. The last message takes effect at the beginning
-/// of a step, after that of `inputs`, so that a recording knows the step.
+/// Subscribes to `/warehouse/shadows`: poses and states of robots that are elsewhere. Each such
+/// robot here becomes a shadow. The last message takes effect at the beginning of a step, after
+/// that of `inputs`, so that a recording knows the step.
 class ShadowTopic : public StepHook {
  public:
   ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs);

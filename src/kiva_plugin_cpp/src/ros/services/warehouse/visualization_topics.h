@@ -25,7 +25,7 @@ class VisualizationTopics {
 
   SimulationThread& simulation_;
   std::atomic<bool> newcomer_{false};  ///< A new subscriber waits for the scenery.
-  warehouse_msgs::Scenery scenery_;    ///< As of
+  warehouse_msgs::Scenery scenery_;    ///< The scenery of
   std::uint64_t models_revision_ =
       std::numeric_limits<std::uint64_t>::max();  ///< this revision of the models.
   ros::Publisher scenery_topic_, paths_topic_;

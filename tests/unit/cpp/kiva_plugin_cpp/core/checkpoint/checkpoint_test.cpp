@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A world that is restored goes on as the one that was saved did, bit by bit.
+// A restored world continues exactly as the saved one, bit by bit.
 #include "core/checkpoint/checkpoint.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
-/// A random command to a random robot.
+/// Returns a random command to a random robot.
 Command anyCommand(std::mt19937& random, int robots, int units) {
   const auto pick = [&](int least, int most) {
     return std::uniform_int_distribution<int>(least, most)(random);
@@ -34,7 +34,7 @@ Command anyCommand(std::mt19937& random, int robots, int units) {
   return command;
 }
 
-/// Goes on for `steps` with commands from that seed; the state's hash after every 50 steps.
+/// Steps `steps` times with commands from that seed; returns the state's hash after every 50 steps.
 Hashes goOn(World& world, int steps, unsigned seed) {
   std::mt19937 random(seed);
   Hashes hashes;
@@ -202,7 +202,8 @@ TEST_F(Checkpoint, JointedRobotsToo) {
   EXPECT_EQ(goOn(jointed.world, 2000, 6), first);
 }
 
-/// What falls, rolls, leans on each other and hangs on joints, with robots between; by that seed.
+/// Adds bodies that fall, roll, lean on each other and hang on joints, with robots among them, from
+/// that seed.
 void heap(Warehouse& w, unsigned seed) {
   std::mt19937 random(seed);
   const auto at = [&random] { return std::uniform_real_distribution<double>(-1.5, 1.5)(random); };
@@ -221,13 +222,13 @@ void heap(Warehouse& w, unsigned seed) {
   w.world.setState("round1", rolling);
 }
 
-struct Scene {
+struct SavedScene {
   const char* name;
   Drive drive;
   void (*fill)(Warehouse&, unsigned seed);
 };
 
-class CheckpointIn : public ::testing::TestWithParam<Scene> {
+class CheckpointIn : public ::testing::TestWithParam<SavedScene> {
  protected:
   std::unique_ptr<Warehouse> make(unsigned seed) const {
     Floorplan plan = hall();
@@ -239,10 +240,10 @@ class CheckpointIn : public ::testing::TestWithParam<Scene> {
 };
 
 INSTANTIATE_TEST_SUITE_P(, CheckpointIn,
-                         ::testing::Values(Scene{"AHall", Drive::kTraction,
-                                                 [](Warehouse& w, unsigned) { furnish(w); }},
-                                           Scene{"AHeap", Drive::kTraction, heap},
-                                           Scene{"AJointedHeap", Drive::kJointed, heap}),
+                         ::testing::Values(SavedScene{"AHall", Drive::kTraction,
+                                                      [](Warehouse& w, unsigned) { furnish(w); }},
+                                           SavedScene{"AHeap", Drive::kTraction, heap},
+                                           SavedScene{"AJointedHeap", Drive::kJointed, heap}),
                          [](const auto& scene) { return scene.param.name; });
 
 TEST_P(CheckpointIn, SavingDoesNotChangeTheFutureAndRestoredWorldsShareIt) {
@@ -365,8 +366,7 @@ TEST_F(Checkpoint, DamagedBytesChangeNothing) {
   EXPECT_TRUE(w.world.checkpoint() == saved);
 }
 
-/// The same under a good seal: every one is refused with nothing changed, or a world like any
-/// other.
+/// Every checkpoint with a valid seal is refused with nothing changed, or gives a valid world.
 TEST_P(CheckpointIn, NobodyWhoSealsItAgainBreaksTheWorld) {
   const auto w = make(1);
   std::vector<std::string> saved;
@@ -439,7 +439,7 @@ TEST(CheckpointOfAHugeWarehouse, IsSmallAndQuick) {
   w.run(1);
   w.forget();
   std::string saved;
-  double seconds = 1;  // of this process alone: others may be busy too
+  double seconds = 1;  // of this process alone, since others may be busy
   for (int i = 0; i < 5; ++i) {
     const std::clock_t begin = std::clock();
     saved = w.world.checkpoint();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robots that do touch: real contact, told once, and everybody finds back to the grid.
+// Robots that touch: real contact, reported once, after which all robots return to the grid.
 #include <array>
 #include <map>
 #include <random>
@@ -22,7 +22,7 @@ Footprint footprintOf(const Fleet& f, int i) {
   return makeFootprint(body, Pose(f.x[i], f.y[i], 0.2, 0, 0, f.yaw[i]));
 }
 
-/// The largest overlap of any two robots [m]; negative while all are apart.
+/// Returns the largest overlap of any two robots [m]; negative while all are apart.
 double overlap(const Fleet& f) {
   double most = -1e9;
   for (int i = 0; i < f.size(); ++i) {
@@ -277,7 +277,7 @@ class CrowdedHall {
     for (const auto& [i, j] : neighbours_) checkPair(f, i, j);
   }
 
-  /// Pairs that may come within a metre in the next twenty steps, at 2.5 m/s each.
+  /// Collects pairs that may come within a metre in the next twenty steps, at 2.5 m/s each.
   void findNeighbours(const Fleet& f) {
     neighbours_.clear();
     for (int i = 0; i < f.size(); ++i) {
@@ -287,7 +287,7 @@ class CrowdedHall {
     }
   }
 
-  /// Two that overlap must have been told of when their impact was over, since they came near.
+  /// Two that overlap must have been reported when their impact was over.
   void checkPair(const Fleet& f, int i, int j) {
     const bool near = std::hypot(f.x[i] - f.x[j], f.y[i] - f.y[j]) < 1;
     const double apart = near ? gap(footprintOf(f, i), footprintOf(f, j)) : 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What clients do to a world from outside: push links, change masses, gravity and the step, set
-// lights; and what contacts tell.
+// External inputs of clients: forces on links, changes of masses, gravity, step and lights; and the
+// contents of contacts.
 #include <stdexcept>
 
 #include "core/state/world_state.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr double kGravity = 9.81;  // [m/s²]
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// 10 kg and half a metre wide.
+/// A cube of 10 kg and half a metre.
 std::string cube(bool gravity = true) {
   return std::string("<sdf version='1.9'><model name='m'><link name='body'><gravity>") +
          (gravity ? "true" : "false") +
@@ -254,7 +254,7 @@ TEST_F(ExternalInputs, ACollisionTellsHowItHappened) {
   EXPECT_NEAR(event.impact.speed, 2, 0.01);
 }
 
-/// What the one who was hit is told, and what the other lost until it was over.
+/// The impulse reported to the model that was hit, and the speed that the other lost until the end.
 struct Hit {
   Impact impact;
   double lost;  // [m/s]
@@ -270,12 +270,12 @@ Hit hit(Warehouse& w, int axis) {
         return w.count(Event::Kind::kCollision) > 0;
       },
       5);
-  w.run(0.005);  // for those that are told too early
+  w.run(0.005);  // catches reports that come too early
   const double weight = axis == 2 ? kGravity * 0.005 : 0;
   return {w.last(Event::Kind::kCollision).impact, before - speed() + weight};
 }
 
-/// m Δv, wherever the step begins in which they meet.
+/// The impulse is m Δv, whatever the step of the first contact.
 TEST_F(ExternalInputs, ACollisionsImpulseIsWhatStoppedTheBox) {
   for (double gap : {0.1, 0.1003, 0.1005, 0.1011, 0.1019}) {
     Warehouse warehouse;
@@ -290,7 +290,8 @@ TEST_F(ExternalInputs, ACollisionsImpulseIsWhatStoppedTheBox) {
   }
 }
 
-/// m Δv, of one that falls upon the robot: several corners, which Bullet finds one after another.
+/// The impulse is m Δv for a box that falls on the robot: Bullet finds several corners one after
+/// another.
 TEST_F(ExternalInputs, ACollisionsImpulseIsWhatCaughtTheBox) {
   for (double height : {0.05, 0.2, 0.5}) {
     Warehouse warehouse;

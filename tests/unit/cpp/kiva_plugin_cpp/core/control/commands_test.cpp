@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots are asked for and how it is answered: every command by ACCEPTED or REFUSED, every
-// accepted one by one DONE or BLOCKED.
+// Commands and their answers: every command gets ACCEPTED or REFUSED, every accepted one ends with
+// one DONE or BLOCKED.
 #include <algorithm>
 #include <random>
 
@@ -23,7 +23,7 @@ class Commands : public ::testing::Test {
     w.forget();
   }
 
-  /// Steps, and expects what was posted to be refused for that reason with nothing changed.
+  /// Steps, and expects that the posted command is refused for that reason with nothing changed.
   void expectRefused(const std::string& reason) {
     const Status status = w.status(1);
     EXPECT_PRED2(contains, w.refusal(), reason);
@@ -206,7 +206,7 @@ TEST_F(Commands, FromNumbersAMicrometreOffTheGridAreAccepted) {
 
 class WhileBusy : public Commands {
  protected:
-  /// Every kind of command is refused now, by the name of the state.
+  /// Expects that every kind of command is refused now, with the name of the state.
   void expectAllRefused(const std::string& state) {
     const std::string reason = "it is not idle but " + state;
     w.mov(1, 3, 3);
@@ -222,7 +222,7 @@ class WhileBusy : public Commands {
     w.drop(1, 1);
     expectRefused(reason);
   }
-  /// And the command under way ends as if nothing had been.
+  /// Expects that the command under way ends undisturbed.
   void expectDoneAt(double x, double y) {
     w.runUntilIdle(1);
     w.expectAt(1, x, y);

@@ -49,7 +49,7 @@ class FollowTest : public testing::Test {
   }
   std::uint32_t reached(int id) const { return w.world.fleet().reached[w.index(id)]; }
   std::uint32_t left(int id) const { return w.world.fleet().left[w.index(id)]; }
-  /// What `change` is refused with; that it is, and changes nothing, is expected.
+  /// Returns the reason with which `change` is refused; expects a refusal that changes nothing.
   std::string refused(const FollowPath& change) {
     w.world.post(change);
     const std::string bytes = w.world.checkpoint();
@@ -133,7 +133,7 @@ TEST_F(FollowTest, TurnsAroundWhereThePathGoesBack) {
   EXPECT_EQ(w.count(Kind::kDone), 1);
 }
 
-/// What `reached` and `left` say is held to where robot and load are, at every step.
+/// Compares `reached` and `left` with the places of robot and load at every step.
 class CountTest : public FollowTest, public testing::WithParamInterface<bool> {};
 
 TEST_P(CountTest, PointsAreReachedAndCellsLeftAsGeometryHasIt) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage units: taken up, carried, put down, refused; and what becomes of them, of their items and
-// of the tower when a model goes meanwhile.
+// Storage units: taking up, carrying, putting down, refusals; and the fate of units, items and
+// tower when a model is deleted meanwhile.
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage units that stand askew: who can't pass or turn beneath one stops before it touches it,
-// and who was stopped beneath others gets back to the grid between their legs.
+// Storage units that stand askew. A robot that can't pass or turn beneath one stops before it
+// touches it; a robot stopped beneath others returns to the grid between their legs.
 #include "warehouse.h"
 
 namespace kiva::test {

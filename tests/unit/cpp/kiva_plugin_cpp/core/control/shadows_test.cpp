@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadows of robots that are elsewhere: where they stand, what they carry, and that others see
-// them.
+// Shadows of robots that are elsewhere: their poses and loads, and their visibility to other
+// robots.
 #include "warehouse.h"
 
 namespace kiva::test {

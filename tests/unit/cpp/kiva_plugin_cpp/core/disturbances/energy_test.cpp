@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots take from their batteries, and where those are charged.
+// Consumption of batteries, and charging.
 #include <cmath>
 
 #include "warehouse.h"
@@ -35,7 +35,7 @@ class Energy : public ::testing::Test {
     w.spawn("kiva", "kiva1", 0, 0);
     w.forget();
   }
-  /// Until batteries have been read, which they are ten times a second.
+  /// Runs until batteries have been read, which happens ten times a second.
   void read() {
     w.runUntil([this] { return w.world.steps() % 100 == 1; });
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a robot can still do when something in it is broken, and that it goes on once that is
-// repaired.
+// Abilities of a robot with a failure, and its recovery after the repair.
 #include <cmath>
 
 #include "warehouse.h"

@@ -21,7 +21,7 @@ constexpr double kBoard = 0.81;    // [m], the second one
 constexpr double kFront = 0.24;    // [m] from the middle of the unit to the items of its first row
 constexpr double kBar = 6;         // [m], where something low stands in the way
 
-/// Of the first row: how much faster its unit has to be at once for its items to slide off [m/s].
+/// Sudden change of a unit's speed from which items of its first row slide off [m/s].
 const double kLimit = std::sqrt(2 * kFriction * kGravity * (kHalfUnit - kFront));
 
 Floorplan planWith(double least, double most, double pick_up_after = 0) {

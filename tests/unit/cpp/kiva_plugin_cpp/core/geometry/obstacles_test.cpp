@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who is asked for around a place: everything that is near enough, once, however things and robots
-// came, moved and went.
+// Queries around a point: each obstacle that is near enough is visited once, however models and
+// robots were added, moved and removed.
 #include "core/geometry/obstacles.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ constexpr double kEdge = 12;       // of the floor [m]
 constexpr double kMargin = 0.005;  // by which more may be asked for [m]
 constexpr int kThings = 150, kTurns = 20, kLooks = 25;
 
-class Floor {
+class BusyFloor {
  public:
-  Floor(int robots, unsigned seed) : obstacles_(fleet_), random_(seed) {
+  BusyFloor(int robots, unsigned seed) : obstacles_(fleet_), random_(seed) {
     for (int i = 0; i < robots; ++i) {
       for (auto* column : {&fleet_.x, &fleet_.y, &fleet_.yaw}) column->push_back(within(kEdge));
       obstacles_.setMover(i, {box(0, 0), box(0.2, 0.1)});
@@ -100,7 +100,7 @@ class Floor {
 
 void lookAround(int robots) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    Floor floor(robots, seed);
+    BusyFloor floor(robots, seed);
     for (int turn = 0; turn < kTurns; ++turn, floor.turn()) {
       for (int look = 0; look < kLooks; ++look) floor.look();
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where two outlines on the floor touch, over random ones.
+// Contacts of random outlines on the floor.
 #include "core/geometry/rectangle_contacts.h"
 
 #include <gtest/gtest.h>
@@ -17,12 +17,12 @@ constexpr double kReach = 0.05;  // [m]
 constexpr double kExact = 1e-9;  // [m]
 constexpr int kPairs = 20000;
 
-struct Point {
+struct PlanePoint {
   double x, y;
 };
 
-std::array<Point, 4> corners(const Rectangle& r) {
-  std::array<Point, 4> out;
+std::array<PlanePoint, 4> corners(const Rectangle& r) {
+  std::array<PlanePoint, 4> out;
   const double signs[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   for (int i = 0; i < 4; ++i) {
     const double x = signs[i][0] * r.hx, y = signs[i][1] * r.hy;
@@ -31,8 +31,8 @@ std::array<Point, 4> corners(const Rectangle& r) {
   return out;
 }
 
-/// Of a point from a rectangle; negative inside.
-double distance(const Rectangle& r, const Point& p) {
+/// Returns the distance of a point from a rectangle; negative inside.
+double distance(const Rectangle& r, const PlanePoint& p) {
   const double dx = p.x - r.x, dy = p.y - r.y;
   const double along = std::abs(r.c * dx + r.s * dy) - r.hx;
   const double across = std::abs(r.c * dy - r.s * dx) - r.hy;
@@ -40,12 +40,12 @@ double distance(const Rectangle& r, const Point& p) {
   return std::hypot(along, across);
 }
 
-/// Along the axes of `a`.
+/// Returns the gap along the axes of `a`.
 double apartAlong(const Rectangle& a, const Rectangle& b) {
   double most = -1e9;
   for (const auto& [nx, ny, half] : {std::array<double, 3>{a.c, a.s, a.hx}, {-a.s, a.c, a.hy}}) {
     double nearest = 1e9, farthest = -1e9;
-    for (const Point& p : corners(b)) {
+    for (const PlanePoint& p : corners(b)) {
       const double at = (p.x - a.x) * nx + (p.y - a.y) * ny;
       nearest = std::min(nearest, at);
       farthest = std::max(farthest, at);
@@ -55,13 +55,13 @@ double apartAlong(const Rectangle& a, const Rectangle& b) {
   return most;
 }
 
-/// How far two rectangles are apart; where they overlap, minus the shortest way apart.
+/// Returns the distance of two rectangles; where they overlap, minus the shortest separation.
 double distance(const Rectangle& a, const Rectangle& b) {
   const double apart = std::max(apartAlong(a, b), apartAlong(b, a));
   if (apart <= 0) return apart;
   double least = 1e9;
-  for (const Point& p : corners(a)) least = std::min(least, distance(b, p));
-  for (const Point& p : corners(b)) least = std::min(least, distance(a, p));
+  for (const PlanePoint& p : corners(a)) least = std::min(least, distance(b, p));
+  for (const PlanePoint& p : corners(b)) least = std::min(least, distance(a, p));
   return least;
 }
 
@@ -104,8 +104,9 @@ TEST_F(RectangleContacts, LieOnBothOutlinesWhileTheseAreApart) {
     for (int k = 0; k < contacts.count; ++k) {
       const OutlineContact& c = contacts.at[k];
       ASSERT_NEAR(std::hypot(c.nx, c.ny), 1, kExact) << i;
-      ASSERT_NEAR(distance(b, Point{c.x, c.y}), 0, kExact) << i;
-      ASSERT_NEAR(distance(a, Point{c.x + c.nx * c.distance, c.y + c.ny * c.distance}), 0, kExact)
+      ASSERT_NEAR(distance(b, PlanePoint{c.x, c.y}), 0, kExact) << i;
+      ASSERT_NEAR(distance(a, PlanePoint{c.x + c.nx * c.distance, c.y + c.ny * c.distance}), 0,
+                  kExact)
           << i;
       ASSERT_GE(c.distance, apart - kExact) << i;
     }

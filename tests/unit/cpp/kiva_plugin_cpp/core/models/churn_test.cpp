@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A warehouse in turmoil: models come and go, robots are commanded, moved and reset, all at random.
-// Whatever refers to what has to stay right, and whatever began has to end.
+// A warehouse in turmoil: models are added and removed, robots are commanded, moved and reset, all
+// at random. All references must stay valid, and every command must end.
 #include <algorithm>
 #include <random>
 
@@ -156,7 +156,7 @@ class Churn : public ::testing::TestWithParam<int> {
         return serve(id);
     }
   }
-  /// To a unit, beneath it, up, away, down: what a robot does all day.
+  /// Drives a robot to a unit, lifts it, drives away and puts it down: a robot's daily work.
   void serve(int id) {
     const Fleet& f = w_.world.fleet();
     const int robot = f.find(id);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models come, are moved, reset, and go; what can't come leaves nothing behind.
+// Models are added, moved, reset and removed; a refused model leaves nothing behind.
 #include <malloc.h>
 
 #include <algorithm>
@@ -54,7 +54,8 @@ class Spawn : public ::testing::Test {
     w.forget();
   }
 
-  /// Why the world refuses the model; it has to leave nothing behind, and nothing to be told.
+  /// Returns the reason for which the world refuses the model, which must leave nothing behind,
+  /// warnings included.
   std::string refusal(const std::string& text, const std::string& name,
                       const Pose& pose = Pose(3, 0, 0, 0, 0, 0)) {
     const Inventory before(w);
@@ -297,7 +298,8 @@ TEST_F(Spawn, TheFloorIsWhatItsModelsCoverTogether) {
   EXPECT_DOUBLE_EQ(w.world.floor().max_x, 0);
 }
 
-/// What the program holds of the heap [MB]. The resident memory would hide what fits into holes.
+/// Returns the program's use of the heap [MB]. Resident memory would not show allocations that
+/// reuse freed memory.
 double heldMemory() {
   const struct mallinfo2 heap = mallinfo2();
   return static_cast<double>(heap.uordblks + heap.hblkhd) / 1e6;

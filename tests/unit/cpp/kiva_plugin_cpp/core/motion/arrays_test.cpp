@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robots that nothing can touch are stepped in arrays: the same motion as Bullet gives.
+// Robots that nothing can touch are stepped in arrays, with the same motion as in Bullet.
 #include <map>
 #include <random>
 
@@ -156,8 +156,8 @@ std::string parcel(double edge) {
          size + "</size></box></geometry></collision></link></model></sdf>";
 }
 
-/// Asking for little first where little is to be expected, as a robot among others does, finds the
-/// same.
+/// The order of the tests, by which a crowded robot tries short times first, does not change the
+/// result.
 TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
   Floorplan plan;
   plan.size = 12;
@@ -181,7 +181,7 @@ TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
           << "kiva" << i + 1 << " at " << w.world.time();
     }
   }
-  EXPECT_GE(by_period.size(), 4u);  // no time, little, more and much
+  EXPECT_GE(by_period.size(), 4u);  // 0, short, longer and long times
   for (const auto& [time, times] : by_period) EXPECT_GT(times, 5) << time;
 }
 

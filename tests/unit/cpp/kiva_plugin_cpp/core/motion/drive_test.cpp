@@ -9,8 +9,8 @@ namespace kiva::test {
 namespace {
 
 /// A robot of one drive model, with `load` kg on it if that is positive.
-struct Journey {
-  Journey(const char* drive, double load) {
+struct DrivenRobot {
+  DrivenRobot(const char* drive, double load) {
     w.spawnText(kivaText({{"drive", drive}}), "kiva1", 0, 0);
     if (load > 0) {
       w.spawnText(unitOfMass(load), "storage_unit1", 0, 0);
@@ -25,7 +25,7 @@ struct Journey {
 class TractionAgainstJointed : public ::testing::TestWithParam<double> {};
 
 TEST_P(TractionAgainstJointed, DifferByLessThanACentimetreAlongTenMetres) {
-  Journey traction("traction", GetParam()), jointed("jointed", GetParam());
+  DrivenRobot traction("traction", GetParam()), jointed("jointed", GetParam());
   double worst = 0;
   traction.w.run(12, [&] {
     jointed.w.step();
@@ -143,7 +143,8 @@ TEST(Traction, SidewaysAndAlongShareCoulombsCircle) {
 
 constexpr double kGravity = 9.81;  // [m/s²]
 
-/// Acceleration of a Kiva of that drive, asked for 1 m/s², with those Coulomb coefficients [m/s²].
+/// Returns the acceleration [m/s²] of a Kiva of that drive, commanded to 1 m/s², with those Coulomb
+/// coefficients.
 double speedingUp(const std::string& drive, double tyre, double floor, const char* friction) {
   Warehouse w;
   w.world.remove("ground_plane");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What wheels can drive on is floor, however a world is made: robots and storage units stand on it,
-// and what rises more than 3 cm above it is in their way.
+// Surfaces on which wheels can drive are floor, however a world is made: robots and storage units
+// stand on it, and parts more than 3 cm above it are obstacles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -215,7 +215,7 @@ TEST(Occupancy, TellsBeltsAndStorageUnitsFromTheBuilding) {
 
 // --- what wheels cross as if it were level floor
 
-/// Returns what a world of those models warns of when it begins.
+/// Returns the warnings of a new world of those models.
 std::string warningsOf(const std::string& models) {
   Hall hall(models);
   hall.step();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the floor grips with, everywhere and in places, and what robots make of it: they plan with
-// the floor as it was built, and get everywhere that way, slower.
+// Friction of the floor, everywhere and in places, and its effect on robots: they plan with the
+// floor as built, and reach all goals that way, more slowly.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -40,8 +40,8 @@ const char kPlane[] = "<plane><normal>0 0 1</normal><size>100 100</size></plane>
 std::string box(const std::string& size) { return "<box><size>" + size + "</size></box>"; }
 
 /// A warehouse on floors of those models alone, with a grid.
-struct Hall : Warehouse {
-  explicit Hall(const std::string& models)
+struct GripHall : Warehouse {
+  explicit GripHall(const std::string& models)
       : Warehouse(parseWorld("<sdf version='1.9'><world name='w'>" + models +
                                  "<plugin name='grid' filename='libkiva_grid.so'><spacing>1"
                                  "</spacing></plugin></world></sdf>",
@@ -62,7 +62,7 @@ using Slippery = ::testing::TestWithParam<std::tuple<const char*, double, bool>>
 /// Turns and drives to the millimetre, as on a dry floor.
 TEST_P(Slippery, FloorsAreDrivenSlower) {
   const auto [drive, friction, loaded] = GetParam();
-  Hall hall(fixed("floor", kPlane, friction));
+  GripHall hall(fixed("floor", kPlane, friction));
   hall.spawnText(kivaText({{"drive", drive}}), "kiva1", 0, 0);
   if (loaded) {
     hall.spawnText(unitOfMass(kUnitMass), "storage_unit1", 0, 0);
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(All, Slippery,
                                             ::testing::Bool()));
 
 TEST(Grip, ThatIsNoneIsToldOnce) {
-  Hall hall(fixed("floor", kPlane, 0));
+  GripHall hall(fixed("floor", kPlane, 0));
   hall.spawn("kiva", "kiva1", 0, 0);
   hall.run(0.1);
   hall.spawn("kiva", "kiva2", 0, 3);
@@ -101,9 +101,10 @@ TEST(Grip, ThatIsNoneIsToldOnce) {
   EXPECT_EQ(hall.count(Kind::kBlocked, "kiva1"), 1);
 }
 
-/// The acceleration of a robot at that place, as its surface lets it; 1 m/s² is asked.
+/// Returns the acceleration of a robot at that place, which its surface limits; the command is 1
+/// m/s².
 double speedingUpAt(const std::string& models, double x, double y) {
-  Hall hall(models);
+  GripHall hall(models);
   hall.spawn("kiva", "kiva1", x, y);
   return hall.speedingUp();
 }
@@ -134,7 +135,7 @@ TEST(Grip, FollowsTheOutlineOfASurface) {
   const std::string floor = fixed("floor", box("100 100 0.1"), 0.8, "0 0 -0.05 0 0 0");
   const std::string strip = fixed("strip", box("40 1 0.1"), 0.05, "0 5 -0.05 0 0 0.785398");
   EXPECT_LT(speedingUpAt(floor + strip, 0, 5), 0.5);
-  Hall beside(floor + strip);
+  GripHall beside(floor + strip);
   beside.spawn("kiva", "kiva1", 5, 5);
   beside.rot(1, kLeft);  // in the strip's bounding box
   EXPECT_NEAR(beside.runUntilIdle(1), 0.626, 0.005);
@@ -155,8 +156,8 @@ TEST(Grip, OfSurfacesThatHoldEveryWheelChangesNothing) {
   const std::string slab = fixed("slab", box("1 1 0.1"), 100, "2 0 -0.05 0 0 0");
   std::uint64_t hashes[2];
   for (const bool has_slab : {false, true}) {
-    Hall hall(has_slab ? floor + slab
-                       : floor + fixed("slab", box("1 1 0.1"), 1, "2 0 -0.05 0 0 0"));
+    GripHall hall(has_slab ? floor + slab
+                           : floor + fixed("slab", box("1 1 0.1"), 1, "2 0 -0.05 0 0 0"));
     hall.spawn("kiva", "kiva1", 0, 0);
     hall.movx(1, 4);
     hall.runUntilIdle(1);
@@ -168,7 +169,7 @@ TEST(Grip, OfSurfacesThatHoldEveryWheelChangesNothing) {
 
 TEST(Grip, OutlivesACheckpoint) {
   const std::string floor = fixed("floor", box("100 100 0.1"), 0.8, "0 0 -0.05 0 0 0");
-  Hall hall(floor + fixed("slab", box("30 1 0.1"), 0.05, "0 0 -0.05 0 0 0"));
+  GripHall hall(floor + fixed("slab", box("30 1 0.1"), 0.05, "0 0 -0.05 0 0 0"));
   hall.spawn("kiva", "kiva1", 0, 0);
   hall.movx(1, 5);
   hall.run(1);
@@ -182,8 +183,8 @@ TEST(Grip, OutlivesACheckpoint) {
 
 // --- the step
 
-/// How long a turn, a drive of 2 m and a lift take at that step, be it in arrays, in Bullet or with
-/// wheel joints.
+/// Returns the durations of a turn, a drive of 2 m and a lift at that step size, in arrays, in
+/// Bullet or with wheel joints.
 std::array<double, 3> durations(const char* drive, bool in_bullet, double step) {
   Floorplan plan;
   plan.step = step;

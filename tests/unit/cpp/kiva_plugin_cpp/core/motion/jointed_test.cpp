@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The jointed drive: exact to the millimetre, true to statics and friction, the same as Bullet's
-// own hinges, and hit by what is in Bullet.
+// The jointed drive: exact to the millimetre, correct in statics and friction, equal to Bullet's
+// own hinges, and affected by bodies in Bullet.
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -126,7 +126,8 @@ std::string floorText(double friction) {
 }
 
 TEST(Jointed, SpeedsUpOnIceAsWeightAndLeverAllow) {
-  // The casters' springs carry their share and the rear one's stop m a h / l; they do not grip.
+  // The casters' springs carry their share. The stop of the rear one carries m a h / l. Casters do
+  // not grip.
   const double mu = 0.05, share = 0.8;
   const double expected = mu * share * kGravity / (1 + mu * kCentre / kCasters);
   const std::string light = jointedKiva({{"wheel_inertia", "1e-5"}});

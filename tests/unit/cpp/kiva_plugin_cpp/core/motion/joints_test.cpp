@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joints of ordinary models: read, driven by motors and efforts, damped, and put where one likes.
+// Joints of ordinary models: reading, motors and efforts, damping, and setting positions.
 #include <stdexcept>
 
 #include "warehouse.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves along the grid: where they end, how long they take, how fast they are, what is reported.
+// Moves along the grid: ends, durations, speeds and reports.
 #include <numeric>
 #include <random>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr double kSlack =
     0.03;  // [s]: a segment's start and its coming to rest, beyond its profile
 
-/// From rest to rest over `distance` [s].
+/// Returns the time from rest to rest over `distance` [s].
 double trapezoidTime(double distance, double speed, double acceleration) {
   if (acceleration == 0) return distance / speed;
   const bool reaches_top = distance * acceleration >= speed * speed;
@@ -20,12 +20,12 @@ double trapezoidTime(double distance, double speed, double acceleration) {
                      : 2 * std::sqrt(distance / acceleration);
 }
 
-struct Drive {
+struct MoveCase {
   double acceleration;  // [m/s²]
   double load;          // [kg]
 };
 
-class MoveOfAnyLength : public ::testing::TestWithParam<Drive> {
+class MoveOfAnyLength : public ::testing::TestWithParam<MoveCase> {
  protected:
   void SetUp() override {
     w_.spawnText(kivaText({{"acceleration", number(GetParam().acceleration)}}), "kiva1", 0, 0);
@@ -43,7 +43,7 @@ class MoveOfAnyLength : public ::testing::TestWithParam<Drive> {
     return all;
   }
 
-  /// Moves along an axis (0 = x, 1 = y). Returns the time that took [s], turning left out.
+  /// Moves along an axis (0 = x, 1 = y). Returns the duration [s], without that of turning.
   double move(int axis, double distance) {
     axis == 0 ? w_.movx(1, distance) : w_.movy(1, distance);
     w_.runUntilState(1, axis == 0 ? State::kMovingX : State::kMovingY);
@@ -72,7 +72,8 @@ TEST_P(MoveOfAnyLength, StopsOnItsGridPointAfterTheTrapezoidsTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Loads, MoveOfAnyLength,
-                         ::testing::Values(Drive{1, 0}, Drive{1, 450}, Drive{0, 0}, Drive{0, 450}),
+                         ::testing::Values(MoveCase{1, 0}, MoveCase{1, 450}, MoveCase{0, 0},
+                                           MoveCase{0, 450}),
                          [](const auto& info) {
                            return "Acceleration" + number(info.param.acceleration) + "Load" +
                                   number(info.param.load);
@@ -162,7 +163,7 @@ TEST(Motion, EveryStatusChangeTellsWhereTheRobotIs) {
   EXPECT_NEAR(w.changes[3].time, w.world.time(), 2 * w.world.stepSize());
 }
 
-/// Of a robot on its way over 20 m.
+/// Largest values of a robot on its way over 20 m.
 struct Peaks {
   double speed = 0;         // [m/s]
   double acceleration = 0;  // [m/s²], over 10 ms

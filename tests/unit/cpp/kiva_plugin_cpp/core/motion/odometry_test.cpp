@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots say of their own odometry: as uncertain as it is.
+// Odometry of robots and its stated uncertainty.
 #include <array>
 #include <memory>
 
@@ -154,7 +154,7 @@ class Umbmark : public ::testing::Test {
   }
   const DriveSizes& believed() { return insideOf(w.world).fleet.localisation[0].believed; }
 
-  /// Where wheels of the true sizes take it that are turned as the believed ones demand.
+  /// Returns the pose after wheels of the true sizes are turned as the believed sizes demand.
   Pose expected(int direction) {
     const DriveParameters& drive = w.robot(1).drive;
     Pose at;

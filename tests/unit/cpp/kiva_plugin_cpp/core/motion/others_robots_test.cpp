@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robots that others described: with casters that swivel, bogies, sprung wheels and lifts, whose
-// parts overlap as those of drawings do. They stand, and drive as far as their wheels turn.
+// Robots of other makers: with casters that swivel, bogies, sprung wheels and lifts, whose parts
+// overlap as those of drawings do. They stand, and drive as far as their wheels turn.
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motors that lag, floors that are slippery in places, loads that tip, reports that come late.
+// Motors that lag, floors that are slippery in places, loads that tip, reports that are late.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -28,7 +28,7 @@ std::function<void(Realism&)> lagging(double seconds) {
   return [seconds](Realism& real) { real.actuation = {true, seconds, 0, 0}; };
 }
 
-/// Where a robot is after each step of a drive of 10 m, and how fast.
+/// Returns position and speed of a robot after each step of a drive of 10 m.
 std::vector<std::pair<double, double>> drive(const Floorplan& plan, double seconds) {
   Warehouse w(plan);
   w.spawn("kiva", "kiva1", 0, 0);
@@ -88,7 +88,7 @@ std::string patch(double friction, const std::string& centre = "5 0") {
          "</centre><size>4 2</size><friction>" + number(friction) + "</friction></plugin>";
 }
 
-/// How far a robot goes on that is stopped at x = 4, at its top speed [m].
+/// Returns the stopping distance of a robot that is stopped at x = 4 at its top speed [m].
 double stoppingWay(const std::string& more) {
   Warehouse w(planWith([](Realism&) {}, more));
   w.spawn("kiva", "kiva1", 0, 0);
@@ -144,7 +144,7 @@ TEST(FloorPatch, IsTurnedOnAsHardAsItGrips) {
   }
 }
 
-/// Of 64 robots, who does not come to the next cell as it should.
+/// Returns those of 64 robots that do not reach the next cell properly.
 std::vector<int> whoSlides(double share, std::uint64_t seed) {
   Floorplan plan = planWith([share](Realism& real) { real.floor = {true, share, 0.05}; });
   plan.options.seed = seed;
@@ -252,7 +252,7 @@ TEST(Load, TipsTheSameFromACheckpointOn) {
 
 // --- localisation
 
-/// Of ten drives of a metre each [s].
+/// Returns the time of ten drives of a metre each [s].
 double timeOfStops(const Floorplan& plan) {
   Warehouse w(plan);
   w.spawn("kiva", "kiva1", 0, 0);
@@ -296,7 +296,7 @@ TEST(Reports, ComeLate) {
   for (int i = 0; i < 400; ++i) {
     w.run(0.02);
     const double heard = w.world.lastHeard(0)->x, late = (w.x(1) - heard) / kTopSpeed;
-    EXPECT_GE(heard, before);  // one that was overtaken tells nothing
+    EXPECT_GE(heard, before);  // a report that was overtaken is dropped
     before = heard;
     least = std::min(least, late);
     sum += late;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turns in place: which way, how far, how long.
+// Turns in place: direction, angle and duration.
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSlack = 0.02;  // [s]: start and coming to rest, beyond the profile
 
-/// From rest to rest over 90° [s].
+/// Returns the time from rest to rest over 90° [s].
 double triangleTime(double acceleration) { return 2 * std::sqrt(kQuarter / acceleration); }
 
 double turn(Warehouse& w, int direction) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robots on ice: how far they slide, that they stay there if they were stopped, and that a command
-// ends at its goal all the same.
+// Robots on ice: sliding distances, staying in place after a stop, and commands that still end at
+// their goals.
 #include <algorithm>
 #include <cmath>
 #include <tuple>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A world is the same on however many threads it is stepped.
+// A world is the same for any number of threads.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,7 +41,7 @@ class Crowd {
     }
   }
 
-  /// The state, and what was seen, after the whole run.
+  /// Returns the hash of the state and of all scans after the whole run.
   std::uint64_t run() {
     std::uint64_t hash = 0;
     std::vector<std::vector<float>> ranges;
@@ -107,7 +107,7 @@ TEST(Threads, TakeEachTurnOnce) {
   }
 }
 
-/// One that is held up by its first turn is left with that alone.
+/// A thread that is held up in its first turn keeps only that turn.
 TEST(Threads, TakeOverWhatOthersDoNotComeTo) {
   constexpr int kTurns = 100;
   Workers workers(2);
@@ -125,7 +125,7 @@ TEST(Threads, TakeOverWhatOthersDoNotComeTo) {
   });
 }
 
-/// Of the whole process [s].
+/// Returns the processor time of the whole process [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 TEST(Threads, CostNothingWhileTheyWait) {
@@ -157,7 +157,8 @@ void spin(std::chrono::microseconds time) {
   while (std::chrono::steady_clock::now() < end) continue;
 }
 
-/// Whether loops are shared after a trial in which steps took so long without and with it [µs].
+/// Returns whether loops are shared after a trial with these durations of a step, alone and shared
+/// [µs].
 bool sharesAfterTrial(int alone, int shared) {
   StepTrial trial;
   for (int step = 0; step < StepTrial::kFirst + StepTrial::kSteps; ++step) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// People walk among robots: no robot touches a person, and all get where they were going.
+// People walk among robots: no robot touches a person, and all reach their goals.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,21 +29,21 @@ class People : public ::testing::Test {
   Person person() const { return w.world.people().at(0); }
   Pose pose() const { return w.world.state("person1")->pose; }
 
-  /// Of the person, seen from the robot.
+  /// Returns the distance of the person ahead of the robot [m].
   double ahead() const {
     return std::cos(w.yaw(1)) * (pose().X() - w.x(1)) + std::sin(w.yaw(1)) * (pose().Y() - w.y(1));
   }
   double beside() const {
     return std::cos(w.yaw(1)) * (pose().Y() - w.y(1)) - std::sin(w.yaw(1)) * (pose().X() - w.x(1));
   }
-  /// Between the person and the robot's chassis [m].
+  /// Returns the distance between the person and the robot's chassis [m].
   double gap() const {
     const Robot& robot = w.robot(1);
     const double along = std::max(0.0, std::abs(ahead()) - robot.half_length);
     const double across = std::max(0.0, std::abs(beside()) - robot.half_width);
     return std::hypot(along, across) - kRadius;
   }
-  /// A person in the robot's way is farther off than it needs to stand.
+  /// Expects that a person in the robot's way is farther away than its stopping distance.
   void expectThatItCanStop() const {
     const bool is_in_lane = std::abs(beside()) < w.robot(1).half_width + kRadius;
     if (!is_in_lane || ahead() < 0) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any model of SDF primitives and joints moves as mechanics says: falls, bounces, slides, swings.
+// Models of SDF primitives and joints move by the laws of mechanics: they fall, bounce, slide and
+// swing.
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -15,12 +16,12 @@ std::string inertial(double mass, double ixx, double iyy, double izz) {
          number(iyy) + "</iyy><izz>" + number(izz) + "</izz></inertia></inertial>";
 }
 
-struct Touch {
+struct SurfaceText {
   double friction = 1;
   double restitution = 0;
 };
 
-std::string collision(const std::string& geometry, const Touch& touch = {},
+std::string collision(const std::string& geometry, const SurfaceText& touch = {},
                       const std::string& pose = "0 0 0 0 0 0") {
   return "<collision name='" + std::to_string(geometry.size()) + pose + "'><pose>" + pose +
          "</pose><geometry>" + geometry + "</geometry><surface><friction><ode><mu>" +
@@ -48,7 +49,7 @@ std::string ball(double radius) {
 }
 
 /// A 10 kg cube of half a metre.
-std::string cube(const Touch& touch = {}) {
+std::string cube(const SurfaceText& touch = {}) {
   return model(link("body", inertial(10, 0.417, 0.417, 0.417) + collision(box(.5, .5, .5), touch)));
 }
 
@@ -174,7 +175,7 @@ struct Rolling {
 class RollingBody : public ::testing::TestWithParam<Rolling> {
  protected:
   static constexpr double kRadius = 0.2, kHeight = 0.5;
-  /// On the floor plane, or on a large box of that height, lying along y.
+  /// Puts a body on the floor plane, or on a large box of that height, lying along y.
   RollingBody() {
     const bool on_box = GetParam().floor == "box";
     if (on_box)
@@ -233,8 +234,8 @@ TEST_F(Bodies, ACylinderFallsOffTheEdgeOfABox) {
 
 class Slope : public Bodies {
  protected:
-  /// Puts a cube on a plate that is inclined by `angle` [rad] about y, and returns how far it has
-  /// slid down after `seconds`.
+  /// Puts a cube on a plate that is inclined by `angle` [rad] about y. Returns the distance that it
+  /// slides down in `seconds`.
   double slide(double angle, double friction, double seconds, double of_plate = 1) {
     const std::string plate = model(link("plate", collision(box(20, 4, .2), {of_plate, 0})), true);
     w.world.spawn(instance(plate, "plate", Pose(0, 0, 10, 0, angle, 0)));
@@ -319,12 +320,12 @@ class Pendulum : public Bodies {
     const Pose turned = Pose(0, 0, 3, 0, angle, 0);
     w.world.setState("rod", {turned, {}});
   }
-  /// Of the rod, from hanging down, positive about y [rad].
+  /// Returns the angle of the rod from hanging down, positive about y [rad].
   double angle() {
     const Vector3 arm = position("rod", "rod") - Vector3(0, 0, 3);
     return std::atan2(-arm.X(), -arm.Z());
   }
-  /// Kinetic and potential, from hanging at rest [J].
+  /// Returns the kinetic and potential energy, relative to hanging at rest [J].
   double energy() {
     const EntityState rod = *w.world.state("rod", "rod");
     const double rate = rod.twist.angular.Y();

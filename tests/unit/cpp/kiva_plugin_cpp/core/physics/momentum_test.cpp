@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What mechanics says of bodies that are pushed, stood on and hit, in closed form.
+// Closed-form mechanics of bodies that are pushed, loaded and hit.
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -14,7 +14,7 @@ const char* const kBox =
     "<mass>10</mass><inertia><ixx>0.3</ixx><iyy>0.5</iyy><izz>0.7</izz></inertia></inertial>"
     "</link></model></sdf>";
 
-/// About its centre of mass, in world [Nms].
+/// Returns the angular momentum about the centre of mass, in world [Nms].
 Vector3 angularMomentum(const World& world, const std::string& model) {
   const EntityState state = *world.state(model);
   const Vector3 turning = state.pose.Rot().RotateVectorReverse(state.twist.angular);

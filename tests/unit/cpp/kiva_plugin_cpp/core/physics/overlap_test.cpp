@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies that overlap, as they are spawned or lifted into each other: they part slowly, or stay,
-// and never gain energy from it. OVERLAPS sets how many random scenes are tried.
+// Bodies that overlap when they are spawned or lifted: they part slowly, or stay, and never gain
+// energy. OVERLAPS sets the number of random scenes.
 #include <algorithm>
 #include <cstdlib>
 #include <random>
@@ -33,7 +33,7 @@ std::string beamText(double underside) {
                   "<link name='l'><pose>0 0 " + number(underside + 0.05) + " 0 0 0</pose>");
 }
 
-/// How much energy the bodies of a world have, and how fast it grows by falling.
+/// The energy of a world's bodies, and its rate of growth by falling.
 struct Energies {
   double kinetic = 0;        // [J]
   double from_falling = 0;   // power of gravity on all that sinks [W]
@@ -127,7 +127,8 @@ int sceneCount() {
   return count ? std::atoi(count) : 60;
 }
 
-/// Kinetic energy comes from falling alone. What is moved apart may be lifted, but not thrown.
+/// Kinetic energy comes from falling alone. Bodies that are moved apart may be lifted, but not
+/// thrown.
 TEST(Overlap, GivesNoEnergy) {
   for (int seed = 1; seed <= sceneCount(); ++seed) {
     SCOPED_TRACE("scene " + std::to_string(seed));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage units that are pushed: they slide on their feet as Coulomb says, as planar bodies, and
-// are whole ones where they could tip over.
+// Storage units that are pushed: they slide on their feet by Coulomb's law, as planar bodies, and
+// are whole bodies where they could tip over.
 #include "core/state/places/poses.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
@@ -104,7 +104,8 @@ struct Encounter {
     return sum;
   }
 
-  static constexpr double kMass = 60, kInertia = 6.4, kSpeed = 0.5;  // of the model; [m/s]
+  static constexpr double kMass = 60, kInertia = 6.4,
+                          kSpeed = 0.5;  // mass and inertia of the model; speed [m/s]
   Warehouse w;
 };
 
@@ -212,8 +213,8 @@ TEST_F(PushedUnit, ABoxOnItStaysThere) {
 }
 
 /// A loaded robot that drives into a row of units.
-struct Row {
-  Row() {
+struct PushedRow {
+  PushedRow() {
     w.spawn("storage_unit", "storage_unit1", 0, 0);
     for (int i = 2; i <= 4; ++i) {
       w.spawnText(unitWithFriction(0.4), "storage_unit" + std::to_string(i), 2.0 + i, 0.1 * i);
@@ -234,7 +235,7 @@ struct Row {
 };
 
 TEST(PushedUnits, GoOnBitByBitFromACheckpoint) {
-  Row saved, restored, again;
+  PushedRow saved, restored, again;
   saved.w.runUntil([&] { return saved.slides(); }, 20);
   restored.w.world.restore(saved.w.world.checkpoint());
   for (int i = 0; i < 4000; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays in any direction, what joints do to their links, and velocities given to models: what
-// sensors and drives that were written for Gazebo stand on.
+// Rays in any direction, wrenches of joints on their links, and velocities of models: the basis of
+// sensors and drives that were written for Gazebo.
 #include <chrono>
 #include <cmath>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a laser sees stops a robot on the grid, and nothing touches.
+// Obstacles in a laser's view stop a robot on the grid, without contact.
 #include "warehouse.h"
 
 namespace kiva::test {
 namespace {
 
-/// Least distance between the centres of two robots while the world runs [m].
+/// Returns the least distance between the centres of two robots while the world runs [m].
 double closest(Warehouse& w, int a, int b, double seconds) {
   double least = 1e9;
   w.run(seconds, [&] { least = std::min(least, std::hypot(w.x(a) - w.x(b), w.y(a) - w.y(b))); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lasers see: the grid of footprints against Bullet's own rays, and REP 117.
+// Scans of lasers: the grid of footprints against Bullet's own rays, and REP 117.
 #include <btBulletDynamicsCommon.h>
 
 #include <random>
@@ -18,7 +18,7 @@ constexpr double kLowest = 0.05, kHighest = 0.35;  // [m], of the rays
 /// A round shape as a prism of so many sides that rays that just touch it are right too.
 constexpr int kSides = 8192;
 
-/// Whether rays can meet the shape: casters and wheels are within their robot's body.
+/// Returns whether rays can meet the shape: casters and wheels are within their robot's body.
 bool isSeen(const Shape& shape, const btTransform& at) {
   if (shape.kind == Shape::Kind::kBox) return true;
   const bool upright = at.getBasis().getColumn(2).z() > 0.999;
@@ -85,9 +85,10 @@ class Triangles {
 
 /// Robots, some with a load, units, belts, walls and people, near one another at random places and
 /// angles.
-class Scene {
+class CrowdedScene {
  public:
-  explicit Scene(unsigned seed, const std::string& robot = modelText("kiva")) : random_(seed) {
+  explicit CrowdedScene(unsigned seed, const std::string& robot = modelText("kiva"))
+      : random_(seed) {
     for (int cell = 0; cell < kSide * kSide; ++cell) cells_.push_back(cell);
     std::shuffle(cells_.begin(), cells_.end(), random_);
     for (int i = 1; i <= 12; ++i) {
@@ -130,7 +131,7 @@ class Scene {
   std::vector<int> cells_;
 };
 
-/// Whether a point is within anything that stands there: a ray that starts inside passes out.
+/// Returns whether a point is inside any model: a ray that starts inside passes out.
 bool isInside(const kiva::Scene& parts, const Vector3& point) {
   Footprint here;
   here.kind = Footprint::Kind::kCircle;
@@ -157,8 +158,8 @@ struct Ray {
   static constexpr double kRange = 5;  // [m]
 };
 
-/// Whether the truth is what a ray a third of a millimetre aside would see, or between: Bullet
-/// takes a triangle for larger than it is by a ten-thousandth of its edges.
+/// Returns whether the expected range is that of a ray a third of a millimetre aside, or in
+/// between: Bullet takes a triangle for larger than it is by a ten-thousandth of its edges.
 bool isAtEdge(const World& world, const Ray& ray, double truth) {
   const double ranges[] = {ray.cast(world), ray.cast(world, 3e-4), ray.cast(world, -3e-4)};
   return truth >= *std::min_element(ranges, ranges + 3) - 3e-4 &&
@@ -168,7 +169,7 @@ bool isAtEdge(const World& world, const Ray& ray, double truth) {
 TEST(Laser, SeesWhatBulletsRaysMeet) {
   int hits = 0, rays = 0, edges = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    Scene scene(seed);
+    CrowdedScene scene(seed);
     const World& world = scene.w.world;
     const Triangles triangles(world);
     for (int k = 0; k < 6000; ++k) {
@@ -191,7 +192,8 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
   EXPECT_LT(edges, rays / 5000);
 }
 
-/// Compares each range of a robot's scan with that of its ray alone. Returns how many met anything.
+/// Compares each range of a robot's scan with that of its ray alone. Returns the number of rays
+/// with a hit.
 int compareScan(const Warehouse& w, int id) {
   const Robot& robot = w.robot(id);
   const LaserParameters& laser = robot.laser;
@@ -230,7 +232,7 @@ TEST(Laser, ScansWhatItsRaysMeetOneByOne) {
   unsigned seed = 0;
   for (const Changes& laser : lasers) {
     for (int round = 0; round < 3; ++round) {
-      Scene scene(++seed, kivaText(laser));
+      CrowdedScene scene(++seed, kivaText(laser));
       for (int id = 1; id <= 24; ++id) hits += compareScan(scene.w, id);
     }
   }
@@ -239,7 +241,7 @@ TEST(Laser, ScansWhatItsRaysMeetOneByOne) {
 
 // --- round and tilted shapes, against what their own equations say
 
-struct Solid {
+struct SolidCase {
   std::string name, geometry;
   /// Whether a point in the shape's frame is in it.
   bool (*holds)(const Vector3&);
@@ -247,7 +249,7 @@ struct Solid {
 
 double beyond(double value, double half) { return std::max(0.0, std::abs(value) - half); }
 
-const Solid kSolids[] = {
+const SolidCase kSolids[] = {
     {"Ellipsoid", "<ellipsoid><radii>0.6 0.3 0.2</radii></ellipsoid>",
      [](const Vector3& p) {
        return std::pow(p.X() / 0.6, 2) + std::pow(p.Y() / 0.3, 2) + std::pow(p.Z() / 0.2, 2) <= 1;
@@ -260,7 +262,7 @@ const Solid kSolids[] = {
        return std::abs(p.X()) <= 0.2 && std::abs(p.Y()) <= 0.3 && std::abs(p.Z()) <= 0.4;
      }}};
 
-class SolidUnderLaser : public ::testing::TestWithParam<Solid> {};
+class SolidUnderLaser : public ::testing::TestWithParam<SolidCase> {};
 
 TEST_P(SolidUnderLaser, IsSeenWhereItIsFromOutsideAndInside) {
   std::mt19937 random(7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The node's pacer: simulated time follows a wall clock, which here is told and not waited for.
+// The node's pacer: simulated time follows a wall clock, which the test sets instead of waiting.
 #include "ros/simulation/pacer.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class Pace : public ::testing::Test {
     pacer_ = Pacer(kStep, rtf);
     pacer_.restart(now_);
   }
-  /// Simulated seconds that pass while so many wall seconds do.
+  /// Returns the simulated time that passes in `wall` seconds of wall time [s].
   double simulatedIn(double wall) {
     int steps = 0;
     const auto end = now_ + seconds(wall);
