@@ -169,7 +169,7 @@ async def change_order(
 
 @router.get("/orders/{number}/history", response_model=OrderHistory, responses=problems(404))
 async def get_order_history(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
-    """What has become of an order, the units on their way for it, and when it is likely complete."""
+    """What has become of an order, the units on their way for it, and its likely end."""
     fields = "order_history", srv.OrderHistory, number
     answer = await backend.call(backend.operations.request, *fields)
     if not answer.success:
