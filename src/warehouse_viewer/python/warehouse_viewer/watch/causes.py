@@ -50,18 +50,18 @@ def _robots_at_fault(pending: Iterable[Trouble]) -> tuple[dict[str, Trouble], li
     return causes, rest
 
 
-def _joined(one: Trouble, other: Trouble) -> Trouble:
+def _joined(known: Trouble, other: Trouble) -> Trouble:
     """Returns the worse of two Troubles of a robot, with the other's text."""
-    first, second = sorted((one, other), key=lambda t: OF_ROBOT.index(t.kind))
+    first, second = sorted((known, other), key=lambda t: OF_ROBOT.index(t.kind))
     if first.kind == second.kind:
         longest = max(first.text, second.text, key=len)
         return first._replace(text=longest, since=_earlier(first.since, second.since))
-    told = second.text.removeprefix(f"{second.subject}: ")
-    return first._replace(consequences=(*first.consequences, *second.consequences, told))
+    text = second.text.removeprefix(f"{second.subject}: ")
+    return first._replace(consequences=(*first.consequences, *second.consequences, text))
 
 
-def _earlier(one: float | None, other: float | None) -> float | None:
-    known = [since for since in (one, other) if since is not None]
+def _earlier(first: float | None, other: float | None) -> float | None:
+    known = [since for since in (first, other) if since is not None]
     return min(known) if known else None
 
 
@@ -89,18 +89,18 @@ def _with_queue(
     cause: Trouble, robots: Collection[int], stations: list[tuple[str, int, float]], now: float
 ) -> Trouble:
     """Adds the robots that wait behind a cause, and the stations that stand still for it."""
-    found = []
+    follows = []
     if robots:
         names = [f"kiva{robot}" for robot in robots]
         more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
         verb = "waits" if len(names) == 1 else "wait"
         count = "1 robot" if len(names) == 1 else f"{len(names)} robots"
-        found.append(f"{count} {verb} behind it: {', '.join(names[:SHOWN])}{more}")
-    found += [
+        follows.append(f"{count} {verb} behind it: {', '.join(names[:SHOWN])}{more}")
+    follows += [
         f"{name} stands still for {span(now - since)}: unit {unit} does not come"
         for name, unit, since in stations
     ]
-    return cause._replace(consequences=(*found, *cause.consequences), queue=len(robots))
+    return cause._replace(consequences=(*follows, *cause.consequences), queue=len(robots))
 
 
 def _with_watchdog(causes: dict[str, Trouble], rest: list[Trouble]) -> list[Trouble]:

@@ -288,9 +288,9 @@ class Reasons:
         """Keeps the sentences of those that wait or are at fault."""
         names = [self.robot(robot) for robot in self._waits.keys() | self._faults.keys()]
         names += [reason for name in self._stations if (reason := self.station(name))]
-        told = {reason.name: reason.sentence for reason in names}
-        for name in told.keys() | self._past.keys():
-            past, text = self._past.setdefault(name, deque(maxlen=KEPT)), told.get(name, "")
+        sentences = {reason.name: reason.sentence for reason in names}
+        for name in sentences.keys() | self._past.keys():
+            past, text = self._past.setdefault(name, deque(maxlen=KEPT)), sentences.get(name, "")
             if not past or past[-1][1] != text:
                 past.append((self._now, text))
 
