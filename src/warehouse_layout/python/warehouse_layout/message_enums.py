@@ -104,6 +104,7 @@ class OrderEventKind(IntEnum):
     SHORT = 5  # pieces of sku are not there; text says why
     UNPICKED = 6  # quantity pieces of sku that were PICKED lie in their bin again
     REOPENED = 7  # after COMPLETED: a person took the last piece back
+    CHANGED = 8  # priority or due time; text says to what
 
 
 class StationMode(IntEnum):
