@@ -54,37 +54,37 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	OBSTACLES=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_obstacles.py; \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
-	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
-	BURST=all rostest rostest/malformed.test; \
+	JUMP_MINUTES=10 rostest rostest/world/time_jumps.test; \
+	BURST=all rostest rostest/nodes/malformed.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \
-	../scripts/axe; ../scripts/screens; ../scripts/docs_links; ../scripts/docs_examples; \
+	../scripts/axe; ../scripts/pages/screens; ../scripts/docs_links; ../scripts/docs_examples; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
 test-wheel: wheel  ## use the wheels in environments with nothing else, with both numpys, Stable-Baselines3 and Ray
-	@scripts/test-wheel $(ARGS)
+	@scripts/package/test-wheel $(ARGS)
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
-	@scripts/fuzz_api $(ARGS)
+	@scripts/peers/fuzz_api $(ARGS)
 
 test-vda5050: build  ## masters of other makers drive robots over VDA 5050, and ours their vehicles; from PyPI and npm
-	@scripts/test-vda5050 $(ARGS)
-	@scripts/test-lif
+	@scripts/peers/test-vda5050 $(ARGS)
+	@scripts/peers/test-lif
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers
 
 test-debian:  ## every test on a bare Debian of another release; make test-debian RELEASE=trixie
-	@scripts/test-debian $(or $(RELEASE),trixie)
+	@scripts/package/test-debian $(or $(RELEASE),trixie)
 
 deb:  ## Debian packages for this release, into dist/deb/
-	@scripts/deb $(RELEASE)
+	@scripts/package/deb $(RELEASE)
 
 test-deb: deb  ## install the packages on a bare Debian and use them
-	@scripts/test-deb $(RELEASE)
+	@scripts/package/test-deb $(RELEASE)
 
 test-install: build  ## install into a folder of its own, and use it from there
-	@scripts/test-install
+	@scripts/package/test-install
 
 # catkin looks after each message in every build; where no source is newer than the last one that would be all. Python
 # that is imported touches its folder.
@@ -127,7 +127,7 @@ bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)
 
 wheel: build  ## the world and its environments for Python 3.11, 3.12 and 3.13 without ROS, into dist/; make wheel PYTHONS=python3 for one
-	@JOBS=$(JOBS) scripts/wheel
+	@JOBS=$(JOBS) scripts/package/wheel
 
 lint: deps  ## check format and style
 	@scripts/lint

@@ -24,7 +24,9 @@ from gymnasium.vector import AutoresetMode
 
 import warehouse_learning.rware  # noqa: F401  registers the tasks
 from warehouse_learning.marl import policy
-from warehouse_learning.marl.training import ALGORITHMS, TrainingSettings, Training
+from warehouse_learning.marl.encoding import Encoder
+from warehouse_learning.marl.imitation import imitate
+from warehouse_learning.marl.training import ALGORITHMS, Training, TrainingSettings
 from warehouse_learning.rware.motion import PHYSICS
 
 
@@ -91,7 +93,8 @@ def train(options, settings, seed, out, begin):
         physics=physics,
     )
     about = {"task": task, "physics": physics, "from": options.policy}
-    training = Training(envs, settings, seed, about)
+    encoder = Encoder.of_task(envs.task)
+    training = Training(envs, encoder, settings, seed)
     on = "" if physics == "grid" else f"-{physics}"
     name = f"{task}-{settings.algorithm}{on}-{seed}"
     checkpoint = out / f"{name}.checkpoint.npz"
@@ -107,9 +110,9 @@ def train(options, settings, seed, out, begin):
 
     def keep():
         training.save(checkpoint)
-        training.policy.save(out / f"{name}.npz")
-        record = training.policy.about | {"curve": training.curve}
-        (out / f"{name}.json").write_text(json.dumps(record))
+        record = about | training.record
+        policy.GridPolicy(training.actor, encoder, record).save(out / f"{name}.npz")
+        (out / f"{name}.json").write_text(json.dumps(record | {"curve": training.curve}))
 
     def report(now):
         last = now.curve[-1][1] if now.curve else 0
@@ -120,6 +123,9 @@ def train(options, settings, seed, out, begin):
             keep()
 
     try:
+        if settings.imitation and not training.done:
+            steps = settings.imitation
+            training.seconds += imitate(training.actor, encoder, envs.task, steps, seed)
         training.run(options.minutes, report)
     except KeyboardInterrupt:
         print(f"{name}: stopped; the same command goes on from {checkpoint}")

@@ -16,17 +16,19 @@ from ray import tune
 
 def train(settings):
     """One trial: reports units delivered an episode as it learns, and what it delivers at last."""
+    from dataclasses import replace
+
     from warehouse_learning import Options
     from warehouse_learning.baselines import measure
-    from warehouse_learning.ppo import REWARDS, PpoSettings
-    from warehouse_learning.ppo import train as train_ppo
+    from warehouse_learning.marl import robots
 
-    options = Options.of({"size": "tiny", "max_cycles": 200, "rewards": REWARDS})
-    policy, _ = train_ppo(
+    options = Options.of({"size": "tiny", "max_cycles": 200, "rewards": robots.REWARDS})
+    policy, _ = robots.train(
         options,
         settings["decisions"],
         settings["seed"],
-        PpoSettings(rate=settings["rate"], threads=1),
+        replace(robots.SETTINGS, rate=settings["rate"]),
+        threads=1,
         report=lambda row: tune.report({"decisions": row[0], "delivered": row[1]}),
     )
     delivered, _ = measure(policy, options, episodes=8, seed=1000, threads=1)

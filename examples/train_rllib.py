@@ -13,7 +13,7 @@ from ray.rllib.env.wrappers.pettingzoo_env import ParallelPettingZooEnv
 from ray.tune.registry import register_env
 
 import warehouse_learning
-from warehouse_learning.ppo import REWARDS
+from warehouse_learning.marl.robots import REWARDS
 
 
 def make(_config):

@@ -13,7 +13,7 @@ from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.evaluation import evaluate_policy
 
 import warehouse_learning  # noqa: F401  registers the environments
-from warehouse_learning.ppo import REWARDS
+from warehouse_learning.marl.robots import REWARDS
 
 
 def main():

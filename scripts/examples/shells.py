@@ -11,15 +11,18 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import xmlrpc.client
 from collections.abc import Iterator
 from pathlib import Path
 
-import running
-
 from examples.blocks import ROOT, Example, check
+
+sys.path.append(str(ROOT / "scripts" / "pages"))
+
+import running  # noqa: E402
 
 LATE = 124  # exit code of `timeout`
 PATIENCE = 120.0  # for one block; a note says otherwise [s]

@@ -66,7 +66,7 @@ def written() -> str:
         if is_command(program)
     ]
     called += [(f"python3 -m {program}", ["-m", program]) for program in modules()]
-    called.append(("scripts/film", [str(ROOT / "scripts/film")]))
+    called.append(("scripts/pages/film", [str(ROOT / "scripts/pages/film")]))
     sections = [section(*program) for program in called]
     nodes = [
         (code(program.name), code(program.parts[-3]), prose(docstring(program)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps the requests that schemathesis makes up quick; scripts/fuzz_api uses it."""
+"""Keeps the requests that schemathesis makes up quick; scripts/peers/fuzz_api uses it."""
 
 import schemathesis
 

@@ -29,7 +29,12 @@ QUICK = {"environments": 32, "rollout": 16, "steps": 30_000, "rate": 3e-3, "disc
 def training(seed=0, **settings):
     settings = QUICK | settings
     envs = RwareVectorEnv(settings["environments"], autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR)
-    return Training(envs, TrainingSettings(**settings), seed, {"task": "floor"})
+    return Training(envs, Encoder.of_task(envs.task), TrainingSettings(**settings), seed)
+
+
+def save(training, path):
+    about = training.record | {"task": "floor"}
+    policy.GridPolicy(training.actor, training.encoder, about).save(path)
 
 
 def test_slopes_are_those_of_the_loss():
@@ -53,7 +58,7 @@ def test_slopes_are_those_of_the_loss():
 def test_a_training_beats_chance(algorithm, tmp_path):
     learnt = training(algorithm=algorithm)
     assert learnt.run()
-    learnt.policy.save(tmp_path / "p.npz")
+    save(learnt, tmp_path / "p.npz")
     trained = policy.load(tmp_path / "p.npz")
     returns = evaluation.episodes(evaluation.by_policy(trained), 32, 5, **FLOOR)["returns"]
     chance = evaluation.episodes(evaluation.by_chance, 32, 5, **FLOOR)["returns"]
@@ -63,8 +68,7 @@ def test_a_training_beats_chance(algorithm, tmp_path):
 
 def test_rollouts_tell_where_episodes_were_cut():
     envs = RwareVectorEnv(8, autoreset_mode=AutoresetMode.SAME_STEP, **FLOOR)
-    height, width = envs.task.floor.grid_size
-    encoder = Encoder(width, height, 2, envs.task.vector_size)
+    encoder = Encoder.of_task(envs.task)
     random = np.random.default_rng(3)
     rollout = Rollouts(envs, encoder, random).collect(Mlp([encoder.size, 5], 0.01, random), 120)
     cut = np.zeros_like(rollout.end)
@@ -106,7 +110,7 @@ def test_a_training_goes_on_from_its_checkpoint(tmp_path):
 def test_a_training_begins_with_a_policy(tmp_path):
     first = training(steps=4096)
     first.run()
-    first.policy.save(tmp_path / "p.npz")
+    save(first, tmp_path / "p.npz")
     other = training(seed=3)
     other.take(policy.load(tmp_path / "p.npz"))
     for mine, theirs in zip(first.actor.parameters, other.actor.parameters):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """PyPI's vda5050-core as it comes drives our robots: VDA5050Master, 2.0.0, C++, which drops states
-that are malformed. Run by scripts/test-vda5050 in its own environment.
+that are malformed. Run by scripts/peers/test-vda5050 in its own environment.
 
 Arguments: the broker's port, the file that floor.py wrote."""
 

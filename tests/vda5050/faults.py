@@ -4,7 +4,7 @@
 robot drives and while it lifts, messages are hostile, doubled or left over, a second master orders
 too, headers go back, and the program of all vehicles is killed; then all again by TLS and password.
 
-Run by scripts/test-vda5050 with a warehouse running.
+Run by scripts/peers/test-vda5050 with a warehouse running.
 """
 
 import contextlib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // npm's vda-5050-lib as it comes drives our robots: MasterController, 2.0.0, which checks every
-// message. Run by scripts/test-vda5050 with NODE_PATH at the library.
+// message. Run by scripts/peers/test-vda5050 with NODE_PATH at the library.
 const { readFileSync } = require('node:fs');
 const { MasterController } = require('vda-5050-lib');
 

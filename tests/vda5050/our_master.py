@@ -3,7 +3,7 @@
 """The coordinator drives vehicles of other makers among simulated robots on one floor: each carries
 storage units, without contact; one that is killed is an obstacle with an alarm, and comes back.
 
-Run by scripts/test-vda5050 with a warehouse and its coordinator running.
+Run by scripts/peers/test-vda5050 with a warehouse and its coordinator running.
 Argument: the folder of the vehicles' own environments.
 """
 
@@ -16,11 +16,8 @@ from itertools import cycle
 from pathlib import Path
 
 import rospy
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "rostest"))
-
-from node_test import call, wait_until
-from warehouse_test import Collector
+from rostest_support.node_test import call, wait_until
+from rostest_support.warehouse_test import Collector
 
 from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.floor.stations import PICK

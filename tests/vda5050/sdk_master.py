@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """PyPI's vda5050-sdk as it comes drives our robots: MasterClient, 2.1.0, checking every message
-against the official schemas. Run by scripts/test-vda5050 in the sdk's own environment.
+against the official schemas. Run by scripts/peers/test-vda5050 in the sdk's own environment.
 
 Arguments: the broker's port, the file that floor.py wrote; fetch: no more than that."""
 

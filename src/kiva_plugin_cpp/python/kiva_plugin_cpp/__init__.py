@@ -213,7 +213,13 @@ class World(_core.World):
         """
         from kiva_plugin_cpp import layouts
 
-        return layouts.world_of(cls, file, robots, **options)
+        preset = layouts.preset_of(file)
+        if preset and robots is None and "world" not in options:
+            return cls.preset(preset, **options)
+        with layouts.laid_out(file, robots, options) as (read, laid, of_hall):
+            if not laid.has_own_floor:
+                layouts.check_hall(cls(**of_hall), read, laid)
+            return cls.of_layout(laid, own_models=True, **of_hall)
 
     @classmethod
     def of_layout(cls, laid: "Layout", *, own_models: bool = False, **options: Any) -> "World":

@@ -12,10 +12,15 @@ Importing registers KivaWarehouse-v0 and KivaRobots-v0, of size `small`, and Kiv
 and KivaRobots-SIZE-v0 for each of SIZES. Options: help(warehouse_learning.Options).
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_learning.options import REWARDS, SIZES, OptionError, Options
 from warehouse_learning.warehouses import Action, ActionError, Warehouses
+
+if TYPE_CHECKING:
+    from pettingzoo import AECEnv
+
+    from warehouse_learning.parallel import KivaParallelEnv
 
 __all__ = [
     "REWARDS",
@@ -30,21 +35,21 @@ __all__ = [
 ]
 
 
-def parallel_env(**options: Any) -> Any:
+def parallel_env(**options: Any) -> "KivaParallelEnv":
     """Returns a PettingZoo ParallelEnv, a KivaParallelEnv; options as in Options."""
     from warehouse_learning.parallel import KivaParallelEnv
 
     return KivaParallelEnv(**options)
 
 
-def env(**options: Any) -> Any:
+def env(**options: object) -> "AECEnv":
     """Returns the same for PettingZoo's other interface, in which agents take turns."""
     from warehouse_learning.parallel import in_turns
 
     return in_turns(parallel_env(**options))
 
 
-def _register():
+def _register() -> None:
     try:
         from gymnasium import register
     except ImportError:

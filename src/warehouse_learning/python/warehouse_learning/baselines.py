@@ -4,7 +4,6 @@
 
 import argparse
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -16,26 +15,28 @@ from warehouse_learning.observing import Observer
 from warehouse_learning.options import SIZES, Options
 from warehouse_learning.warehouses import Action, Warehouses
 
+Policy = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
 IMPATIENCE = 0.2  # of robots that can't go on: how often they try something else
 
 
-def random_policy(seed: int = 0) -> Callable[..., np.ndarray]:
+def random_policy(seed: int = 0) -> Policy:
     """Returns a policy that takes any of the possible actions."""
     random = np.random.default_rng(seed)
 
-    def act(_observations, masks):
+    def act(_observations: np.ndarray, masks: np.ndarray) -> np.ndarray:
         return (masks * random.random(masks.shape)).argmax(-1)
 
     return act
 
 
-def greedy_policy(options: Options, seed: int = 0) -> Callable[..., np.ndarray]:
+def greedy_policy(options: Options, seed: int = 0) -> Policy:
     """Returns a policy that goes to the goal by the shortest way, whatever robot is in it."""
     random = np.random.default_rng(seed)
     robot_fields = fields.robot_fields(options)
     turns = np.array([Action.FORWARD, Action.LEFT, Action.LEFT, Action.RIGHT])
 
-    def act(observations, masks):
+    def act(observations: np.ndarray, masks: np.ndarray) -> np.ndarray:
         see = fields.split(observations, robot_fields)
         nearer = see["way"]
         out = turns[nearer.argmax(-1)]
@@ -54,14 +55,14 @@ def greedy_policy(options: Options, seed: int = 0) -> Callable[..., np.ndarray]:
     return act
 
 
-def _beneath_a_request(see):
+def _beneath_a_request(see: dict[str, np.ndarray]) -> np.ndarray:
     here = see["neighbourhood"]
     middle = here.shape[-2] // 2
     return here[..., middle, middle, fields.LAYERS.index("requested")] > 0
 
 
 def measure(
-    policy: Any, options: Options, episodes: int = 8, seed: int = 0, threads: int = 0
+    policy: Policy, options: Options, episodes: int = 8, seed: int = 0, threads: int = 0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Returns (episodes,) units delivered in each, and (episodes,) simulated seconds."""
     warehouses = Warehouses(episodes, options, threads)

@@ -3,7 +3,6 @@
 
 import json
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -13,7 +12,7 @@ from warehouse_learning import baselines
 from warehouse_learning.options import Options
 
 
-def draw(path: Any, options: Options, curves: Sequence[np.ndarray]) -> None:
+def draw(path: str, options: Options, curves: Sequence[np.ndarray]) -> None:
     """Draws the curves of several seeds beside what the other baselines deliver."""
     figure = Figure((8, 4.5), dpi=110)
     FigureCanvasAgg(figure)
@@ -21,7 +20,7 @@ def draw(path: Any, options: Options, curves: Sequence[np.ndarray]) -> None:
     at = curves[0][:, 0]
     values = np.array([np.interp(at, curve[:, 0], curve[:, 1]) for curve in curves])
     axes.fill_between(at, values.min(0), values.max(0), alpha=0.25, lw=0)
-    axes.plot(at, values.mean(0), label=f"PPO, {len(curves)} seeds")
+    axes.plot(at, values.mean(0), label=f"IPPO, {len(curves)} seeds")
     others = {"random": baselines.random_policy(), "greedy": baselines.greedy_policy(options)}
     for style, (name, policy) in zip((":", "--"), others.items()):
         delivered = baselines.measure(policy, options, 16)[0].mean()

@@ -2,15 +2,17 @@
 """A dispatcher as a Gymnasium environment: it says which task goes to which robot, and the fleet's
 own planner (warehouse_fleet) drives them there."""
 
+from collections.abc import Collection, Iterable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import ArrayLike
 
 from warehouse_fleet.hosts.fleet_driver import FleetDriver
-from warehouse_fleet.transports.transports import NOWHERE, Kind
+from warehouse_fleet.transports.transports import NOWHERE, Kind, Transport
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.stations import PICK
 from warehouse_learning import building, fields
@@ -39,7 +41,7 @@ class KivaDispatcherEnv(gymnasium.Env):
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": 4}
 
-    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(self, render_mode: str | None = None, **options: object) -> None:
         if options.get("continuous"):
             raise ValueError("continuous is for robots; a dispatcher gives tasks")
         options.setdefault("decision", DECISION)
@@ -85,7 +87,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._screen.stepped()
         return self._observation(), self._info()
 
-    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Assigns a task; returns (observation, reward, terminated, truncated, info).
 
         Raises ActionError if the action is none.
@@ -141,7 +143,9 @@ class KivaDispatcherEnv(gymnasium.Env):
             self._driver.close()
             self._driver = None
 
-    def _match(self, asked, free):
+    def _match(
+        self, asked: Iterable[Transport], free: Collection[int]
+    ) -> Iterator[tuple[Transport, int]]:
         """Transports and the robots assigned to them; a stuck robot starts once it is free."""
         for transport in asked:
             robot = self._wishes.get(transport.shelf, NOWHERE)
@@ -149,7 +153,7 @@ class KivaDispatcherEnv(gymnasium.Env):
                 del self._wishes[transport.shelf]
                 yield transport, robot
 
-    def _free(self):
+    def _free(self) -> np.ndarray:
         """(robots,) bool: without a task."""
         free = np.ones(self.options.robots, bool)
         for transport in self._driver.transports:
@@ -158,7 +162,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         free[list(self._wishes.values())] = False
         return free
 
-    def _assign(self, action):
+    def _assign(self, action: int) -> bool:
         """Whether that was possible."""
         if action == 0:
             return True
@@ -174,7 +178,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._ask()
         return True
 
-    def _ask(self):
+    def _ask(self) -> None:
         """One more task: a unit that stands in storage, to any station."""
         transports = self._driver.transports
         taken = {task["shelf"] for task in self._tasks} | {t.shelf for t in transports}
@@ -190,7 +194,7 @@ class KivaDispatcherEnv(gymnasium.Env):
             }
         )
 
-    def _hear(self):
+    def _hear(self) -> None:
         time, transports = self._driver.time, self._driver.transports
         for event in transports.take_events():
             if event.kind == Kind.ARRIVED:
@@ -200,7 +204,7 @@ class KivaDispatcherEnv(gymnasium.Env):
             del self._released[number]
             transports.release(number)
 
-    def _observation(self):
+    def _observation(self) -> np.ndarray:
         grid, fleet = self._grid, self._world.fleet
         units = self._driver.transports.cell_of_unit
         at = [max(units[task["shelf"]], 0) for task in self._tasks]
@@ -216,7 +220,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         )
         return np.concatenate([np.ravel(part) for part in parts]).astype(np.float32)
 
-    def _info(self):
+    def _info(self) -> dict[str, Any]:
         return {
             "action_mask": self.action_masks().astype(np.int8),
             "delivered": self.delivered,

@@ -8,9 +8,9 @@ the same, bit by bit.
 import dataclasses
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_layout.file import user_file
 from warehouse_learning.options import Options
@@ -22,7 +22,7 @@ class EpisodeError(ValueError):
     """A file that is not an episode; the message names it and why."""
 
 
-def save(path: Any, options: Options, seed: int, actions: Any) -> None:
+def save(path: str | Path, options: Options, seed: int, actions: ArrayLike) -> None:
     """Writes an episode; actions are (decisions, robots) or, for wheels, (decisions, robots, 3)."""
     content = {
         "format": FORMAT,
@@ -33,7 +33,7 @@ def save(path: Any, options: Options, seed: int, actions: Any) -> None:
     Path(path).write_text(json.dumps(content))
 
 
-def load(path: Any) -> tuple[Options, int, np.ndarray]:
+def load(path: str | Path) -> tuple[Options, int, np.ndarray]:
     """Returns (Options, seed, actions) of a file. Raises EpisodeError."""
     try:
         content = json.loads(user_file.read_text(path))

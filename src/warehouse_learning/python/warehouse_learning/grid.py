@@ -5,10 +5,10 @@ A cell is a number, row * width + column, of a floor with a rim of `rim` cells t
 enter: so every neighbourhood lies inside. Headings count quarter turns from +x towards +y.
 """
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
+from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK
 from warehouse_learning._core import Floor
 
@@ -16,7 +16,7 @@ from warehouse_learning._core import Floor
 class Grid:
     """The grid of a FloorPlan. rim: cells around it, and how far robots see."""
 
-    def __init__(self, plan: Any, rim: int) -> None:
+    def __init__(self, plan: FloorPlan, rim: int) -> None:
         self.spacing = plan.spacing
         self.height, self.width = (edge + 2 * rim for edge in plan.shape)
         self.rim, self.cells = rim, self.height * self.width
@@ -46,24 +46,24 @@ class Grid:
             self.stations,
         )
 
-    def _rimmed(self, mask):
+    def _rimmed(self, mask: np.ndarray) -> np.ndarray:
         return np.pad(mask, self.rim).ravel()
 
-    def locate(self, x: Any, y: Any, yaw: Any) -> tuple[np.ndarray, np.ndarray]:
+    def locate(self, x: ArrayLike, y: ArrayLike, yaw: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Returns (cells, headings), int32 and int8, nearest to places in world [m, rad]."""
         cells, headings = self.native.locate(x, y, yaw)
         return cells, headings
 
-    def cell_of(self, x: Any, y: Any) -> np.ndarray:
+    def cell_of(self, x: ArrayLike, y: ArrayLike) -> np.ndarray:
         """Returns the cells around places in world [m]."""
         return self.locate(x, y, np.zeros(np.shape(x)))[0]
 
-    def point_of(self, cell: Any) -> tuple[Any, Any]:
+    def point_of(self, cell: np.ndarray | int) -> tuple[np.ndarray, np.ndarray]:
         """Returns (x, y) of the centres of cells, in world [m]."""
         x, y = self._points
         return x[cell], y[cell]
 
-    def share_of(self, cell: Any) -> np.ndarray:
+    def share_of(self, cell: np.ndarray) -> np.ndarray:
         """Returns (…, 2): column and row of cells, each in 0…1 over the floor."""
         row, column = np.divmod(cell, self.width)
         last = np.array([self.width, self.height]) - 1 - 2 * self.rim

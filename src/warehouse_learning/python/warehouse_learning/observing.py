@@ -54,12 +54,12 @@ class Observer:
         out[:, part["unit_carried"]] = carried
         return out
 
-    def _load(self):
+    def _load(self) -> np.ndarray:
         see = self._of
         asked = see.requested[np.arange(see.n)[:, None], np.maximum(see.load, 0)]
         return self._one_hot[np.where(see.load < 0, 0, np.where(asked, 1, 2))][..., :3]
 
-    def _motion(self, out, at):
+    def _motion(self, out: np.ndarray, at: dict[str, slice]) -> None:
         see, worlds = self._of, self._of.worlds
         x, y = see.grid.point_of(see.cell)
         off = np.stack([worlds.x - x, worlds.y - y], -1) / see.grid.spacing
@@ -69,7 +69,7 @@ class Observer:
         out[..., at["wheels"]] = np.clip(wheels / see.top_wheel_speed, -1, 1)
 
 
-def _faced(vectors, heading):
+def _faced(vectors: np.ndarray, heading: np.ndarray) -> np.ndarray:
     """(…, 2) in world as a robot sees them: ahead and to the left."""
     c = np.array([1, 0, -1, 0])[heading]
     s = np.array([0, 1, 0, -1])[heading]

@@ -10,6 +10,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import ArrayLike
 
 from warehouse_learning.warehouses import ActionError
 from warehouse_operations.policies.decisions import FEATURES, SHORTLIST, Decision
@@ -94,7 +95,7 @@ class KivaOperationsEnv(gymnasium.Env):
     def _described(self, seed: int) -> simulation.Description:
         return simulation.Description(**self._options, seed=seed)
 
-    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Takes a candidate, and lets the shift go on to the next decision.
 
         Raises ActionError for what is not a candidate.
@@ -130,7 +131,7 @@ class KivaOperationsEnv(gymnasium.Env):
             self._shift.close()
             self._shift = None
 
-    def _observation(self):
+    def _observation(self) -> dict[str, np.ndarray]:
         role = np.zeros(len(ROLES), np.float32)
         candidates = np.zeros((SHORTLIST, FEATURES), np.float32)
         if self._decision:
@@ -139,7 +140,7 @@ class KivaOperationsEnv(gymnasium.Env):
         mask = self.action_masks().astype(np.float32)
         return {"role": role, "candidates": candidates, "mask": mask}
 
-    def _info(self):
+    def _info(self) -> dict[str, Any]:
         operations: Any = self._operations
         info = {"action_mask": self.action_masks().astype(np.int8), "time": operations.time}
         if self._decision:
@@ -174,7 +175,7 @@ class _Shift:
         self._thread.start()
         self._mine.acquire()
 
-    def _run(self):
+    def _run(self) -> None:
         try:
             self.operations.run(seconds=self._seconds)
         except _StoppedError:
@@ -184,7 +185,7 @@ class _Shift:
         self._decision, self._is_over = None, True
         self._mine.release()
 
-    def _ask(self, decision):
+    def _ask(self, decision: Decision) -> int:
         """Called where the shift needs a decision, in its thread."""
         if len(decision.keys) == 1:
             return 0

@@ -79,7 +79,7 @@ class Options:
     radius: int = 2
     rewards: dict = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.layout:
             self._count_of_layout()
         elif self.robots or self.shelves:
@@ -109,7 +109,7 @@ class Options:
             _real(f"rewards[{name!r}]", value, -1e9, 1e9)
         object.__setattr__(self, "rewards", REWARDS | self.rewards)
 
-    def _count_of_layout(self):
+    def _count_of_layout(self) -> None:
         if self.shelves:
             raise OptionError(f"shelves is {self.shelves}; a layout has its own")
         try:
@@ -141,12 +141,12 @@ class Options:
         return cls(**values)
 
 
-def _whole(name, value, least, most):
+def _whole(name: str, value: object, least: int, most: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         raise OptionError(f"{name} is {value!r}; a whole number from {least} to {most}")
 
 
-def _real(name, value, least, most):
+def _real(name: str, value: object, least: float, most: float) -> None:
     good = isinstance(value, int | float) and math.isfinite(value) and least <= value <= most
     if not good or isinstance(value, bool):
         raise OptionError(f"{name} is {value!r}; a number from {least:g} to {most:g}")

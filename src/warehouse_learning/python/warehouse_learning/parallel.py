@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 from gymnasium import spaces
-from pettingzoo import ParallelEnv
+from numpy.typing import ArrayLike
+from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils import BaseWrapper, parallel_to_aec
 
 from warehouse_learning import fields
@@ -25,7 +26,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
     max_cycles decisions.
     """
 
-    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(self, render_mode: str | None = None, **options: object) -> None:
         self._set_up_one(render_mode, options)
         self.metadata = {
             "name": "kiva_warehouse_v0",
@@ -42,11 +43,11 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
         self.state_space = spaces.Box(*fields.bounds(self.state_fields))
         self._random: np.random.Generator | None = None
 
-    def observation_space(self, agent: str) -> Any:
+    def observation_space(self, agent: str) -> spaces.Space:
         """Returns the space of an agent's observations."""
         return self.observation_spaces[agent]
 
-    def action_space(self, agent: str) -> Any:
+    def action_space(self, agent: str) -> spaces.Space:
         """Returns the space of an agent's actions."""
         return self.action_spaces[agent]
 
@@ -63,7 +64,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
         self._begin(self._random.integers(2**62) if seed is None else seed)
         return self._observations(), self._infos({})
 
-    def step(self, actions: Mapping[str, Any]) -> tuple[dict[str, Any], ...]:
+    def step(self, actions: Mapping[str, ArrayLike]) -> tuple[dict[str, Any], ...]:
         """Takes {agent: action}, one for each agent, and makes one decision.
 
         Returns observations, rewards, terminations, truncations and infos by agent. Raises
@@ -83,7 +84,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             self._infos(happened),
         )
 
-    def _chosen(self, actions):
+    def _chosen(self, actions: Mapping[str, ArrayLike]) -> np.ndarray:
         missing = [a for a in self.agents if a not in actions]
         if missing:
             raise ActionError(
@@ -96,11 +97,11 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             check_action(agent, actions[agent], self.action_spaces[agent])
         return np.array([actions[a] for a in self.agents])
 
-    def _observations(self):
+    def _observations(self) -> dict[str, np.ndarray]:
         rows = self._see.observations()[0]
         return {a: rows[i].copy() for i, a in enumerate(self.possible_agents)}
 
-    def _infos(self, happened):
+    def _infos(self, happened: dict[str, np.ndarray]) -> dict[str, dict[str, Any]]:
         masks = self._masks()
         return {
             agent: {
@@ -114,19 +115,19 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
 class _Checked(BaseWrapper):
     """Refuses an action when it is given, and not when all have theirs."""
 
-    def step(self, action):
+    def step(self, action: ArrayLike) -> None:
         agent = self.agent_selection
         if not (self.terminations[agent] or self.truncations[agent]):
             check_action(agent, action, self.action_space(agent))
         super().step(action)
 
 
-def in_turns(env: Any) -> Any:
+def in_turns(env: ParallelEnv) -> AECEnv:
     """Returns the same for PettingZoo's other interface."""
     return _Checked(parallel_to_aec(env))
 
 
-def check_action(agent: str, action: Any, space: Any) -> None:
+def check_action(agent: str, action: ArrayLike, space: spaces.Space) -> None:
     """Raises ActionError that names the agent, unless the action is one of the space."""
     values = np.asarray(action)
     if isinstance(space, spaces.Discrete):

@@ -6,6 +6,7 @@ episodes. For print there is warehouse_sim's renderer, which takes a running war
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 PIXELS = 24  # an edge of a cell, if that gives no more than MOST
 MOST = 1200  # an edge of the picture
@@ -58,7 +59,7 @@ class Picture:
             self._unit(canvas, rows[i], asked[i])
         return np.ascontiguousarray(canvas[::-1])
 
-    def _unit(self, canvas, row, asked):
+    def _unit(self, canvas: np.ndarray, row: np.void, asked: bool) -> None:
         at, yaw = (row["x"], row["y"]), row["yaw"]
         self._box(canvas, at, yaw, UNIT_EDGE, UNIT_EDGE, REQUESTED if asked else UNIT)
         # Robots show beneath.
@@ -67,7 +68,7 @@ class Picture:
         else:
             self._box(canvas, at, yaw, 0.4 * UNIT_EDGE, 0.4 * UNIT_EDGE, BUSY)
 
-    def _robot(self, canvas, robot):
+    def _robot(self, canvas: np.ndarray, robot: int) -> None:
         w = self._world
         fleet = self._of.worlds[w].fleet
         at, yaw = np.array([fleet.x[robot], fleet.y[robot]]), fleet.yaw[robot]
@@ -77,7 +78,15 @@ class Picture:
         self._box(canvas, at, yaw, ROBOT_LENGTH - 0.1, ROBOT_WIDTH - 0.1, colour)
         self._box(canvas, at + 0.26 * ahead, yaw, 0.12, 0.36, FRONT)
 
-    def _box(self, canvas, at, yaw, length, width, colour):
+    def _box(
+        self,
+        canvas: np.ndarray,
+        at: ArrayLike,
+        yaw: float,
+        length: float,
+        width: float,
+        colour: tuple[int, int, int],
+    ) -> None:
         """A filled rectangle around a place in world, in the picture before it is turned up."""
         centre = (np.asarray(at) - self._corner) * self._metre
         reach = np.hypot(length, width) / 2 * self._metre

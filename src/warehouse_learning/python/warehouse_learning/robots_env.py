@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """All robots of a warehouse under one policy: a Gymnasium environment, and many of it at once."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import gymnasium
@@ -8,15 +9,17 @@ import numpy as np
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
+from numpy.typing import ArrayLike
 
 from warehouse_learning import fields
+from warehouse_learning.options import Options
 from warehouse_learning.screen import FRAMES, RENDER_MODES
-from warehouse_learning.spaces import WHEELS, joint_action_space
+from warehouse_learning.spaces import WHEELS, Seed, joint_action_space
 from warehouse_learning.stage import OneWarehouse, Stage
 from warehouse_learning.warehouses import ActionError
 
 
-def _joint_space(robot_fields, robots):
+def _joint_space(robot_fields: Iterable[fields.Field], robots: int) -> spaces.Box:
     low, high = fields.bounds(robot_fields)
     return spaces.Box(np.tile(low, robots), np.tile(high, robots))
 
@@ -31,7 +34,7 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
 
-    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
+    def __init__(self, render_mode: str | None = None, **options: object) -> None:
         self._set_up_one(render_mode, options)
         self.observation_space = _joint_space(self.fields, self.options.robots)
         self.action_space = joint_action_space(self.options)
@@ -44,7 +47,7 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
         self._begin(self.np_random.integers(2**62) if seed is None else seed)
         return self._observation(), self._mask()
 
-    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Makes one decision for every robot.
 
         Returns (observation, reward, terminated, truncated, info). Raises ActionError if the action
@@ -60,10 +63,10 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
         """Returns (robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
         return self._in.masks()[0].ravel()
 
-    def _mask(self):
+    def _mask(self) -> dict[str, np.ndarray]:
         return {name: mask[0] for name, mask in self._masks().items()}
 
-    def _observation(self):
+    def _observation(self) -> np.ndarray:
         return self._see.observations().reshape(-1)
 
 
@@ -82,7 +85,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         render_mode: str | None = None,
         threads: int = 0,
         autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
-        **options: Any,
+        **options: object,
     ) -> None:
         self._set_up(num_envs, render_mode, options, threads)
         self.num_envs = num_envs
@@ -96,7 +99,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         self._begun = False
 
     def reset(
-        self, *, seed: Any = None, options: dict[str, Any] | None = None
+        self, *, seed: Seed = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
         """New episodes in all, or in those of options["reset_mask"], (num_envs,) bool.
 
@@ -121,7 +124,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         self._screen.stepped()
         return self._observations(), self._infos(None, {})
 
-    def step(self, actions: Any) -> tuple[Any, ...]:
+    def step(self, actions: ArrayLike) -> tuple[Any, ...]:
         """Makes one decision in every environment.
 
         Returns observations, rewards, terminated, truncated and infos. Raises ActionError if an
@@ -159,23 +162,25 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         """Returns (num_envs, size) float32: each whole warehouse, as `state_fields` says."""
         return self._see.state()
 
-    def render(self) -> Any:
+    def render(self) -> tuple[np.ndarray] | None:
         """Returns the first one's picture."""
         picture = super().render()
         return None if picture is None else (picture,)
 
-    def close_extras(self, **_: Any) -> None:
+    def close_extras(self, **_: object) -> None:
         """Closes the page, if there is one (Gymnasium's hook)."""
         self._screen.close()
 
-    def _next_seeds(self, count):
+    def _next_seeds(self, count: int) -> list[int]:
         return self.np_random.integers(2**62, size=count).tolist()
 
-    def _begin(self, which, seeds):
+    def _begin(self, which: np.ndarray, seeds: Iterable[int]) -> None:
         self._in.reset(which, seeds)
         self._ended[which] = False
 
-    def _begin_at_once(self, ends, observations, infos):
+    def _begin_at_once(
+        self, ends: np.ndarray, observations: np.ndarray, infos: dict[str, Any]
+    ) -> tuple[np.ndarray, dict[str, Any]]:
         which = np.flatnonzero(ends)
         final = np.full(self.num_envs, None, object)
         for i in which:
@@ -192,10 +197,10 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         }
         return fresh, infos
 
-    def _observations(self):
+    def _observations(self) -> np.ndarray:
         return self._see.observations().reshape(self.num_envs, -1)
 
-    def _infos(self, rewards, happened):
+    def _infos(self, rewards: np.ndarray | None, happened: dict[str, np.ndarray]) -> dict[str, Any]:
         infos = self._masks()
         if rewards is not None:
             infos["rewards"] = rewards.copy()
@@ -204,7 +209,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         return infos | {f"_{name}": everybody for name in infos}
 
 
-def _by_robot(actions, lead, options):
+def _by_robot(actions: ArrayLike, lead: tuple[int, ...], options: Options) -> np.ndarray:
     """(n, robots) or, of wheels, (n, robots, 3), of actions whose shape begins with `lead`: (n,),
     or () for one; ActionError for another shape."""
     values = np.asarray(actions)

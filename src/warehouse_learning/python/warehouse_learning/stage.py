@@ -2,7 +2,7 @@
 """What environments of robots have in common, whatever their interface: warehouses, what is
 observed of them, who watches, and, of one warehouse, the episode as it goes."""
 
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 
@@ -19,7 +19,9 @@ from warehouse_learning.warehouses import Warehouses
 class Stage:
     """The stage of n warehouses; a mixin, to be the first among an environment's bases."""
 
-    def _set_up(self, n, render_mode, options, threads):
+    def _set_up(
+        self, n: int, render_mode: str | None, options: dict[str, object], threads: int
+    ) -> None:
         """options: by name, as of warehouse_learning.Options."""
         self.options = Options.of(options)
         self._in = Warehouses(n, self.options, threads)
@@ -45,13 +47,13 @@ class Stage:
         """Returns the picture, (height, width, 3) uint8; shows it and returns None for "human"."""
         return self._screen.render()
 
-    def _masks(self):
+    def _masks(self) -> dict[str, np.ndarray]:
         """{"action_mask": (n, robots, 5) int8}; nothing of wheels, which may do anything."""
         if self.options.continuous:
             return {}
         return {"action_mask": self._in.masks().astype(np.int8)}
 
-    def _ends(self):
+    def _ends(self) -> np.ndarray:
         """(n,) bool: whose episodes are over."""
         return self._in.cycle >= self.options.max_cycles
 
@@ -59,16 +61,17 @@ class Stage:
 class OneWarehouse(Stage):
     """The stage of one warehouse: its episode can be saved."""
 
-    def _set_up_one(self, render_mode, options):
+    def _set_up_one(self, render_mode: str | None, options: dict[str, object]) -> None:
         self._set_up(1, render_mode, options, threads=1)
-        self._seed, self._actions = None, []
+        self._seed: int | None = None
+        self._actions: list[np.ndarray] = []
 
-    def _begin(self, seed):
+    def _begin(self, seed: int) -> None:
         self._seed, self._actions = int(seed), []
-        self._in.reset([0], [self._seed])
+        self._in.reset([0], [int(seed)])
         self._screen.stepped()
 
-    def _decide(self, chosen):
+    def _decide(self, chosen: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray], bool]:
         """One decision, (robots,) or of wheels (robots, 3). Returns rewards (robots,), what
         happened, {name: (robots,)}, and whether the episode is over."""
         rewards, happened = self._in.step(chosen[None])
@@ -90,7 +93,7 @@ class OneWarehouse(Stage):
         """Closes the page, if there is one."""
         self._screen.close()
 
-    def save_episode(self, path: Any) -> None:
+    def save_episode(self, path: str | Path) -> None:
         """Writes the episode up to now; `python3 -m warehouse_learning.watch` plays it."""
         if self._seed is None:
             raise ValueError("there is no episode yet: reset() begins one")

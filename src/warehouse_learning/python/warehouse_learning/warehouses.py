@@ -6,11 +6,12 @@ service cell) and then put back on any free storage place. Arrays have the leadi
 (n, robots). Everything is decided by what the physics says: where robots stand, what they carry.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_layout.floor import plan_reader
 from warehouse_learning import building
@@ -70,7 +71,7 @@ class Warehouses:
         now = self.worlds
         self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
         self._counts = now.counts
-        self._masks: Any = None  # of the present state, once it was asked for
+        self._masks: np.ndarray | None = None  # of the present state, once it was asked for
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
         self._random: list[Any] = [None] * n
@@ -90,7 +91,7 @@ class Warehouses:
 
     # --- episodes
 
-    def reset(self, which: Any, seeds: Any) -> None:
+    def reset(self, which: ArrayLike, seeds: Iterable[int]) -> None:
         """Begins new episodes in the worlds `which`, (k,) indices, from k seeds."""
         which = np.asarray(which, np.int32)
         self.worlds.restore(which, self._checkpoint)
@@ -112,7 +113,7 @@ class Warehouses:
         self.cycle[which] = 0
         self.delivered[which] = 0
 
-    def _place(self, which, cells, headings):
+    def _place(self, which: np.ndarray, cells: np.ndarray, headings: np.ndarray) -> None:
         x, y = self.grid.point_of(cells)
         ids = np.tile(self._kiva_id, len(which))
         rows = np.repeat(which, self.robots)
@@ -131,7 +132,7 @@ class Warehouses:
         """Returns the numbers of the storage units that are requested in world w."""
         return self._shelf_id[self.requested[w]].tolist()
 
-    def check(self, actions: Any) -> np.ndarray:
+    def check(self, actions: ArrayLike) -> np.ndarray:
         """Returns actions as (n, robots) or, for wheels, (n, robots, 3). Raises ActionError."""
         values = np.asarray(actions)
         if self.options.continuous:
@@ -150,7 +151,7 @@ class Warehouses:
             raise ActionError(self._complaint(values, (values < 0) | (values > 4)))
         return values.astype(np.int8)
 
-    def _check_wheels(self, actions):
+    def _check_wheels(self, actions: np.ndarray) -> np.ndarray:
         if actions.shape != (self.n, self.robots, 3) or actions.dtype.kind not in "iuf":
             raise ActionError(
                 f"actions: numbers of shape {(self.n, self.robots, 3)} were expected, left wheel,"
@@ -161,12 +162,14 @@ class Warehouses:
             raise ActionError(self._complaint(actions, bad, "three numbers from -1 to 1"))
         return actions.astype(float)
 
-    def _complaint(self, actions, bad, expected="a whole number from 0 to 4"):
+    def _complaint(
+        self, actions: np.ndarray, bad: np.ndarray, expected: str = "a whole number from 0 to 4"
+    ) -> str:
         w, robot = np.argwhere(bad)[0]
         action = actions.tolist()[w][robot]  # as its caller would write it
         return f"robot_{robot + 1} of world {w}: action {action!r}; {expected} was expected"
 
-    def step(self, actions: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    def step(self, actions: ArrayLike) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Makes one decision of every robot.
 
         Returns rewards (n, robots) and what happened by robot, {name: (n, robots)}. Raises
@@ -187,7 +190,7 @@ class Warehouses:
             rewards += np.float32(self._rewards["approached"]) * nearer
         return rewards, happened
 
-    def _pass_time(self):
+    def _pass_time(self) -> np.ndarray:
         """Steps all worlds for one decision; returns the event counts."""
         steps, until_idle = self._fixed or self._limit, not self._fixed
         if not self.on_moved:
@@ -205,20 +208,20 @@ class Warehouses:
                 break
         return counts
 
-    def _reward(self, happened):
+    def _reward(self, happened: dict[str, np.ndarray]) -> np.ndarray:
         rewards = np.full((self.n, self.robots), self._rewards["step"], np.float32)
         for name, events in happened.items():
             if self._rewards[name] and events.any():
                 rewards += np.float32(self._rewards[name]) * events
         return rewards
 
-    def _begin(self, actions):
+    def _begin(self, actions: np.ndarray) -> np.ndarray:
         """Posts what is possible; returns who does what it was told, (n, robots) bool."""
         done, world, commands = self.task.begin(actions)
         self.worlds.post(world, commands)
         return done
 
-    def _begin_wheels(self, actions):
+    def _begin_wheels(self, actions: np.ndarray) -> np.ndarray:
         """The same of wheel speeds; a robot that is to lift or put down stops for it."""
         standing = np.hypot(self.worlds.vx, self.worlds.vy) < STANDS
         loaded = self.load >= 0
@@ -232,12 +235,12 @@ class Warehouses:
 
     # --- what came of it
 
-    def _see(self, which):
+    def _see(self, which: np.ndarray) -> None:
         """Takes in where robots of worlds `which` are and what they carry."""
         self.task.update(which, *self._robots)
         self._masks = None
 
-    def _happened(self, done, counts):
+    def _happened(self, done: np.ndarray, counts: np.ndarray) -> dict[str, np.ndarray]:
         """{name: (n, robots) bool} in the last decision, by who did what it was told."""
         refused, collided, hit = self.task.take_events(done, counts)
         for w in hit:
@@ -252,13 +255,13 @@ class Warehouses:
             "collided": collided,
         }
 
-    def _look_at_units(self, w):
+    def _look_at_units(self, w: int) -> None:
         """Where units stand after a collision, which may have pushed some."""
         rows = self.worlds[w].storage_units
         cells = self.grid.cell_of(rows["x"], rows["y"])
         self.task.place_units(w, np.where(rows["kiva_id"] > 0, np.int32(-1), cells))
 
-    def _deliver(self, arrived):
+    def _deliver(self, arrived: Iterable[tuple[int, int]]) -> np.ndarray:
         """Who of them has brought a requested unit, (n, robots) bool; another is requested."""
         delivered = np.zeros((self.n, self.robots), bool)
         for w, robot in arrived:

@@ -11,13 +11,20 @@ import contextlib
 import itertools
 import sys
 import time
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from kiva_plugin_cpp import World
 from warehouse_learning import episodes
-from warehouse_learning.page import SPEED, Page
+from warehouse_learning.page import SPEED, Event, Page
 from warehouse_learning.warehouses import Warehouses
+
+if TYPE_CHECKING:
+    from warehouse_learning.marl.policy import GridPolicy
+    from warehouse_learning.rware.env import Warehouse
+    from warehouse_learning.rware.motion import BodyMotion
 
 POLL = 0.1  # between two checks whether a browser has opened the page [s, wall]
 
@@ -25,7 +32,7 @@ POLL = 0.1  # between two checks whether a browser has opened the page [s, wall]
 def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
     """Plays an episode on the page; returns how many units were delivered."""
 
-    def moved(events: Any) -> None:
+    def moved(events: Iterable[Event]) -> None:
         page.show_events(events)
         page.moved()
 
@@ -37,14 +44,15 @@ def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
     return int(warehouses.delivered.sum())
 
 
-def drive(page: Page, env: Any, policy: Any, seed: int) -> float:
+def drive(page: Page, env: "Warehouse", policy: "GridPolicy", seed: int) -> float:
     """Lets an environment's robots drive by a policy for an episode; returns what they earned."""
 
-    def moved(events: Any) -> None:
+    def moved(events: Iterable[Event]) -> None:
         page.show_events(events)
         page.moved()
 
-    env.motion.on_moved = moved
+    bodies = cast("BodyMotion", env.motion)
+    bodies.on_moved = moved
     random = np.random.default_rng(seed)
     observations, _ = env.reset(seed=seed)
     total, ends = 0.0, False
@@ -78,7 +86,7 @@ def main() -> None:
         sys.exit(130)
 
 
-def _watch_episode(args):
+def _watch_episode(args: argparse.Namespace) -> None:
     try:
         options, seed, actions = episodes.load(args.file)
     except episodes.EpisodeError as error:
@@ -92,7 +100,7 @@ def _watch_episode(args):
             time.sleep(3600)
 
 
-def _watch_policy(args):
+def _watch_policy(args: argparse.Namespace) -> None:
     from warehouse_learning.marl import policy
     from warehouse_learning.rware import options_of
     from warehouse_learning.rware.env import Warehouse
@@ -104,14 +112,14 @@ def _watch_policy(args):
     task = trained.about["task"]
     env = Warehouse(physics="bodies", **options_of(task))
     env.reset(seed=args.seed)
-    bodies: Any = env.motion
+    bodies = cast("BodyMotion", env.motion)
     with _open(bodies.worlds[0], f"{task}, by {args.policy}", args.speed) as page:
         for seed in itertools.count(args.seed):
             print(f"episode {seed}: {drive(page, env, trained, seed):g} delivered; Ctrl-C ends it")
 
 
 @contextlib.contextmanager
-def _open(world, title, speed):
+def _open(world: World, title: str, speed: float) -> Iterator[Page]:
     """A Page, once a browser has it open, and until then."""
     page = Page(world, title, speed=speed)
     try:

@@ -9,9 +9,11 @@ import queue
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from types import ModuleType
+from typing import Any, TypeAlias
 
 from actionlib import ActionServer
+from actionlib.server_goal_handle import ServerGoalHandle
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D
 from rospy.numpy_msg import numpy_msg
@@ -24,17 +26,22 @@ from warehouse_client.routes import point
 from warehouse_msgs.msg import (
     CarryAction,
     CarryFeedback,
+    CarryGoal,
     CarryResult,
     Event,
     FleetState,
     Lift,
     MoveAction,
     MoveFeedback,
+    MoveGoal,
     MoveResult,
     MoveTo,
     UnitStates,
     WarehouseObjects,
 )
+
+Feedback: TypeAlias = "MoveFeedback | CarryFeedback"
+Result: TypeAlias = "MoveResult | CarryResult"
 
 FEEDBACK_GAP = 0.2  # [s, wall]
 PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
@@ -51,12 +58,12 @@ class Step:
     phase: int = 0
 
 
-def move(goal: Any) -> list[Step]:
+def move(goal: MoveGoal) -> list[Step]:
     """Returns the Steps of a MoveGoal."""
     return [_go(goal.kiva_id, (goal.x, goal.y))]
 
 
-def carry(goal: Any, unit: Any) -> list[Step]:
+def carry(goal: CarryGoal, unit: tuple[int, int]) -> list[Step]:
     """Returns the Steps of a CarryGoal, whose storage unit is at the grid point `unit` [m]."""
     kiva, target = goal.kiva_id, (goal.x, goal.y)
     lift, drop = (
@@ -78,7 +85,9 @@ def _go(kiva: int, target: tuple, phase: int = 0) -> Step:
 class Work:
     """A goal on which a robot works: `handle` is actionlib's, `steps` are what is left to do."""
 
-    def __init__(self, handle: Any, steps: Any, feedback: Any, result: Any) -> None:
+    def __init__(
+        self, handle: ServerGoalHandle, steps: list[Step], feedback: Feedback, result: Result
+    ) -> None:
         self.handle, self.steps = handle, steps
         self.feedback, self.result = feedback, result
         self.command = None  # the number of the first step's, once it was accepted
@@ -97,14 +106,14 @@ class Work:
         return event.command == self.command and event.kind in (Event.DONE, Event.BLOCKED)
 
 
-def _is_cancelled(handle: Any) -> bool:
+def _is_cancelled(handle: ServerGoalHandle) -> bool:
     return handle.get_goal_status().status == GoalStatus.PREEMPTING
 
 
 class RobotActions:
     """Serves /warehouse/move and /warehouse/carry. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros = ros
         self._inbox: queue.Queue[Any] = queue.Queue()
         self._works: dict[Any, Any] = {}
@@ -150,10 +159,10 @@ class RobotActions:
                     server.publish_status()
 
     # --- goals
-    def _begin_move(self, handle: Any) -> None:
+    def _begin_move(self, handle: ServerGoalHandle) -> None:
         self._begin(handle, move(handle.get_goal()), MoveFeedback(), MoveResult())
 
-    def _begin_carry(self, handle: Any) -> None:
+    def _begin_carry(self, handle: ServerGoalHandle) -> None:
         goal = handle.get_goal()
         unit = self._place(f"storage_unit{goal.shelf_id}")
         if unit is None:
@@ -161,19 +170,21 @@ class RobotActions:
         else:
             self._begin(handle, carry(goal, unit), CarryFeedback(), CarryResult())
 
-    def _place(self, name: str) -> Any:
+    def _place(self, name: str) -> tuple[int, int] | None:
         """The grid point of a storage unit, or None."""
         end = time.monotonic() + PATIENCE
         while (place := self._tracked_place(name)) is None and time.monotonic() < end:
             self._places.wait(end - time.monotonic())
         return place
 
-    def _tracked_place(self, name: str) -> Any:
+    def _tracked_place(self, name: str) -> tuple[int, int] | None:
         known = self._places.units_and_objects
         units = tracking.storage_units(*known) if known else tracking.Tracked()
         return point(units.pose[units.names.index(name)]) if name in units.names else None
 
-    def _begin(self, handle: Any, steps: list[Step], feedback: Any, result: Any) -> None:
+    def _begin(
+        self, handle: ServerGoalHandle, steps: list[Step], feedback: Feedback, result: Result
+    ) -> None:
         work = Work(handle, steps, feedback, result)
         if work.robot in self._works:
             self._reject(handle, result, f"{work.robot} works on another goal")
@@ -184,7 +195,7 @@ class RobotActions:
         self._send(work)
 
     @staticmethod
-    def _reject(handle: Any, result: Any, text: str) -> None:
+    def _reject(handle: ServerGoalHandle, result: Result, text: str) -> None:
         result.text, result.kind = text, Event.REFUSED
         handle.set_rejected(result, text)
 

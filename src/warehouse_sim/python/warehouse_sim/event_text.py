@@ -5,7 +5,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import TextIO
 
 from warehouse_client.message_names import EVENT
 from warehouse_layout.models.models import kind_and_number
@@ -108,7 +108,7 @@ def fits(event: Event, models: Collection[str] = (), kinds: Collection[str] = ()
     return about and (not kinds or word(event).lower() in kinds)
 
 
-def wants_colour(choice: str, file: Any, environment: Mapping[str, str] = os.environ) -> bool:
+def wants_colour(choice: str, file: TextIO, environment: Mapping[str, str] = os.environ) -> bool:
     """Returns whether to colour; `choice` is always, never, or auto: on a terminal with colours."""
     if choice != "auto":
         return choice == "always"

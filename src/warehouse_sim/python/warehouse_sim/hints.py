@@ -12,6 +12,7 @@ from warehouse_client.survey import Survey
 SYSTEM = Path("/usr/lib")  # Python and ROS find what is in it by themselves
 NEAREST = 20  # units tried for each robot
 
+Point = tuple[int, int]  # on the grid [m]
 Pairs = list[tuple[str, str]]  # shell command, what it does
 
 _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
@@ -61,7 +62,7 @@ def _nearest(robots: Mapping[int, Any], units: Mapping[int, Any]) -> Iterator[tu
         yield from ((kiva, unit) for unit in sorted(far, key=far.__getitem__)[:NEAREST])
 
 
-def _carry(kiva: int, unit: int, at: Any, back: Any) -> Pairs:
+def _carry(kiva: int, unit: int, at: Point, back: Point) -> Pairs:
     axis, distance = ("x", back[0] - at[0]) if back[0] != at[0] else ("y", back[1] - at[1])
     return [
         (_pub("mov", "MoveTo", x=at[0], y=at[1], kiva_id=kiva), f"beneath storage_unit{unit}"),
@@ -102,7 +103,7 @@ def _within(namespace: str, command: str) -> str:
     return f"ROS_NAMESPACE={namespace.rstrip('/')} {command}"
 
 
-def greeting(title: str, pairs: Any) -> str:
+def greeting(title: str, pairs: Pairs) -> str:
     """Returns what the terminal shows once a warehouse is built."""
     wide = max(len(command) for command, _ in pairs)
     lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]

@@ -4,6 +4,7 @@
 import threading
 from collections.abc import Callable
 from dataclasses import astuple
+from types import ModuleType
 from typing import Any
 
 from std_msgs.msg import Header
@@ -18,8 +19,8 @@ from warehouse_layout.generate.cells import Cells
 from warehouse_layout.generate.fit import fit, fit_largest
 from warehouse_layout.generate.generated import plan
 from warehouse_layout.models import models
-from warehouse_layout.place.layout import SEED, Layout
-from warehouse_msgs.srv import CreateWarehouseResponse
+from warehouse_layout.place.layout import SEED, Floor, Layout
+from warehouse_msgs.srv import CreateWarehouseRequest, CreateWarehouseResponse
 from warehouse_sim import hints
 from warehouse_sim.layout_building import LayoutBuilding
 
@@ -37,18 +38,18 @@ class WarehouseService:
 
     def __init__(
         self,
-        ros: Any,
-        tell: Callable[[str], Any],
+        ros: ModuleType,
+        tell: Callable[[str], object],
         keeps_floor: bool = False,
         seed: int = SEED,
-        at: Any = None,
+        at: tuple[float, float] | None = None,
         layouts: LayoutBuilding | None = None,
     ) -> None:
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
         self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
         self._layouts = layouts or LayoutBuilding(seed)
 
-    def handle(self, request: Any) -> Any:
+    def handle(self, request: CreateWarehouseRequest) -> CreateWarehouseResponse:
         """Answers a CreateWarehouse request; a refused one changes nothing."""
         try:
             message = self.create(
@@ -100,7 +101,7 @@ class WarehouseService:
         return request, fit(request, cells, self._seed, self._at)
 
     def _finish(
-        self, transaction: BuildTransaction, name: str, number: int, floor: Any, path: str = ""
+        self, transaction: BuildTransaction, name: str, number: int, floor: Floor, path: str = ""
     ) -> None:
         identity.write(self._ros, name, number)
         self._ros.set_param(identity.LAYOUT, path)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse at a glance: one message with every robot's status and every unit's carrier."""
 
+from types import ModuleType
 from typing import Any
 
 from geometry_msgs.msg import Pose2D
@@ -51,9 +52,11 @@ def glance(
 class StatePublisher:
     """Publishes /warehouse/state. `ros` is rospy."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: ModuleType) -> None:
         self._ros = ros
-        self._shown: Any = None  # (revision, (name, id)) of the last message
+        self._shown: tuple[int, tuple[str, int]] | None = (
+            None  # (revision, (name, id)) of the last message
+        )
         self._next: float | None = None  # when to publish again [s, simulated]
         self._newest = LatestMessages(
             ros,
@@ -91,10 +94,12 @@ class StatePublisher:
 
     def _differs(self, shown: tuple[Any, Any]) -> bool:
         revision, name = shown
-        return revision != self._shown[0] or name not in (None, self._shown[1])
+        return (
+            self._shown is None or revision != self._shown[0] or name not in (None, self._shown[1])
+        )
 
 
-def follow(ros: Any) -> None:
+def follow(ros: ModuleType) -> None:
     """Publishes until shutdown: the body of create_warehouse_topics."""
     for topic, kind in COMMANDS.items():
         ros.Publisher(topic, kind, queue_size=10)

@@ -5,9 +5,11 @@ import resource
 import threading
 import time
 from collections.abc import Callable, Sequence
+from types import ModuleType
 from typing import Any
 
 import numpy as np
+from genpy import Time
 from geometry_msgs.msg import PoseStamped
 from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
@@ -15,6 +17,8 @@ from std_msgs.msg import Header
 from warehouse_client import tracking
 from warehouse_client.latest import LatestMessages, LazyPublisher
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
+
+Kind = type[tracking.Items] | type[tracking.StorageUnits]
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
@@ -39,13 +43,13 @@ class PoseTopics:
     ) -> None:
         self._prefix, self._advertise, self._limit = prefix, advertise, limit
         self._topics: dict[str, Any] = {}
-        self._names: Any = None  # at the last update
+        self._names: Sequence[str] | None = None  # at the last update
         self._rows: dict[str, int] = {}  # likewise
         self._gone: list[str] = []  # names whose topics are still to be removed
         self._new: list[str] = []  # and to be added
         self._linger, self._clock, self._gone_at = linger, clock, 0.0
 
-    def update(self, objects: Any, moved: Any, stamp: Any) -> bool:
+    def update(self, objects: tracking.Tracked, moved: np.ndarray, stamp: Time) -> bool:
         """Publishes the poses that `moved` marks. Returns whether topics still have to change."""
         if objects.names is not self._names:
             self._plan(objects.names)
@@ -83,7 +87,7 @@ class ObjectList:
         self._messages: list[Any] = []
         self._stale = np.zeros(0, bool)
 
-    def update(self, objects: Any, changed: Any, stamp: Any) -> None:
+    def update(self, objects: tracking.Tracked, changed: np.ndarray, stamp: Time) -> None:
         """Takes over the objects that `changed` marks."""
         with self._lock:
             if len(changed) != len(self._stale):
@@ -105,12 +109,14 @@ class ObjectList:
 class Tracker:
     """Follows one kind of object; `kind` is tracking.Items or tracking.StorageUnits."""
 
-    def __init__(self, kind: Any, pose_topics: PoseTopics) -> None:
+    def __init__(self, kind: Kind, pose_topics: PoseTopics) -> None:
         self._kind, self._pose_topics = kind, pose_topics
-        self._objects: Any = None  # the message
-        self._places: Any = None  # where the objects in it are
-        self._last: Any = None
-        self._stamp: Any = None
+        self._objects: WarehouseObjects | None = None  # the message
+        self._places: tracking.Items | tracking.StorageUnits | None = (
+            None  # where the objects in it are
+        )
+        self._last: tracking.Tracked | None = None
+        self._stamp: Time | None = None
         self._list = ObjectList()
         self.message = self._list.message
 
@@ -121,7 +127,7 @@ class Tracker:
 
     def update(self, objects: WarehouseObjects, states: UnitStates) -> tuple[bool, bool]:
         """Takes over the newest messages. Returns whether the list changed, and if work is left."""
-        if objects is not self._objects:
+        if self._places is None or objects is not self._objects:
             self._objects, self._places = objects, self._kind(objects)
         new, old = self._places.at(states), self._last or tracking.Tracked()
         moved, changed = tracking.moved(old, new), tracking.changed(old, new)
@@ -142,7 +148,7 @@ class Tracker:
 class PoseTopic:
     """What PoseTopics advertises. `ros` is rospy."""
 
-    def __init__(self, ros: Any, topic: str) -> None:
+    def __init__(self, ros: ModuleType, topic: str) -> None:
         self._publisher = ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
         self.publish = self._publisher.publish
 
@@ -164,7 +170,7 @@ def topics_allowed(count: int) -> int:
     return min(count, max(0, soft - SPARE_FILES))
 
 
-def follow(ros: Any, kind: Any, prefix: str) -> None:
+def follow(ros: ModuleType, kind: Kind, prefix: str) -> None:
     """Publishes until shutdown: the body of a tracking node. `ros` is rospy."""
 
     def advertise(topic: str) -> PoseTopic:

@@ -2,7 +2,7 @@
 """Many robots that drive all the time: for benchmarks and tests of what follows them."""
 
 import time
-from typing import Any
+from types import ModuleType
 
 from warehouse_client.engine import Engine
 from warehouse_client.message_check import subscribe
@@ -12,7 +12,7 @@ from warehouse_msgs.msg import Event, MoveAlong
 PITCH = 3  # of the robots [m]; each needs the metre before it
 
 
-def build(ros: Any, robots: int) -> None:
+def build(ros: ModuleType, robots: int) -> None:
     """Adds robots to an empty floor, on a square lattice around the origin. Raises EngineError."""
     side = int((robots - 1) ** 0.5) + 1
     cells = [
@@ -26,7 +26,7 @@ def build(ros: Any, robots: int) -> None:
 class Traffic:
     """Keeps the robots 1 … n driving: a metre forth, a metre back. `ros` is rospy."""
 
-    def __init__(self, ros: Any, robots: int) -> None:
+    def __init__(self, ros: ModuleType, robots: int) -> None:
         self._way = dict.fromkeys(range(1, robots + 1), 1)
         self._topic = ros.Publisher("movx", MoveAlong, queue_size=0)
         subscribe(ros, "warehouse/events", Event, self._go_on, queue_size=100000)

@@ -55,7 +55,7 @@ def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
         message.manufacturer.append(link.identity.manufacturer)
         message.serial.append(link.identity.serial)
         message.order.append(order.id if order and not vehicle.is_free else "")
-        message.errors.append(_text(vehicle.complaints.all()))
+        message.errors.append(_text(vehicle.errors()))
         message.driven.append(vehicle.is_taken)
     return message
 

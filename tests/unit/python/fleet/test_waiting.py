@@ -48,10 +48,33 @@ def test_what_stands_in_the_way_is_told():
     queue.robots.mode[0] = Mode.MANUAL
     queue.robots.busy[0] = False
     waits = dict(Waiting(queue, []).long())
-    assert waits[1] == "behind kiva1, which is MANUAL"
-    assert waits[2] == "behind kiva2, in a queue behind kiva1"
+    assert waits[1] == "behind kiva1, which is manual"
+    assert waits[2] == "behind kiva2, in a queue behind kiva1, which is manual"
     queue.robots.slowed_for_people[0] = True
     assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
+
+
+def brought(robot, station="pick4"):
+    return Transport(robot + 1, 7, station, 0, 0, 0, step=Step.BRINGING, robot=robot)
+
+
+def test_a_queue_says_which_robot_of_it_is_broken():
+    queue = Queue()
+    queue.robots.broken[0], queue.robots.busy[0] = True, False
+    waits = dict(Waiting(queue, [brought(robot) for robot in range(4)]).long())
+    assert waits == {
+        0: "until it is repaired",
+        1: "in the queue of pick4 behind kiva1, which is broken",
+        2: "in the queue of pick4 behind kiva2, in a queue behind kiva1, which is broken",
+        3: "in the queue of pick4 behind kiva3, in a queue behind kiva1, which is broken",
+    }
+
+
+def test_robots_of_different_stations_share_no_queue():
+    queue = Queue()
+    queue.robots.broken[0] = True
+    waits = dict(Waiting(queue, [brought(0, "pick1"), brought(1, "pick2")]).long())
+    assert waits[1] == "behind kiva1, which is broken"
 
 
 def test_each_robot_does_one_thing_and_one_that_is_gone_none():

@@ -4,18 +4,14 @@
 import contextlib
 import re
 import subprocess
-import sys
 import time
 import urllib.request
 
 import paths
-
-sys.path.append(str(paths.ROOT / "tests" / "rostest"))
-
-from browser import browser  # noqa: E402, F401 (for the tests)
+from rostest_support.browser import browser  # noqa: F401 (for the tests)
 
 from warehouse_layout.file import layout_file
-from warehouse_layout.file.request import PRESETS  # noqa: E402
+from warehouse_layout.file.request import PRESETS
 
 PATIENCE = 60.0  # with a machine that has much to do [s, wall]
 EDIT = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "edit"

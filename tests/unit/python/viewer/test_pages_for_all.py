@@ -3,11 +3,10 @@
 
 from urllib.parse import quote
 
-import axe
-import pictures
 import pytest
 from docs_page import SHOWN, docs
 from editor_page import PATIENCE, browser
+from rostest_support import axe, pictures
 from selenium.webdriver.support.ui import WebDriverWait
 
 from warehouse_viewer.server import token_page

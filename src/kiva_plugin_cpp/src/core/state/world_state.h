@@ -2,7 +2,7 @@
 //
 // The state of a world: its parts, each with a header of its own, in rooms by subject. The rooms of
 // core are functions over those parts. A room in this list includes only rooms above it, which
-// scripts/check_includes verifies. src/README.md lists the rooms within these.
+// scripts/check/includes verifies. src/README.md lists the rooms within these.
 //   parallel       the threads that share loops
 //   estimation     the Kalman filter by which a robot locates itself
 //   state          the parts, and functions of them alone

@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_assistant.hub_client import Trouble
 from warehouse_assistant.toolbox import Priority, Simulation, Toolbox
 from warehouse_assistant.tools.overview import order_text
 from warehouse_assistant.words import count, plain
@@ -70,30 +69,11 @@ def add(box: Toolbox) -> None:
         answer = await warehouse.send("DELETE", f"orders/{order}")
         return f"Order {order} is cancelled. {plain(answer['message'], 300)}".rstrip()
 
-    @box.changes("Put an order before others", destroys=True)
+    @box.changes("Put an order before others")
     async def prioritise_order(
         order: Number, priority: Priority, simulation: Simulation = ""
     ) -> str:
-        """Replaces an order that no station has yet by a new one with another priority."""
+        """Sets the priority of an order that is not complete."""
         warehouse = await box.hub.simulation(simulation)
-        old = await warehouse.get(f"orders/{order}")
-        if old["state"] != "OPEN" or any(line["picked"] for line in old["lines"]):
-            raise Trouble(f"{order_text(old)} Only an order that no station has can be replaced.")
-        if old["priority"] == priority:
-            return f"Order {order} has priority {priority} already."
-        await warehouse.send("DELETE", f"orders/{order}")
-        body = {
-            "lines": [{"sku": ln["sku"], "quantity": ln["quantity"]} for ln in old["lines"]],
-            "reference": old["reference"],
-            "priority": priority,
-            "due": old["due"],
-        }
-        try:
-            answer = await warehouse.send("POST", "orders", body)
-        except Trouble as error:
-            lost = f"Order {order} is cancelled, and its successor was not accepted: {error}"
-            raise Trouble(f"{lost} Submit it again by submit_order: {order_text(old)}") from error
-        return (
-            f"Order {answer['order_id']} with priority {priority} stands for order {order},"
-            " which is cancelled: orders keep the priority with which they come."
-        )
+        answer = await warehouse.send("PATCH", f"orders/{order}", {"priority": priority})
+        return f"Order {order}: {plain(answer['message'], 300)}."

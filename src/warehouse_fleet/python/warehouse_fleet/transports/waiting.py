@@ -94,6 +94,9 @@ class Waiting:
         return robot
 
     def _reason(self, robot: int, last: int, station: str) -> str:
+        """Returns why a robot waits: the queue that it is in, the robot before it, and what is
+        wrong with that or with the queue's head. `station` serves the head."""
+        served = bool(station)
         ahead = self._traffic.ahead_of(robot)
         if ahead == NOWHERE:
             if self._robots.slowed_for_people[robot]:
@@ -101,18 +104,30 @@ class Waiting:
             if self._robots.broken[robot]:
                 return "until it is repaired"
             return "until its route is free"
-        behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
-        if station:
-            return f"in the queue of {station} {behind}"
-        if self._robots.broken[ahead]:
-            return f"{behind}, which is broken"
-        if self._robots.mode[ahead] != Mode.AUTOMATIC:
-            return f"{behind}, which is {Mode(self._robots.mode[ahead]).name}"
-        return (
-            behind
-            if last == ahead
-            else f"{behind}, in a queue behind kiva{self._robots.kiva_ids[last]}"
-        )
+        text = f"behind kiva{self._robots.kiva_ids[ahead]}"
+        if station := station or self._shared_queue(robot, ahead):
+            text = f"in the queue of {station} {text}"
+        if fault := self._fault(ahead):
+            return f"{text}, which is {fault}"
+        if last == ahead or (served and not self._fault(last)):
+            return text
+        head = f"kiva{self._robots.kiva_ids[last]}"
+        fault = self._fault(last)
+        return f"{text}, in a queue behind {head}" + (f", which is {fault}" if fault else "")
+
+    def _shared_queue(self, robot: int, ahead: int) -> str:
+        """Returns the station to which both of two robots bring a unit; an empty name if none."""
+        own, other = self._of_robot.get(robot), self._of_robot.get(ahead)
+        if not (own and other) or own.station != other.station or own.step != Step.BRINGING:
+            return ""
+        return own.station if other.step in (Step.BRINGING, Step.WAITING) else ""
+
+    def _fault(self, robot: int) -> str:
+        """Returns what keeps a robot from driving by itself; empty if nothing does."""
+        if self._robots.broken[robot]:
+            return "broken"
+        mode = Mode(self._robots.mode[robot])
+        return "" if mode == Mode.AUTOMATIC else mode.name.lower().replace("_", " ")
 
 
 def _lasting(seconds: float) -> str:

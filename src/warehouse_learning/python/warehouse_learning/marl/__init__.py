@@ -1,3 +1,3 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Learning for several robots in RWARE's task: IPPO and MAPPO in numpy, policies as files, and the
-statistics of several trainings."""
+"""Learning for one robot or several, of RWARE's task or of Warehouses: IPPO and MAPPO in numpy,
+policies as files, and the statistics of several trainings."""

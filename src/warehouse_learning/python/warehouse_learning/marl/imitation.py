@@ -3,7 +3,8 @@
 (Ross et al., 2011). So a training can begin with robots that deliver, where chance hardly ever
 does."""
 
-from typing import Any
+import time
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from warehouse_learning.marl.mlp import Adam, Mlp, log_softmax
 from warehouse_learning.marl.planned import Planned
 from warehouse_learning.marl.policy import drawn
 
+if TYPE_CHECKING:
+    from warehouse_learning.rware.task import Task
+
 ENVIRONMENTS = 16
 ROUND = 50  # steps of each between two times of learning
 BATCH, RATE = 1024, 2e-3
@@ -19,13 +23,15 @@ PASSES = 4  # over what was seen, a round
 LATE_PASSES = 12  # in the end
 
 
-def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> None:
-    """Lets an actor imitate the planner in so many steps of RWARE's task, all environments'.
+def imitate(actor: Mlp, encoder: Encoder, task: "Task", steps: int, seed: int) -> float:
+    """Lets an actor imitate the planner in a number of steps of RWARE's task, all environments'.
 
-    In the first round the planner drives, then the network more and more.
+    In the first round the planner drives, then the network more and more. Returns the seconds of
+    CPU that it took.
     """
     from warehouse_learning.rware.vector import RwareVectorEnv
 
+    begin = time.process_time()
     random = np.random.default_rng(seed)
     envs = RwareVectorEnv.of_task(ENVIRONMENTS, task)
     inputs, targets = [], []
@@ -45,10 +51,18 @@ def imitate(actor: Mlp, encoder: Encoder, task: Any, steps: int, seed: int) -> N
             observations = envs.step(actions)[0]
         passes = LATE_PASSES if number == rounds - 1 else PASSES
         _learn(actor, adam, np.concatenate(inputs), np.concatenate(targets), passes, random)
+    return time.process_time() - begin
 
 
-def _learn(actor, adam, inputs, targets, passes, random):
-    """Makes what was told more likely, by cross entropy."""
+def _learn(
+    actor: Mlp,
+    adam: Adam,
+    inputs: np.ndarray,
+    targets: np.ndarray,
+    passes: int,
+    random: np.random.Generator,
+) -> None:
+    """Makes the planner's actions more likely, by cross entropy."""
     for _ in range(passes * min(len(targets), 20 * BATCH) // BATCH):
         rows = random.integers(len(targets), size=BATCH)
         logits, kept = actor.forward(inputs[rows])

@@ -50,7 +50,7 @@ def log_softmax(logits: np.ndarray) -> np.ndarray:
     return shifted - np.log(np.exp(shifted).sum(1, keepdims=True))
 
 
-def _orthogonal(rows, columns, gain, random):
+def _orthogonal(rows: int, columns: int, gain: float, random: np.random.Generator) -> np.ndarray:
     q, _ = np.linalg.qr(random.standard_normal((max(rows, columns), min(rows, columns))))
     return np.ascontiguousarray(gain * (q if rows >= columns else q.T), np.float32)
 

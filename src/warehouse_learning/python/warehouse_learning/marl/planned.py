@@ -2,13 +2,15 @@
 """RWARE's task as the fleet's own planner does it, EPIBT: it sees the whole warehouse, and tells
 every robot what to do. What learning without that view compares with."""
 
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from warehouse_fleet import Action as Tick
 from warehouse_fleet import Fleet, Rules, epibt
 from warehouse_layout import Floor
+from warehouse_learning._core import Rware
 from warehouse_learning.rware.task import Action, Direction, Task
 
 # Rows count downwards in RWARE: the planner's y is the row, +x towards +y a turn to the right.
@@ -27,7 +29,7 @@ NONE = -1
 class Planned:
     """Plans for one warehouse, number `i` of an environment's, in an episode that begins now."""
 
-    def __init__(self, task: Task, warehouses: Any, i: int, seed: int = 1) -> None:
+    def __init__(self, task: Task, warehouses: Rware, i: int, seed: int = 1) -> None:
         self._warehouses, self._i, self._task = warehouses, i, task
         highways = task.floor.highways
         self._height, self._width = highways.shape
@@ -62,13 +64,13 @@ class Planned:
         planned = np.array([ACTION[Tick(int(tick))] for tick in ticks])
         return np.where(out == Action.TOGGLE_LOAD, out, planned).astype(np.int8)
 
-    def _home(self, cell):
+    def _home(self, cell: np.ndarray) -> np.ndarray:
         """The storage place that a loaded robot may enter: where it stores, or leaves from."""
         return np.where(
             self._stores != NONE, self._stores, np.where(self._highway[cell], NONE, cell)
         )
 
-    def _goal(self, cell, shelf):
+    def _goal(self, cell: np.ndarray, shelf: np.ndarray) -> np.ndarray:
         """The cell that each robot goes to: a requested shelf, a goal, a free storage place."""
         requested = self._warehouses.requests(self._i)
         shelves = np.array(self._warehouses.shelves(self._i))
@@ -86,7 +88,9 @@ class Planned:
             goal[robot] = self._place(robot, cell[robot], standing)
         return goal
 
-    def _assign(self, waiting, cell, shelf, shelves):
+    def _assign(
+        self, waiting: Iterable[int], cell: np.ndarray, shelf: np.ndarray, shelves: np.ndarray
+    ) -> None:
         """The nearest pairs first, of shelves and robots without a load, until one side is out."""
         self._fetches[shelf < 0] = NONE
         free = np.flatnonzero(shelf < 0).tolist()
@@ -101,7 +105,7 @@ class Planned:
                 self._fetches[robot] = asked
                 taken.add(asked)
 
-    def _place(self, robot, cell, standing):
+    def _place(self, robot: int, cell: int, standing: np.ndarray) -> int:
         """The storage place for a robot's shelf, where none stands: as chosen, or the nearest."""
         if self._stores[robot] == NONE or self._stores[robot] in standing:
             free = np.setdiff1d(np.flatnonzero(~self._highway), standing)
@@ -109,7 +113,7 @@ class Planned:
             self._stores[robot] = free[self._apart(cell, free).argmin()]
         return self._stores[robot]
 
-    def _apart(self, cell, cells):
+    def _apart(self, cell: int, cells: ArrayLike) -> np.ndarray:
         """Cells along the axes between one cell and others."""
         row, column = np.divmod(np.asarray(cells), self._width)
         return abs(row - cell // self._width) + abs(column - cell % self._width)

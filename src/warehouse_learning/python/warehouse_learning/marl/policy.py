@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Policies as files: the weights of one network that all robots share, and for which task they are.
+"""Policies: one network that all robots share. That of RWARE's task is stored as a file.
 
-numpy's .npz, of a few hundred kilobytes; nothing but numpy is needed to load and to use one.
+The file is numpy's .npz, of a few hundred kilobytes; loading and using it needs numpy alone.
 """
 
 import json
@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from warehouse_layout.file import user_file
-from warehouse_learning.marl.encoding import Encoder
+from warehouse_learning.marl.encoding import Encoder, Encoding
 from warehouse_learning.marl.mlp import Mlp
 
 FORMAT = "kiva-policy 1"
 SHIPPED = Path(__file__).parent / "weights"
 ACTIONS = 5
+IMPOSSIBLE = np.float32(-1e9)  # the logit of an action without a chance
 
 
 class PolicyError(ValueError):
@@ -29,23 +30,42 @@ def drawn(logits: np.ndarray, random: np.random.Generator) -> np.ndarray:
     return (logits - np.log(noise + 1e-20)).argmax(-1)  # Gumbel's trick
 
 
-class GridPolicy:
-    """Which action each robot takes in RWARE's task. `about`: the task, and how it was trained."""
+def masked(logits: np.ndarray, possible: np.ndarray | None) -> np.ndarray:
+    """Returns logits (m, 5) by which an action that is not possible, (m, 5) bool, has no chance."""
+    return logits if possible is None else np.where(possible, logits, IMPOSSIBLE)
 
-    def __init__(self, network: Mlp, encoder: Encoder, about: dict[str, Any]) -> None:
-        self.network, self.encoder, self.about = network, encoder, about
 
-    def logits(self, observations: np.ndarray) -> np.ndarray:
-        """Returns (…, agents, 5) of RWARE's vectors (…, agents, size)."""
+class Policy:
+    """Chooses each robot's action from what the robot observes."""
+
+    def __init__(self, network: Mlp, encoder: Encoding) -> None:
+        self.network, self.encoder = network, encoder
+
+    def logits(self, observations: np.ndarray, possible: np.ndarray | None = None) -> np.ndarray:
+        """Returns (…, agents, 5) of observations (…, agents, width) and masks (…, agents, 5)."""
         rows = self.encoder.encode(observations)
         out, _ = self.network.forward(rows.reshape(-1, rows.shape[-1]))
-        return out.reshape(*rows.shape[:-1], ACTIONS)
+        return masked(out.reshape(*rows.shape[:-1], ACTIONS), possible)
 
-    def act(self, observations: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    def act(
+        self,
+        observations: np.ndarray,
+        random: np.random.Generator,
+        possible: np.ndarray | None = None,
+    ) -> np.ndarray:
         """Returns (…, agents) actions, drawn as they were in the training."""
-        return drawn(self.logits(observations), random)
+        return drawn(self.logits(observations, possible), random)
 
-    def save(self, path: Any) -> None:
+
+class GridPolicy(Policy):
+    """A policy of RWARE's task. `about`: the task, and how it was trained."""
+
+    def __init__(self, network: Mlp, encoder: Encoder, about: dict[str, Any]) -> None:
+        super().__init__(network, encoder)
+        self.encoder: Encoder = encoder
+        self.about = about
+
+    def save(self, path: str | Path) -> None:
         """Writes it; load() reads it again. Weights are stored as float16."""
         encoder = self.encoder
         about = self.about | {
@@ -70,7 +90,7 @@ def find(name: str) -> Path:
     raise PolicyError(f"{name}: there is no such file, and no such policy; there are {known}")
 
 
-def load(name: Any) -> GridPolicy:
+def load(name: str | Path) -> GridPolicy:
     """Returns the policy of a file, or a shipped one by its name. Raises PolicyError."""
     path = find(str(name))
     try:
@@ -86,7 +106,7 @@ def load(name: Any) -> GridPolicy:
         raise PolicyError(f"{path} is not a policy: {error}") from error
 
 
-def _assembled(parameters, about):
+def _assembled(parameters: list[np.ndarray], about: dict[str, Any]) -> GridPolicy:
     width, height, agents = about.pop("floor")
     network = Mlp([], 1.0, np.random.default_rng(0))
     network.parameters = parameters

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 
 from warehouse_learning.marl import checkpoint
-from warehouse_learning.marl.encoding import Encoder
-from warehouse_learning.marl.imitation import imitate
+from warehouse_learning.marl.encoding import Encoding
 from warehouse_learning.marl.mlp import Adam, Mlp, log_softmax
-from warehouse_learning.marl.policy import ACTIONS, GridPolicy
-from warehouse_learning.marl.rollouts import Rollouts
+from warehouse_learning.marl.policy import ACTIONS, Policy, masked
+from warehouse_learning.marl.rollouts import Environments, Rollout, Rollouts
 
 ALGORITHMS = "ippo", "mappo"
 
@@ -39,7 +38,7 @@ class TrainingSettings:
     spread: float = 0.02  # least standard deviation by which advantages are divided
     entropy: float = 0.01  # falls to a tenth
     hidden: int = 64
-    imitation: int = 0  # steps of the planner that are imitated before
+    imitation: int = 0  # steps of the planner to imitate before; see imitation
     warm_up: int = 0  # updates in which the critic alone learns
 
     def __post_init__(self) -> None:
@@ -54,21 +53,19 @@ class TrainingSettings:
 
 
 class Training:
-    """One training of one seed, on environments as RwareVectorEnv (autoreset SAME_STEP).
+    """One training of one seed, in environments whose observations an encoder prepares.
 
     `curve` has rows (steps so far, mean return of the episodes that ended since the last row); a
-    return is the sum of all robots' rewards in an episode. `seconds`: of CPU so far.
+    return is the sum of all robots' rewards in an episode, or of what they delivered where
+    environments say so. `seconds`: of CPU so far.
     """
 
     def __init__(
-        self, envs: Any, settings: TrainingSettings, seed: int, about: dict[str, Any]
+        self, envs: Environments, encoder: Encoding, settings: TrainingSettings, seed: int
     ) -> None:
-        self.settings, self.seed, self.about = settings, seed, about
+        self.settings, self.seed = settings, seed
         self.random = np.random.default_rng(seed)
-        self._envs = envs
-        height, width = envs.task.floor.grid_size
-        agents = envs.task.n_agents
-        self.encoder = encoder = Encoder(width, height, agents, envs.task.vector_size)
+        self._envs, self.encoder, agents = envs, encoder, envs.agents
         hidden = settings.hidden
         self.actor = Mlp([encoder.size, hidden, hidden, ACTIONS], 0.01, self.random)
         inputs, values = encoder.size, 1
@@ -80,7 +77,7 @@ class Training:
         self.curve: list[tuple[int, float]] = []
         self._rollouts = Rollouts(envs, encoder, self.random)
 
-    def take(self, policy: GridPolicy) -> None:
+    def take(self, policy: Policy) -> None:
         """Begins with what a policy of this task knows. Raises ValueError for another task's."""
         theirs = policy.network.parameters
         if [p.shape for p in theirs] != [p.shape for p in self.actor.parameters]:
@@ -89,57 +86,56 @@ class Training:
             mine[:] = other
 
     @property
-    def policy(self) -> GridPolicy:
-        """Returns what was learnt so far."""
-        about = self.about | {
+    def record(self) -> dict[str, Any]:
+        """Returns how the actor was trained so far."""
+        return {
             "settings": asdict(self.settings),
             "seed": self.seed,
             "steps": self.done,
             "seconds_of_cpu": round(self.seconds),
         }
-        return GridPolicy(self.actor, self.encoder, about)
 
     def run(
-        self, minutes: float = float("inf"), report: Callable[[Any], Any] = lambda _: None
+        self,
+        minutes: float = float("inf"),
+        report: Callable[["Training"], object] = lambda _: None,
+        report_every: float = 10,
     ) -> bool:
         """Trains until the settings' steps are done or minutes of wall time have passed.
 
-        report(self) is called about once in ten seconds. Returns whether the training is complete.
+        report(self) is called after an update, at least report_every seconds after the last time.
+        Returns whether the training is complete.
         """
         end = time.monotonic() + 60 * minutes
         reported_at = time.monotonic()
-        if self.settings.imitation and not self.done:
-            begin = time.process_time()
-            imitate(self.actor, self.encoder, self._envs.task, self.settings.imitation, self.seed)
-            self.seconds += time.process_time() - begin
         while self.done < self.settings.steps and time.monotonic() < end:
             begin = time.process_time()
             self._update()
             self.seconds += time.process_time() - begin
-            if time.monotonic() > reported_at + 10:
+            if time.monotonic() >= reported_at + report_every:
                 reported_at = time.monotonic()
                 report(self)
         return self.done >= self.settings.steps
 
-    def _update(self):
+    def _update(self) -> None:
         rollout = self._rollouts.collect(self.actor, self.settings.rollout)
         self._improve(rollout)
         self.done += self.settings.rollout * self._envs.num_envs
         if rollout.finished:
             self.curve.append((self.done, float(np.mean(rollout.finished))))
 
-    def _values(self, observations):
+    def _values(self, observations: np.ndarray) -> np.ndarray:
         """(…, agents) of (…, agents, size)."""
         return self.critic.forward(self._critic_rows(observations))[0].reshape(
             observations.shape[:-1]
         )
 
-    def _critic_rows(self, observations):
+    def _critic_rows(self, observations: np.ndarray) -> np.ndarray:
         width = observations.shape[-1]
         is_joint = self.settings.algorithm == "mappo"
         return observations.reshape(-1, observations.shape[-2] * width if is_joint else width)
 
-    def _advantages(self, rollout):
+    def _advantages(self, rollout: Rollout) -> tuple[np.ndarray, np.ndarray]:
         """Generalised advantage estimation (Schulman et al., 2016), and the values that it begins
         from: (rollout, n, agents) each."""
         settings, value = self.settings, self._values(rollout.observations)
@@ -156,7 +152,7 @@ class Training:
             out[t] = trace
         return out, value[:-1]
 
-    def _improve(self, rollout):
+    def _improve(self, rollout: Rollout) -> None:
         settings = self.settings
         advantage, value = self._advantages(rollout)
         target = advantage + value
@@ -166,11 +162,13 @@ class Training:
             name: array.reshape(size, *array.shape[2:])
             for name, array in (
                 ("observations", rollout.observations[:-1]),
+                ("possible", rollout.possible),
                 ("action", rollout.action),
                 ("log", rollout.log),
                 ("advantage", (advantage - advantage.mean()) / spread),
                 ("target", target),
             )
+            if array is not None
         }
         rate = settings.falling(settings.rate, self.done)
         per_update = settings.epochs * settings.minibatches
@@ -181,9 +179,11 @@ class Training:
                     self._optimisers[0].step(self._actor_slopes(part), rate)
                 self._optimisers[1].step(self._critic_slopes(part), rate)
 
-    def _actor_slopes(self, part):
+    def _actor_slopes(self, part: dict[str, np.ndarray]) -> list[np.ndarray]:
         settings = self.settings
         logits, kept = self.actor.forward(part["observations"].reshape(-1, self.encoder.size))
+        if "possible" in part:
+            logits = masked(logits, part["possible"].reshape(logits.shape))
         action, advantage = part["action"].ravel(), part["advantage"].ravel()
         logs = log_softmax(logits)
         chances = np.exp(logs)
@@ -200,7 +200,7 @@ class Training:
         slopes /= len(action)
         return self.actor.backward(kept, slopes)
 
-    def _critic_slopes(self, part):
+    def _critic_slopes(self, part: dict[str, np.ndarray]) -> list[np.ndarray]:
         values, kept = self.critic.forward(self._critic_rows(part["observations"]))
         error = values - part["target"].reshape(values.shape)
         error /= error.size

@@ -13,7 +13,7 @@ Cooperative Tasks", NeurIPS 2021) with networkx 3. Importing this registers what
 does; image_registration() and full_registration() add what they add there.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from warehouse_learning.rware import ids
 from warehouse_learning.rware.env import Warehouse
@@ -25,6 +25,9 @@ from warehouse_learning.rware.task import (
     RewardType,
 )
 from warehouse_learning.rware.vector import RwareVectorEnv
+
+if TYPE_CHECKING:
+    from warehouse_learning.rware.parallel import RwareParallelEnv
 
 __all__ = [
     "Action",
@@ -51,7 +54,7 @@ def full_registration() -> None:
     ids.register_all(ids.full())
 
 
-def parallel_env(name: str | None = None, **options: Any) -> Any:
+def parallel_env(name: str | None = None, **options: Any) -> "RwareParallelEnv":
     """A PettingZoo ParallelEnv of a registered task, by RWARE's name or with kiva- before it, or of
     options as of Warehouse; an option beside a name replaces the task's."""
     from warehouse_learning.rware.parallel import RwareParallelEnv

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """RWARE as a Gymnasium environment of all agents."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
@@ -75,7 +76,7 @@ class Warehouse(gymnasium.Env):
             self.motion.reset(ALL)
         return self._observer.of_first(), self._infos()
 
-    def step(self, actions: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+    def step(self, actions: Sequence[Any]) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """actions: an Action an agent, or with messages [Action, bit, …] an agent.
 
         Raises ValueError for what is not an action, or not one an agent.
@@ -89,7 +90,7 @@ class Warehouse(gymnasium.Env):
         rewards = list(self._rewards[0]) if is_paid else self._no_rewards.copy()
         return self._observer.of_first(), rewards, ends, False, self._infos()
 
-    def _step_in_arrays(self, actions):
+    def _step_in_arrays(self, actions: np.ndarray) -> bool:
         bits, agents = self.task.msg_bits, self.task.n_agents
         expected = (agents, 1 + bits) if bits else (agents,)
         if actions.shape != expected:
@@ -103,7 +104,7 @@ class Warehouse(gymnasium.Env):
         self.warehouses.step(ALL, chosen, messages, self._rewards, ends)
         return bool(ends[0])
 
-    def _infos(self):
+    def _infos(self) -> dict[str, Any]:
         if not self.motion:
             return {}
         return {name: values[0] for name, values in self.motion.infos().items()}

@@ -22,7 +22,7 @@ REWARDS = {
 RANGES = {"": 1} | {f"-{cells}s": cells for cells in range(2, 6)}
 
 
-def _views(kinds):
+def _views(kinds: dict[str, ObservationType]) -> Iterator[tuple[str, dict[str, Any]]]:
     """(part of a name, options) of each kind of observation; pictures turned and not."""
     for name, kind in kinds.items():
         yield name, {"observation_type": kind}
@@ -30,7 +30,9 @@ def _views(kinds):
             yield f"{name}-Nd", {"observation_type": kind, "image_observation_directional": False}
 
 
-def _sizes(rows, columns, height, agents, requests, cells):
+def _sizes(
+    rows: int, columns: int, height: int, agents: int, requests: int, cells: int
+) -> dict[str, int]:
     return {
         "shelf_rows": rows,
         "shelf_columns": columns,
@@ -41,7 +43,9 @@ def _sizes(rows, columns, height, agents, requests, cells):
     }
 
 
-def _sized(views, ranges, heights):
+def _sized(
+    views: Iterable[tuple[str, dict[str, Any]]], ranges: dict[str, int], heights: dict[str, int]
+) -> Iterator[tuple[str, dict[str, Any]]]:
     agents = range(1, MOST_AGENTS + 1)
     for size, diff, (view, observes), (sight, cells), (tall, height), n in product(
         SIZES, REQUESTS_PER_AGENT, views, ranges.items(), heights.items(), agents

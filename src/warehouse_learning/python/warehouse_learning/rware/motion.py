@@ -16,6 +16,7 @@ import numpy as np
 from kiva_plugin_cpp import COMMAND, EventKind, Kind, Status, World, Worlds
 from warehouse_layout.place import layout
 from warehouse_learning import building
+from warehouse_learning._core import Rware
 from warehouse_learning.rware.task import Action, Direction, Task
 
 PHYSICS = "grid", "ideal", "bodies"
@@ -44,7 +45,7 @@ class Motion:
     in which those that are still at one go on with it and can't begin another.
     """
 
-    def __init__(self, task: Task, warehouses: Any, n: int, decision: float | str) -> None:
+    def __init__(self, task: Task, warehouses: Rware, n: int, decision: float | str) -> None:
         self._warehouses = warehouses
         self._seconds = 0.0 if decision == "action" else float(decision)
         self._has_bodies = False
@@ -78,11 +79,11 @@ class Motion:
         self.current[done] = Action.NOOP
         return ended
 
-    def _begin(self, which):
+    def _begin(self, which: np.ndarray) -> None:
         """Robots `which`, (n, agents) bool, begin their current action."""
         raise NotImplementedError
 
-    def _wait(self, which):
+    def _wait(self, which: np.ndarray) -> np.ndarray:
         """A decision passes. Returns whose action has ended, (n, agents) bool."""
         raise NotImplementedError
 
@@ -90,14 +91,14 @@ class Motion:
 class IdealMotion(Motion):
     """Each action takes the time that it takes a robot alone."""
 
-    def __init__(self, task: Task, warehouses: Any, n: int, decision: float | str) -> None:
+    def __init__(self, task: Task, warehouses: Rware, n: int, decision: float | str) -> None:
         super().__init__(task, warehouses, n, decision)
         self._left = np.zeros(self.current.shape)
 
-    def _begin(self, which):
+    def _begin(self, which: np.ndarray) -> None:
         self._left[which] = SECONDS[self.current[which]]
 
-    def _wait(self, which):
+    def _wait(self, which: np.ndarray) -> np.ndarray:
         left = np.where(self.busy, self._left, 0.0)
         seconds = np.full(len(left), self._seconds) if self._seconds else left.max(1)
         self._left -= seconds[:, None]
@@ -109,7 +110,7 @@ class BodyMotion(Motion):
     """Robots and storage units of the physics do it; `collisions` (n, agents) in these episodes."""
 
     def __init__(
-        self, task: Task, warehouses: Any, n: int, decision: float | str, threads: int = 1
+        self, task: Task, warehouses: Rware, n: int, decision: float | str, threads: int = 1
     ) -> None:
         super().__init__(task, warehouses, n, decision)
         self._has_bodies = True
@@ -121,7 +122,7 @@ class BodyMotion(Motion):
         # Called with what happened in the first world, as of Worlds.events(), as time passes.
         self.on_moved: Callable[[list[Any]], Any] | None = None
 
-    def _at(self, cells):
+    def _at(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(x, y) of cells' centres in world [m]."""
         row, column = np.divmod(cells, self._width)
         return column.astype(float), (self._height - 1 - row).astype(float)
@@ -143,7 +144,7 @@ class BodyMotion(Motion):
         """See Motion; with `collisions` (n, agents) in the episode."""
         return super().infos() | {"collisions": self.collisions.copy()}
 
-    def _begin(self, which):
+    def _begin(self, which: np.ndarray) -> None:
         self._warehouses.where(self._where)
         world, agent = np.nonzero(which)
         action = self.current[which]
@@ -161,7 +162,14 @@ class BodyMotion(Motion):
             rows["shelf_id"][i] = 1 + self._warehouses.shelf_at(int(world[i]))[cell[i]]
         self.worlds.post(world.astype(np.int32), rows)
 
-    def _drive(self, rows, world, agent, cell, direction):
+    def _drive(
+        self,
+        rows: np.ndarray,
+        world: np.ndarray,
+        agent: np.ndarray,
+        cell: np.ndarray,
+        direction: np.ndarray,
+    ) -> None:
         """Forward, to the middle of the next cell: what it was off is mended."""
         x, y = self._at(cell)
         along_x = DX[direction] != 0
@@ -169,7 +177,7 @@ class BodyMotion(Motion):
         rows["x"] = np.where(along_x, x + DX[direction] - self.worlds.x[world, agent], 0)
         rows["y"] = np.where(along_x, 0, y + DY[direction] - self.worlds.y[world, agent])
 
-    def _wait(self, which):
+    def _wait(self, which: np.ndarray) -> np.ndarray:
         before = self._clocks()
         steps = round((self._seconds or LONGEST) / STEP)
         each = min(steps, SHOWN_EVERY) if self.on_moved else steps
@@ -184,11 +192,11 @@ class BodyMotion(Motion):
         self.time[which] += (self._clocks() - before)[which]
         return self.worlds.status == Status.IDLE
 
-    def _clocks(self):
+    def _clocks(self) -> np.ndarray:
         return np.array([self.worlds[i].time for i in range(len(self.time))])
 
 
-def _worlds(task, n, threads):
+def _worlds(task: Task, n: int, threads: int) -> tuple[Worlds, Any]:
     """(Worlds, checkpoint): worlds with a storage unit on each of the task's shelves' places, whose
     robots stand anywhere."""
     height, width = task.floor.grid_size
@@ -213,13 +221,14 @@ def _worlds(task, n, threads):
     return Worlds.of([first, *others], threads), checkpoint
 
 
-def _is_time(decision: Any) -> bool:
-    is_number = isinstance(decision, int | float) and not isinstance(decision, bool)
-    return is_number and bool(STEP <= decision <= LONGEST)
+def _is_time(decision: float | str) -> bool:
+    if isinstance(decision, bool | str) or not isinstance(decision, int | float):
+        return False
+    return bool(STEP <= decision <= LONGEST)
 
 
 def motion_of(
-    physics: str, task: Task, warehouses: Any, n: int, decision: float | str, threads: int = 1
+    physics: str, task: Task, warehouses: Rware, n: int, decision: float | str, threads: int = 1
 ) -> Motion | None:
     """Returns how actions pass in time; None on the grid, where they take a step.
 

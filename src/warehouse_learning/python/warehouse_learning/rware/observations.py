@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from warehouse_learning._core import Rware
 from warehouse_learning.rware.task import FEATURES, ObservationType, Task
 
 
@@ -14,7 +15,7 @@ class Observer:
     arrays(): new arrays, (count, agents, …) float32: one, or with IMAGE_DICT `image`, `features`.
     """
 
-    def __init__(self, task: Task, warehouses: Any, count: int) -> None:
+    def __init__(self, task: Task, warehouses: Rware, count: int) -> None:
         self._task, self._warehouses = task, warehouses
         lead = count, task.n_agents
         self._vector_shape = *lead, task.vector_size
@@ -41,23 +42,23 @@ class Observer:
         pairs = zip(arrays["image"][0], arrays["features"][0])
         return tuple({"image": image, "features": features} for image, features in pairs)
 
-    def _vectors(self):
+    def _vectors(self) -> np.ndarray:
         vectors = np.empty(self._vector_shape, np.float32)
         self._warehouses.vectors(vectors)
         return vectors
 
-    def _images(self):
+    def _images(self) -> np.ndarray:
         images = np.empty(self._image_shape, np.float32)
         self._warehouses.images(images)
         return images
 
-    def _images_and_features(self):
+    def _images_and_features(self) -> dict[str, np.ndarray]:
         features = np.empty(self._feature_shape, np.float32)
         self._warehouses.features(features)
         return {"image": self._images(), "features": features}
 
 
-def _dictionary(vector, task):
+def _dictionary(vector: np.ndarray, task: Task) -> dict[str, Any]:
     """RWARE's dictionary of an agent, from its vector."""
     cells = vector[8:].reshape(task.sensor_cells, -1)
     return {
@@ -71,7 +72,7 @@ def _dictionary(vector, task):
     }
 
 
-def _of_cell(cell, bits):
+def _of_cell(cell: np.ndarray, bits: int) -> dict[str, Any]:
     has_agent = int(cell[0])
     return {
         "has_agent": [has_agent],
@@ -82,5 +83,5 @@ def _of_cell(cell, bits):
     }
 
 
-def _message(has_agent, bits):
+def _message(has_agent: int, bits: np.ndarray) -> np.ndarray | list[int]:
     return bits.astype(float) if has_agent else len(bits) * [0]

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """RWARE for PettingZoo: each robot an agent."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
+from gymnasium import spaces
 from pettingzoo import ParallelEnv
 
 from warehouse_learning.rware.env import RENDERING, Warehouse
+
+T = TypeVar("T")
 
 
 class RwareParallelEnv(ParallelEnv):
@@ -23,11 +26,11 @@ class RwareParallelEnv(ParallelEnv):
         self.observation_spaces = self._each(self._env.observation_space)
         self.action_spaces = self._each(self._env.action_space)
 
-    def observation_space(self, agent: str) -> Any:
+    def observation_space(self, agent: str) -> spaces.Space:
         """Returns the space of an agent's observations."""
         return self.observation_spaces[agent]
 
-    def action_space(self, agent: str) -> Any:
+    def action_space(self, agent: str) -> spaces.Space:
         """Returns the space of an agent's actions."""
         return self.action_spaces[agent]
 
@@ -61,7 +64,7 @@ class RwareParallelEnv(ParallelEnv):
     def close(self) -> None:
         """Does nothing: there is no window."""
 
-    def _by_agent(self, values):
+    def _by_agent(self, values: dict[str, Any]) -> dict[str, dict[str, Any]]:
         """Infos of all as those of each: what is told of each robot is its own."""
         return {
             agent: {
@@ -70,5 +73,5 @@ class RwareParallelEnv(ParallelEnv):
             for i, agent in enumerate(self.possible_agents)
         }
 
-    def _each(self, values):
+    def _each(self, values: Iterable[T]) -> dict[str, T]:
         return dict(zip(self.possible_agents, values))

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse of RWARE as a picture."""
 
-from typing import Any
-
 import numpy as np
 
+from warehouse_learning._core import Rware
 from warehouse_learning.rware.task import Direction, Task
 
 CELL = 20  # [pixels]
@@ -14,7 +13,7 @@ AGENT, LOADED, AHEAD = (255, 140, 0), (200, 30, 30), (0, 0, 0)
 AHEAD_OF = {Direction.UP: (0, -1), Direction.DOWN: (0, 1), Direction.LEFT: (-1, 0)}
 
 
-def picture(task: Task, warehouses: Any, i: int) -> np.ndarray:
+def picture(task: Task, warehouses: Rware, i: int) -> np.ndarray:
     """(height, width, 3) uint8 of warehouse i: goals grey, shelves blue, requested ones green,
     walls light grey, agents orange, with a load red; a black dot shows where an agent looks."""
     height, width = task.floor.grid_size
@@ -36,7 +35,7 @@ def picture(task: Task, warehouses: Any, i: int) -> np.ndarray:
     return image
 
 
-def _fill(image, x, y, margin, colour):
+def _fill(image: np.ndarray, x: float, y: float, margin: int, colour: tuple[int, int, int]) -> None:
     left, top = round(x * CELL), round(y * CELL)
     end = CELL - margin + 1
     image[top + margin : top + end, left + margin : left + end] = colour

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Gymnasium spaces of RWARE."""
 
-from typing import Any
-
 import numpy as np
 from gymnasium import spaces
 
@@ -16,14 +14,14 @@ from warehouse_learning.rware.task import (
 )
 
 
-def of_actions(task: Task) -> Any:
+def of_actions(task: Task) -> spaces.Space:
     """Returns the actions of an agent: which, and the bits of its message if there are any."""
     if not task.msg_bits:
         return spaces.Discrete(len(Action))
     return spaces.MultiDiscrete([len(Action), *task.msg_bits * (2,)])
 
 
-def of_observations(task: Task) -> Any:
+def of_observations(task: Task) -> spaces.Space:
     """Returns the space of an agent's observations."""
     if task.observation_type is ObservationType.DICT:
         return _of_dictionaries(task)
@@ -35,11 +33,11 @@ def of_observations(task: Task) -> Any:
     return spaces.Dict({"image": image, "features": _unbounded(FEATURES)})
 
 
-def _unbounded(size):
+def _unbounded(size: int) -> spaces.Box:
     return spaces.Box(-float("inf"), float("inf"), (size,), np.float32)
 
 
-def _of_images(task):
+def _of_images(task: Task) -> spaces.Box:
     high = np.ones(task.image_shape, np.float32)
     for i, layer in enumerate(task.image_observation_layers):
         if layer is ImageLayer.AGENT_DIRECTION:
@@ -47,7 +45,7 @@ def _of_images(task):
     return spaces.Box(np.zeros_like(high), high, dtype=np.float32)
 
 
-def _of_dictionaries(task):
+def _of_dictionaries(task: Task) -> spaces.Dict:
     highest, kind = (
         (1, np.float32)
         if task.normalised_coordinates

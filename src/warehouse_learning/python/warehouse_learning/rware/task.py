@@ -3,12 +3,14 @@
 
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from warehouse_learning._core import Rware
 from warehouse_learning.rware.layout import Layout, of_file, of_parameters, of_text
+
+E = TypeVar("E", bound=Enum)
 
 
 class Action(IntEnum):
@@ -96,7 +98,7 @@ class Task:
     normalised_coordinates: bool = False
     floor: Layout = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.reward_type = _member(RewardType, self.reward_type)
         self.observation_type = _member(ObservationType, self.observation_type)
         self.image_observation_layers = tuple(
@@ -124,7 +126,7 @@ class Task:
         width = 1 + 2 * self.sensor_range
         return len(self.image_observation_layers), width, width
 
-    def warehouses(self, count: int, threads: int = 1) -> Any:
+    def warehouses(self, count: int, threads: int = 1) -> Rware:
         """Returns `count` warehouses of this task, whose episodes have not begun."""
         height, width = self.floor.grid_size
         walls = self.floor.walls
@@ -149,7 +151,7 @@ class Task:
         )
 
 
-def _member(kind, value):
+def _member(kind: type[E], value: object) -> E:
     """The member of `kind` that has the value of `given`, which may be another's member."""
     return kind(getattr(value, "value", value))
 

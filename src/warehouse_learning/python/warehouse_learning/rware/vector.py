@@ -9,12 +9,14 @@ import numpy as np
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
+from numpy.typing import ArrayLike
 
 from warehouse_learning.rware.env import RENDERING
 from warehouse_learning.rware.motion import motion_of
 from warehouse_learning.rware.observations import Observer
 from warehouse_learning.rware.picture import picture
 from warehouse_learning.rware.task import FEATURES, Action, ObservationType, Task, seed_of
+from warehouse_learning.spaces import Seed
 
 
 class RwareVectorEnv(VectorEnv):
@@ -41,6 +43,7 @@ class RwareVectorEnv(VectorEnv):
         if task.observation_type is ObservationType.DICT:
             raise ValueError("observation_type DICT has no arrays; FLATTENED has the same content")
         self.num_envs, self.render_mode = num_envs, render_mode
+        self.agents, self.max_steps = task.n_agents, task.max_steps
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {**RENDERING, "autoreset_mode": self.autoreset_mode}
         self.single_observation_space = _observation_space(task)
@@ -61,7 +64,7 @@ class RwareVectorEnv(VectorEnv):
         return cls(num_envs, **known, **options)
 
     def reset(
-        self, *, seed: Any = None, options: dict[str, Any] | None = None
+        self, *, seed: Seed = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
         """Begins episodes in all, or in those of options["reset_mask"], (num_envs,) bool.
 
@@ -82,7 +85,7 @@ class RwareVectorEnv(VectorEnv):
         self._begin(which)
         return self._observer.arrays(), self._infos()
 
-    def step(self, actions: Any) -> tuple[Any, ...]:
+    def step(self, actions: ArrayLike) -> tuple[Any, ...]:
         """Observations, rewards, terminated, truncated (never), infos; see the class.
 
         What ended begins again by autoreset_mode; with SAME_STEP infos["final_obs"] has the last
@@ -107,13 +110,13 @@ class RwareVectorEnv(VectorEnv):
             observations = self._observer.arrays()
         return observations, rewards, ends, np.zeros(self.num_envs, bool), infos
 
-    def render(self) -> Any:
+    def render(self) -> tuple[np.ndarray] | None:
         """Returns the first one's picture with render_mode "rgb_array"."""
         if self.render_mode != "rgb_array" or not self._is_seeded.all():
             return None
         return (picture(self.task, self.warehouses, 0),)
 
-    def _beginning(self):
+    def _beginning(self) -> np.ndarray:
         if self.autoreset_mode == AutoresetMode.NEXT_STEP:
             return self._ended.copy()
         if self.autoreset_mode == AutoresetMode.DISABLED and self._ended.any():
@@ -121,17 +124,17 @@ class RwareVectorEnv(VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {ended} has ended and was not reset")
         return np.zeros(self.num_envs, bool)
 
-    def _begin(self, which):
+    def _begin(self, which: np.ndarray) -> None:
         self._messages[which] = 0
         self.warehouses.reset(which)
         if self.motion:
             self.motion.reset(which)
         self._ended[which] = False
 
-    def _infos(self):
+    def _infos(self) -> dict[str, Any]:
         return self.motion.infos() if self.motion else {}
 
-    def _chosen(self, actions):
+    def _chosen(self, actions: ArrayLike) -> np.ndarray:
         values = np.asarray(actions)
         if self.task.msg_bits and values.ndim == 3:
             self._messages[:] = values[:, :, 1:]
@@ -139,7 +142,7 @@ class RwareVectorEnv(VectorEnv):
         return np.ascontiguousarray(values, np.int8)
 
 
-def _observation_space(task):
+def _observation_space(task: Task) -> spaces.Space:
     lead = (task.n_agents,)
     unbounded = -np.inf, np.inf
     if task.observation_type is ObservationType.FLATTENED:
@@ -151,7 +154,7 @@ def _observation_space(task):
     return spaces.Dict({"image": images, "features": features})
 
 
-def _action_space(task):
+def _action_space(task: Task) -> spaces.MultiDiscrete:
     counts = [len(Action), *task.msg_bits * (2,)]
     if not task.msg_bits:
         return spaces.MultiDiscrete(task.n_agents * counts)

@@ -50,6 +50,12 @@ def order_event(
     )
 
 
+def stored_order_event(row: Any) -> msg.OrderEvent:
+    """Returns the OrderEvent of a row of the table event."""
+    about = row.order_id, row.kind, row.sku, row.quantity, row.station, row.shelf_id, row.text
+    return msg.OrderEvent(header(row.stamp), *about)
+
+
 def order_status(order: Order) -> msg.OrderStatus:
     """Returns the OrderStatus of an Order."""
     return _order_status(order, order.order_id, order.lines)
@@ -90,13 +96,14 @@ def station_states(stations: Iterable[WorkStation], now: float) -> msg.StationSt
 
 def _station_state(station: WorkStation, now: float) -> msg.StationState:
     here = station.here
+    inbound = [visit for visit in station.coming if visit is not here]
     return msg.StationState(
         name=station.name,
         kind=station.kind,
         open=station.is_open,
         mode=station.mode,
         shelf_id=here.unit if here else 0,
-        inbound=[visit.unit for visit in station.coming if visit is not here],
+        inbound=[visit.unit for visit in inbound],
         orders=list(station.orders),
         slots=station.capacity,
         picks=_tasks(here) if here else [],
@@ -104,6 +111,9 @@ def _station_state(station: WorkStation, now: float) -> msg.StationState:
         busy_fraction=station.busy_fraction(now),
         waiting=station.waiting(now),
         totes=_totes(station),
+        inbound_orders=[
+            visit.picks[0].line.order.order_id if visit.picks else 0 for visit in inbound
+        ],
     )
 
 

@@ -9,13 +9,18 @@ from sqlalchemy.engine import Engine
 
 from warehouse_layout.message_enums import PickOutcome
 from warehouse_msgs import srv
-from warehouse_operations.ros.operation_messages import stock_place, stored_order_status
+from warehouse_operations.ros.operation_messages import (
+    stock_place,
+    stored_order_event,
+    stored_order_status,
+)
 from warehouse_operations.shift import order_table
 from warehouse_operations.shift.shift import Shift
 from warehouse_operations.shift.task_reports import Report
 from warehouse_operations.store import queries
 
 LONGEST_ID = 80  # of a report
+MOST_EVENTS = 500  # of an order, in an answer
 
 
 class Host(Protocol):
@@ -45,6 +50,8 @@ class ShiftServices:
             ("submit_order", srv.SubmitOrder, self._submit),
             ("submit_orders", srv.SubmitOrders, self._submit_table),
             ("cancel_order", srv.CancelOrder, self._cancel),
+            ("change_order", srv.ChangeOrder, self._change),
+            ("order_history", srv.OrderHistory, self._history),
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
             ("report_short", srv.ReportShort, self._report_short),
@@ -82,6 +89,23 @@ class ShiftServices:
         return srv.CancelOrderResponse(
             *self._host.carry_out(lambda s: s.cancel_order(request.order_id))
         )
+
+    def _change(self, request: Any) -> Any:
+        priority = request.priority if request.set_priority else None
+        due = request.due.to_sec() if request.set_due else None
+        fields = request.order_id, priority, due
+        return srv.ChangeOrderResponse(
+            *self._host.carry_out(lambda shift: shift.change_order(*fields))
+        )
+
+    def _history(self, request: Any) -> Any:
+        rows = queries.order_events(self._host.engine, request.order_id, MOST_EVENTS)
+        if not rows:
+            return srv.OrderHistoryResponse(False, f"no order {request.order_id}", [], [], 0.0)
+        number = request.order_id
+        likely, units = self._host.carry_out(lambda shift: shift.likely_completion(number))
+        events = [stored_order_event(row) for row in rows]
+        return srv.OrderHistoryResponse(True, "", events, units, likely)
 
     def _set_station(self, request: Any) -> Any:
         if request.mode not in (srv.SetStationRequest.AUTOMATIC, srv.SetStationRequest.MANUAL):

@@ -99,6 +99,31 @@ class OrderBook:
             self.backlog.remove(order)
         return True, self._end_cancelled(order)
 
+    def change(
+        self, order_id: int, priority: int | None = None, due: float | None = None
+    ) -> tuple[bool, str]:
+        """Sets how urgent an order is, and when it is due [s], 0: at any time; None: as it is.
+
+        Returns success and the reason of a refusal.
+        """
+        order = self.orders.get(order_id)
+        if not order:
+            return False, f"order {order_id} is unknown, or over"
+        priority = order.priority if priority is None else priority
+        due = order.due if due is None else due
+        if reason := acceptance.fault_of_head(order.reference, due, priority):
+            return False, reason
+        if order.state == OrderState.OPEN:
+            self.backlog.set_urgency(order, priority, due)
+        else:
+            order.priority, order.due = priority, due
+        self._context.journal.order(order)
+        moment = f"due at {due:.0f} s" if due else "due at any time"
+        text = f"priority {priority}, {moment}"
+        self.publish_event(order, OrderEventKind.CHANGED, text=text)
+        self._on_backlog_change()
+        return True, text
+
     def _end_cancelled(self, order: Order, reason: str = "") -> str:
         """Ends an order that neither the backlog nor a station has; returns the event's text."""
         order.state = OrderState.CANCELLED

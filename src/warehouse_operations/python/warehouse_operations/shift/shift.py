@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
-from warehouse_layout.message_enums import StationMode
+from warehouse_layout.message_enums import OrderState, StationMode
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
 from warehouse_operations.shift import kpis
@@ -47,6 +47,8 @@ from warehouse_operations.stock.units_by_id import UnitSet
 from warehouse_operations.stock.whereabouts import Whereabouts
 
 __all__ = ["Settings", "Shift"]
+
+RECENT = 200  # orders whose time is taken for the usual one
 
 
 class Shift:
@@ -255,6 +257,33 @@ class Shift:
     def cancel_order(self, order_id: int) -> tuple[bool, str]:
         """Cancels an order. Returns success and the reason of a refusal."""
         return self.order_book.cancel(order_id)
+
+    def change_order(
+        self, order_id: int, priority: int | None, due: float | None
+    ) -> tuple[bool, str]:
+        """Makes an order more or less urgent; see OrderBook.change."""
+        return self.order_book.change(order_id, priority, due)
+
+    def likely_completion(self, order_id: int) -> tuple[float, list[int]]:
+        """Returns when an order is likely complete [s], 0: over, or not known; and the units at its
+        station, or on their way there, that hold pieces of it."""
+        order = self.order_book.orders.get(order_id)
+        if not order:
+            return 0.0, []
+        places = {station.name: station for station in self.stations}
+        place = places.get(order.station) if order.state == OrderState.ASSIGNED else None
+        visits = place.coming if place else []
+        units = [
+            visit.unit for visit in visits if any(pick.line.order is order for pick in visit.picks)
+        ]
+        turnovers = self.tally.turnover_s[-RECENT:]
+        if not turnovers:
+            return 0.0, units
+        usual = order.created + sorted(turnovers)[len(turnovers) // 2]
+        # An order that has waited for longer than others needs its pieces' time at least.
+        pace = place.seconds_a_piece if place else 0.0
+        work = sum(visit.pieces_to_pick for visit in visits) * pace
+        return max(usual, self.now + work), units
 
     # Stations.
 

@@ -110,6 +110,14 @@ class Backlog:
                 self.demand[line.sku] -= line.open
                 del self._by_sku[line.sku][line]
 
+    def set_urgency(self, order: Order, priority: int, due: float) -> None:
+        """Makes an order of the backlog more or less urgent; it keeps its age. Raises KeyError."""
+        if order.order_id not in self.orders:
+            raise KeyError(order.order_id)
+        del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
+        order.priority, order.due = priority, due
+        bisect.insort(self._urgencies, order.urgency)
+
     def by_urgency(self) -> Iterator[Order]:
         """Returns the orders, the most urgent first; it may not change meanwhile."""
         return (self.orders[order_id] for _, _, order_id in self._urgencies)

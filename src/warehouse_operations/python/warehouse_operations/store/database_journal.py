@@ -172,6 +172,8 @@ class DatabaseJournal(Journal):
             "state": int(order.state),
             "station": order.station,
             "completed": order.completed or None,
+            "due": order.due,
+            "priority": order.priority,
         }
         if order.stored:
             self._rows.update(schema.orders, order.order_id, **values)
@@ -183,8 +185,6 @@ class DatabaseJournal(Journal):
             run=self.run_id,
             reference=order.reference,
             created=order.created,
-            due=order.due,
-            priority=order.priority,
             **values,
         )
         for line in order.lines:

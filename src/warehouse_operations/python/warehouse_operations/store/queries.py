@@ -60,6 +60,16 @@ def find_orders(
     return total, [(row, by_order[row.id]) for row in rows]
 
 
+def order_events(engine: Engine, order_id: int, limit: int) -> list[Any]:
+    """Returns the first rows of the table event of an order, the oldest first."""
+    if not 0 < order_id <= LARGEST:
+        return []
+    event = schema.event
+    query = select(event).where(event.c.order_id == order_id).order_by(event.c.id).limit(limit)
+    with engine.connect() as connection:
+        return list(connection.execute(query).all())
+
+
 def _is_named(order: Any, text: str) -> Any:
     """Returns whether a text is the reference or the number of an order."""
     is_reference = func.lower(order.reference) == text.lower()

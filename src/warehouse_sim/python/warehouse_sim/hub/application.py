@@ -2,11 +2,13 @@
 """The hub behind one address: its page, its API, and the pages of what runs."""
 
 import asyncio
-from collections.abc import Callable
+import socket
+from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any
+from types import FrameType
 
 from starlette.applications import Starlette
+from starlette.types import ASGIApp
 
 from warehouse_sim.hub.assistant import Assistant
 from warehouse_sim.hub.routes import routes
@@ -51,7 +53,7 @@ class Hub:
         )
         token, other = tokens
         access = AccessControl(application, token, RATE, other_token=other)
-        self.server = _HubServer(config_of(access), self._begin, self._end)
+        self.server = _HubServer(access, self._begin, self._end)
 
     def _begin(self) -> None:
         self._assistant = self._make_assistant()
@@ -63,7 +65,7 @@ class Hub:
         if self._assistant:
             await self._assistant.close()
 
-    def run(self, listener: Any) -> None:
+    def run(self, listener: socket.socket) -> None:
         """Serves at a listening socket until it is stopped; ends what runs."""
         try:
             self.server.run(sockets=[listener])
@@ -74,15 +76,20 @@ class Hub:
 class _HubServer(Server):
     """Ends the simulations before it ends; a second signal does not wait for them."""
 
-    def __init__(self, config: Any, on_start: Callable[[], None], on_end: Any) -> None:
-        super().__init__(config, on_start)
+    def __init__(
+        self,
+        application: ASGIApp,
+        on_start: Callable[[], None],
+        on_end: Callable[[], Awaitable[None]],
+    ) -> None:
+        super().__init__(config_of(application), on_start)
         self._on_end = on_end
 
-    def handle_exit(self, sig: Any, frame: Any) -> None:
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Stops serving (uvicorn's hook)."""
         self.stop()
 
-    async def shutdown(self, sockets: Any = None) -> None:
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Ends what runs (uvicorn's hook)."""
         await super().shutdown(sockets)
         await self._on_end()

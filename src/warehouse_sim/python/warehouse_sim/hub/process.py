@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A roslaunch with a master, ports, a ROS_HOME and a log of its own."""
 
+import http.client
 import os
 import re
 import signal
@@ -119,7 +120,7 @@ class Process:
 
 
 class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host: Any) -> Any:
+    def make_connection(self, host: str | tuple[str, dict[str, str]]) -> http.client.HTTPConnection:
         connection = super().make_connection(host)
         connection.timeout = TIMEOUT
         return connection

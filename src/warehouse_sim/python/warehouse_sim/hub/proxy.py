@@ -8,6 +8,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import h11
+from starlette.types import Receive, Scope, Send
 from websockets import connect  # type: ignore[attr-defined]
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
@@ -38,7 +39,7 @@ class Proxy:
         self._host, self._port = parts.hostname or "", parts.port or 80
         self._prefix = prefix
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "websocket":
             await self._pass_socket(scope, receive, send)
             return
@@ -55,7 +56,7 @@ class Proxy:
         finally:
             writer.close()
 
-    def _path(self, scope: Any) -> str:
+    def _path(self, scope: Scope) -> str:
         raw = scope.get("raw_path") or scope["path"]
         text = raw.decode("latin-1") if isinstance(raw, bytes) else raw  # a text of WebSockets
         path = text.partition("?")[0].removeprefix(self._prefix) or "/"
@@ -63,7 +64,7 @@ class Proxy:
         return f"{path}?{query}" if query else path
 
     async def _pass_request(
-        self, exchange: "_Exchange", scope: Any, receive: Any, send: Any
+        self, exchange: "_Exchange", scope: Scope, receive: Receive, send: Send
     ) -> None:
         headers = [(k, v) for k, v in scope["headers"] if k not in HOP]
         headers += [(b"host", f"localhost:{self._port}".encode()), (b"connection", b"close")]
@@ -84,7 +85,7 @@ class Proxy:
                 answer = JSONResponse({"detail": "the simulation broke the connection"}, 502)
                 await answer(scope, receive, send)
 
-    async def _pass_answer(self, exchange: "_Exchange", send: Any) -> None:
+    async def _pass_answer(self, exchange: "_Exchange", send: Send) -> None:
         async for event in exchange.events():
             if isinstance(event, h11.Response):
                 headers = [*self._answered(event.headers)]
@@ -100,7 +101,7 @@ class Proxy:
         prefix = self._prefix.encode()
         return [(k, prefix + v if k == b"location" and v[:1] == b"/" else v) for k, v in out]
 
-    async def _pass_socket(self, scope: Any, receive: Any, send: Any) -> None:
+    async def _pass_socket(self, scope: Scope, receive: Receive, send: Send) -> None:
         await receive()  # websocket.connect
         url = f"ws://{self._host}:{self._port}{self._path(scope)}"
         options: dict[str, Any] = {"max_size": MOST_MESSAGE, "compression": None}
@@ -120,7 +121,7 @@ class _Exchange:
         self._reader, self._writer = reader, writer
         self._state = h11.Connection(h11.CLIENT)
 
-    async def send(self, event: Any) -> None:
+    async def send(self, event: h11.Event) -> None:
         data = self._state.send(event)
         if data:
             self._writer.write(data)
@@ -138,7 +139,7 @@ class _Exchange:
                 yield event
 
 
-async def _send_body(exchange: _Exchange, receive: Any) -> None:
+async def _send_body(exchange: _Exchange, receive: Receive) -> None:
     """Sends the request's body, and ends the connection when its client goes."""
     more = True
     while more:
@@ -155,7 +156,7 @@ async def _send_body(exchange: _Exchange, receive: Any) -> None:
     exchange._writer.close()
 
 
-async def _join(server: Any, receive: Any, send: Any) -> None:
+async def _join(server: Any, receive: Receive, send: Send) -> None:
     """Passes messages between a client and a server until one of them goes."""
 
     async def to_server() -> None:

@@ -4,13 +4,14 @@
 import asyncio
 import json
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response, StreamingResponse
 from starlette.routing import BaseRoute, Route, WebSocketRoute
+from starlette.types import Receive, Scope, Send
 
 from warehouse_sim.hub import forms
 from warehouse_sim.hub.assistant import Assistant
@@ -20,6 +21,8 @@ from warehouse_sim.hub.simulation import Simulation
 from warehouse_sim.hub.simulations import Conflict, Missing, Simulations
 from warehouse_sim.hub.wish import WishError
 from warehouse_viewer.json_text import JSONResponse
+
+Endpoint = Callable[[Request], Awaitable[Response]]
 
 SIMULATIONS = "/api/v1/simulations"
 PREFIX = "/s"
@@ -47,7 +50,7 @@ def routes(simulations: Simulations, assistant: Callable[[], Assistant]) -> list
     ]
 
 
-def _answered(action: Any) -> Any:
+def _answered(action: Endpoint) -> Endpoint:
     """Returns an endpoint whose refusals are answers: 404, 409, 422, 400, 503."""
 
     async def endpoint(request: Request) -> Response:
@@ -161,7 +164,7 @@ class _Pages:
     def __init__(self, simulations: Simulations) -> None:
         self._simulations = simulations
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         name = scope["path_params"]["name"]
         try:
             simulation = self._simulations[name]
@@ -182,7 +185,7 @@ class _Assistant:
     def __init__(self, assistant: Callable[[], Assistant]) -> None:
         self._assistant = assistant
 
-    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         assistant = self._assistant()
         await assistant.wait()
         if fault := assistant.fault():
@@ -193,7 +196,7 @@ class _Assistant:
             await Proxy(assistant.address, "")({**scope, "headers": headers}, receive, send)
 
 
-async def _refused(status: int, text: str, scope: Any, receive: Any, send: Any) -> None:
+async def _refused(status: int, text: str, scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
         await receive()
         await send({"type": "websocket.close", "code": 1013})

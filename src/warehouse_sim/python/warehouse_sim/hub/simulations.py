@@ -4,12 +4,12 @@
 import asyncio
 import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from warehouse_sim.hub import insertion, wish
 from warehouse_sim.hub.guest import Guest
@@ -18,6 +18,9 @@ from warehouse_sim.hub.wish import NAME, Wish
 
 INTERVAL, INTERVAL_STARTING = 1.0, 0.2  # between two looks [s, wall]
 MOST_KEPT = 200  # simulations that are listed, STOPPED ones included
+
+
+T = TypeVar("T")
 
 
 class Conflict(RuntimeError):  # noqa: N818 (an answer)
@@ -69,7 +72,7 @@ class Simulations:
         except KeyError:
             raise Missing(f"there is no simulation '{name[:40]}'") from None
 
-    async def _in_thread(self, action: Any, *arguments: Any) -> Any:
+    async def _in_thread(self, action: Callable[..., T], *arguments: object) -> T:
         return await asyncio.get_running_loop().run_in_executor(self._threads, action, *arguments)
 
     def _lock(self, name: str) -> asyncio.Lock:

@@ -70,7 +70,7 @@ def read(body: Mapping[str, Any], folder: Path) -> Wish:
     return wish
 
 
-def _name(name: Any) -> str:
+def _name(name: object) -> str:
     if not isinstance(name, str) or not NAME.fullmatch(name):
         reason = "1 to 40 small letters, digits and '-' were expected, a letter or digit first"
         raise WishError("name", reason, _near_name(str(name)))
@@ -113,7 +113,7 @@ def known_arguments(file: str) -> set[str]:
     return (known & ARGUMENTS.keys()) - {*OWN}
 
 
-def _text(key: str, value: Any) -> str:
+def _text(key: str, value: object) -> str:
     """Returns a value as roslaunch takes it."""
     if isinstance(value, bool):
         return str(value).lower()

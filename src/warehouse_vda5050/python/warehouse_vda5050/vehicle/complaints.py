@@ -4,17 +4,15 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+from warehouse_vda5050.driver import Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType, Predefined
 from warehouse_vda5050.model import ActionState, VehicleOrder
 from warehouse_vda5050.topics import Kind
-from warehouse_vda5050.vehicle.phase import Phase
-
-if TYPE_CHECKING:
-    from warehouse_vda5050.vehicle.progress import OrderProgress
-    from warehouse_vda5050.vehicle.vehicle import Vehicle
+from warehouse_vda5050.vehicle.journal import Journal
+from warehouse_vda5050.vehicle.progress import OrderProgress
 
 KEPT = 10
 HINT = "cancelOrder, then a new order"
@@ -23,15 +21,15 @@ HINT = "cancelOrder, then a new order"
 class Complaints:
     """Errors of messages, until the next order or update is accepted, and those that hold now."""
 
-    def __init__(self, vehicle: Vehicle) -> None:
-        self._vehicle = vehicle
+    def __init__(self, journal: Journal) -> None:
+        self._journal = journal
         self._noted: deque[Error] = deque(maxlen=KEPT)
 
     def note(self, error: Error) -> None:
         """Adds an error of a message."""
         if error not in self._noted:
             self._noted.append(error)
-            self._vehicle.journal.write(f"{error.type}: {error.description}")
+            self._journal.write(f"{error.type}: {error.description}")
 
     def note_unknown(self, topic: Kind, fields: tuple[str, ...]) -> None:
         """Adds fields of a message that no version has; the message counts all the same."""
@@ -47,18 +45,20 @@ class Complaints:
     def __len__(self) -> int:
         return len(self._noted)
 
-    def all(self) -> tuple[Error, ...]:
-        """Returns all errors."""
-        vehicle, report = self._vehicle, self._vehicle.report
+    def all(self, report: Report | None, of_order: Iterable[Error]) -> tuple[Error, ...]:
+        """Returns all errors: those noted, those of the robot's report, and the order's."""
         errors = [*self._noted, *(report.errors if report else ())]
         if report and report.silent:
             errors.append(Error(ErrorType.SILENT.value, ErrorLevel.FATAL, report.silent))
-        order = vehicle.order
-        if order and not order.cancelled and vehicle.phase is not Phase.CANCELLING:
-            if vehicle.wheels.fault and not vehicle.is_free:
-                errors.append(_order_fault(order, vehicle.wheels.fault))
-            errors += [_action_fault(order, state) for state in vehicle.actions.failed]
+        errors += of_order
         return tuple(replace(error, description=error.description[:500]) for error in errors)
+
+
+def of_order(order: OrderProgress, fault: str, failed: Iterable[ActionState]) -> Iterable[Error]:
+    """Yields the errors of an order: `fault`, why it is not driven, and its `failed` actions."""
+    if fault:
+        yield _order_fault(order, fault)
+    yield from (_action_fault(order, state) for state in failed)
 
 
 def _order_fault(order: OrderProgress, text: str) -> Error:

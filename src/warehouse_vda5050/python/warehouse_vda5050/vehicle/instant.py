@@ -5,16 +5,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
+from warehouse_vda5050.driver import Driver
 from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.model import MAP_ID, Action, ActionState, ActionStatus
 from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.vehicle.hands import Hands
+from warehouse_vda5050.vehicle.journal import Journal
+from warehouse_vda5050.vehicle.progress import OrderProgress
 
-if TYPE_CHECKING:
-    from warehouse_vda5050.vehicle.vehicle import Vehicle
-
-Begin = Callable[["Vehicle", Action, float], "str | None"]
+Begin = Callable[["Commanded", Action, float], "str | None"]
 KEPT = 50  # states of instant actions that are over since COPY
 MOST = 1000  # states of all
 COPY = 5.0  # so long after an action the same actionId is a copy, and not another request [s]
@@ -24,6 +25,35 @@ class ActionError(Exception):
     """An instant action that cannot be carried out; the message says why."""
 
 
+class Commanded(Protocol):
+    """What instant actions do to a vehicle."""
+
+    driver: Driver
+    hands: Hands
+    journal: Journal
+    order: OrderProgress | None  # under way, or the last one
+
+    def begin_cancel(self, now: float) -> bool:
+        """Begins to cancel the order. Returns False if there is none."""
+        ...
+
+    def set_paused(self, paused: bool) -> None:
+        """Stops the robot, or lets it go on."""
+        ...
+
+    def request_state(self) -> None:
+        """Lets the next state be sent in any case."""
+        ...
+
+    def request_factsheet(self) -> None:
+        """Lets the factsheet be sent."""
+        ...
+
+    def note(self, error: Error) -> None:
+        """Tells an error of a message."""
+        ...
+
+
 class InstantDesk:
     """Begins instant actions of one vehicle, and tells how far each has come.
 
@@ -31,7 +61,7 @@ class InstantDesk:
     again; others name all their pauses "pause", so some time later it is.
     """
 
-    def __init__(self, vehicle: Vehicle) -> None:
+    def __init__(self, vehicle: Commanded) -> None:
         self._vehicle = vehicle
         self._states: dict[str, ActionState] = {}
         self._begun: dict[str, float] = {}
@@ -92,7 +122,7 @@ def _error(action: Action, text: str) -> Error:
 RUNS = None  # what the beginning of an action returns that is not over at once
 
 
-def _cancel(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _cancel(vehicle: Commanded, action: Action, now: float) -> str | None:
     meant, order = str(action.parameter("orderId") or ""), vehicle.order
     if meant and order and meant != order.id:
         raise ActionError(f"order {meant[:60]!r} is not the active one, {order.id[:60]!r}")
@@ -101,24 +131,24 @@ def _cancel(vehicle: Vehicle, action: Action, now: float) -> str | None:
     return RUNS
 
 
-def _pause(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _pause(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.set_paused(True)
     return RUNS  # until it stands
 
 
-def _go_on(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _go_on(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.set_paused(False)
     return ""
 
 
 def _charge(on: bool) -> Begin:
-    def begin(vehicle: Vehicle, action: Action, now: float) -> str | None:
+    def begin(vehicle: Commanded, action: Action, now: float) -> str | None:
         return _refuse_if(vehicle.driver.charge(on))
 
     return begin
 
 
-def _init_position(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _init_position(vehicle: Commanded, action: Action, now: float) -> str | None:
     x, y, theta = (_number(action, key) for key in ("x", "y", "theta"))
     map_id = str(action.parameter("mapId") or "")
     if map_id not in ("", MAP_ID):
@@ -126,21 +156,21 @@ def _init_position(vehicle: Vehicle, action: Action, now: float) -> str | None:
     return _refuse_if(vehicle.driver.init_position(x, y, theta))
 
 
-def _trigger(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _trigger(vehicle: Commanded, action: Action, now: float) -> str | None:
     return _refuse_if("" if vehicle.hands.trigger() else "no action waits for a trigger")
 
 
-def _tell_state(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _tell_state(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_state()
     return ""
 
 
-def _tell_factsheet(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _tell_factsheet(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_factsheet()
     return ""
 
 
-def _report_log(vehicle: Vehicle, action: Action, now: float) -> str | None:
+def _report_log(vehicle: Commanded, action: Action, now: float) -> str | None:
     try:
         return vehicle.journal.store(str(action.parameter("reason", "")))
     except OSError as error:

@@ -24,6 +24,11 @@ class Phase(Enum):
     CANCELLING = auto()  # the order is to end at the next grid point, lifts come to their end
     HALTED = auto()  # the order was cancelled, and the robot is not at a node yet
 
+    @property
+    def is_free(self) -> bool:
+        """Whether no order is under way: nodes and actions are over, or there never was one."""
+        return self in (Phase.AVAILABLE, Phase.HELD)
+
 
 FOLLOWS: dict[Phase, frozenset[Phase]] = {
     Phase.AVAILABLE: frozenset((Phase.HELD,)),

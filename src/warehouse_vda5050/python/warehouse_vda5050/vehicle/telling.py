@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
 
 from warehouse_vda5050.driver import Report
+from warehouse_vda5050.errors import Error
+from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.model import (
     MAP_ID,
+    ActionState,
     AgvPosition,
     Battery,
     Factsheet,
@@ -18,26 +20,38 @@ from warehouse_vda5050.model import (
     Velocity,
     Visualization,
 )
-
-if TYPE_CHECKING:
-    from warehouse_vda5050.vehicle.vehicle import Vehicle
+from warehouse_vda5050.vehicle.progress import OrderProgress
+from warehouse_vda5050.vehicle.settings import VehicleSettings
 
 REACTION = 1.0  # what a master may take to send more [s]
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What a state tells of a vehicle. `order`: under way, or, of a free vehicle, the last one."""
+
+    report: Report | None
+    grid: Grid
+    order: OrderProgress | None
+    is_free: bool
+    paused: bool
+    actions: tuple[ActionState, ...]
+    errors: tuple[Error, ...]
 
 
 class Teller:
     """Makes the states of one vehicle."""
 
-    def __init__(self, vehicle: Vehicle) -> None:
-        self._vehicle = vehicle
+    def __init__(self, sheet: Factsheet, settings: VehicleSettings) -> None:
+        self._sheet, self._settings = sheet, settings
         self._published: VehicleState | None = None  # without what changes all the time
         self.due = -math.inf  # when the next state is told, if nothing happens before
         self._requested = False
         self._factsheet_due = True
         self._shown: Visualization | None = None
         self._shown_at = -math.inf
-        self._deceleration = max(0.1, vehicle.sheet.max_deceleration)
-        self._top_speed = vehicle.sheet.max_speed
+        self._deceleration = max(0.1, sheet.max_deceleration)
+        self._top_speed = sheet.max_speed
 
     def request(self) -> None:
         """Lets the next take() return a state in any case."""
@@ -50,27 +64,27 @@ class Teller:
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is to be sent."""
         due, self._factsheet_due = self._factsheet_due, False
-        return self._vehicle.sheet if due else None
+        return self._sheet if due else None
 
-    def take(self, now: float) -> VehicleState | None:
+    def take(self, situation: Situation, now: float) -> VehicleState | None:
         """Returns the state if something happened, it is time, or it was asked for."""
-        if self._vehicle.report is None:
+        if situation.report is None:
             return None
-        state = self.state()
+        state = self.state(situation)
         lasting = _lasting(state)
         due = now >= self.due
         if lasting == self._published and not due and not self._requested:
             return None
-        settings = self._vehicle.settings
+        settings = self._settings
         interval = min(settings.moving, settings.interval) if state.driving else settings.interval
         # A state that comes a little late does not delay the next.
         self.due = interval + (self.due if due and now < self.due + interval else now)
         self._published, self._requested = lasting, False
         return state
 
-    def take_visualization(self, now: float) -> Visualization | None:
+    def take_visualization(self, report: Report | None, now: float) -> Visualization | None:
         """Returns position and speed if they changed and it is time to tell them."""
-        report, interval = self._vehicle.report, self._vehicle.settings.visualization
+        interval = self._settings.visualization
         if report is None or not interval or now - self._shown_at < interval:
             return None
         visualization = Visualization(_position(report), _velocity(report))
@@ -79,26 +93,26 @@ class Teller:
         self._shown, self._shown_at = visualization, now
         return visualization
 
-    def state(self) -> VehicleState:
-        """Returns the state as it is now."""
-        vehicle, report = self._vehicle, self._vehicle.report
+    def state(self, situation: Situation) -> VehicleState:
+        """Returns the state of a situation."""
         state = VehicleState(
-            actions=(*vehicle.actions.states(vehicle.paused), *vehicle.instant.states()),
-            paused=vehicle.paused,
-            errors=vehicle.complaints.all(),
+            actions=situation.actions,
+            paused=situation.paused,
+            errors=situation.errors,
             maps=(MAP_ID,),
         )
-        if report is None:
+        if situation.report is None:
             return state
-        return self._with_order(_with_report(state, report), report)
+        with_report = _with_report(state, situation.report)
+        return self._with_order(with_report, situation, situation.report)
 
-    def _with_order(self, state: VehicleState, report: Report) -> VehicleState:
-        grid, order = self._vehicle.grid, self._vehicle.order
+    def _with_order(self, state: VehicleState, now: Situation, report: Report) -> VehicleState:
+        grid, order = now.grid, now.order
         here = grid.cell_at(report.x, report.y)
         if order is None:
             return replace(state, last_node=grid.node_id(here))
         # Once the order is over others may move the robot.
-        away = self._vehicle.is_free and here != order.cells[0]
+        away = now.is_free and here != order.cells[0]
         x, y = grid.position(order.cells[0])
         return replace(
             state,
@@ -108,14 +122,13 @@ class Teller:
             last_node_sequence=order.last.sequence,
             nodes=order.node_states(),
             edges=order.edge_states(),
-            new_base_request=self._needs_base(report),
+            new_base_request=self._needs_base(order, grid, report),
             distance_since_last_node=round(abs(report.x - x) + abs(report.y - y), 3),
         )
 
-    def _needs_base(self, report: Report) -> bool:
+    def _needs_base(self, order: OrderProgress, grid: Grid, report: Report) -> bool:
         """Returns whether the robot is about to brake for the end of its base."""
-        order, grid = self._vehicle.order, self._vehicle.grid
-        if order is None or not order.has_horizon:
+        if not order.has_horizon:
             return False
         speed = self._top_speed
         ahead = speed * REACTION + speed * speed / (2 * self._deceleration) + grid.spacing

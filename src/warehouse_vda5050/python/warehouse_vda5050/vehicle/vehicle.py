@@ -7,9 +7,6 @@ vehicle.update(now)                # ten times a second
 state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 """
 
-from dataclasses import dataclass
-from pathlib import Path
-
 from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.grid import Grid
@@ -24,35 +21,19 @@ from warehouse_vda5050.model import (
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.actions import unknown_parameters
+from warehouse_vda5050.vehicle import reception, telling
 from warehouse_vda5050.vehicle.abilities import completed
 from warehouse_vda5050.vehicle.actions import ActionQueue
-from warehouse_vda5050.vehicle.complaints import Complaints
+from warehouse_vda5050.vehicle.complaints import Complaints, of_order
 from warehouse_vda5050.vehicle.hands import Hands
 from warehouse_vda5050.vehicle.instant import InstantDesk
 from warehouse_vda5050.vehicle.journal import Journal
 from warehouse_vda5050.vehicle.phase import FOLLOWS, Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
+from warehouse_vda5050.vehicle.settings import VehicleSettings
 from warehouse_vda5050.vehicle.telling import Teller
 from warehouse_vda5050.vehicle.wheels import Wheels
-
-
-@dataclass(frozen=True)
-class VehicleSettings:
-    """interval: at the latest so long after the last state comes the next [s]; moving: the same
-    while it drives; visualization: between two positions of a robot that moves [s], 0: none.
-    linger: so long after an order the robot is given back [s]. first_path: the number of its first
-    path. begins_at_zero: whether a new order has to, as in 3.0. logs: where reports that masters
-    ask for are stored, under names that begin with `name`; None: nowhere."""
-
-    interval: float = 30.0
-    moving: float = 1.0
-    visualization: float = 1.0
-    linger: float = 3.0
-    first_path: int = 1
-    begins_at_zero: bool = False
-    logs: Path | None = None
-    name: str = "vehicle"
 
 
 class Vehicle:
@@ -75,9 +56,15 @@ class Vehicle:
         self.phase = Phase.HELD if driver.is_taken() else Phase.AVAILABLE
         self.paused = False
         self.journal = Journal(self.settings.name, self.settings.logs)
-        self.complaints = Complaints(self)
-        self._reception = Reception(self)
-        self._teller = Teller(self)
+        self.complaints = Complaints(self.journal)
+        self._reception = Reception(
+            self.sheet,
+            begins_at_zero=self.settings.begins_at_zero,
+            take=self.take,
+            start=self.start,
+            extend=self.extend,
+        )
+        self._teller = Teller(self.sheet, self.settings)
         self._free_since: float | None = None
 
     # What comes in; a state answers each message.
@@ -88,7 +75,8 @@ class Vehicle:
         self.request_state()
         accepted = False
         try:
-            accepted = self._reception.accept(order)
+            now_is = reception.Situation(self.report, self.grid, self.order, self.phase)
+            accepted = self._reception.accept(order, now_is)
         except MessageError as invalid:
             self.complaints.note(invalid.error)
         if accepted:
@@ -238,7 +226,7 @@ class Vehicle:
     @property
     def is_free(self) -> bool:
         """Whether no order is under way: nodes and actions are over, or there never was one."""
-        return self.phase in (Phase.AVAILABLE, Phase.HELD)
+        return self.phase.is_free
 
     # What instant actions ask for.
 
@@ -285,15 +273,34 @@ class Vehicle:
 
     def take_state(self, now: float) -> VehicleState | None:
         """Returns the state if something happened or it is time for one."""
-        return self._teller.take(now)
+        return self._teller.take(self._situation(), now)
 
     def take_visualization(self, now: float) -> Visualization | None:
         """Returns position and speed if the robot moved and it is time to tell them."""
-        return self._teller.take_visualization(now)
+        return self._teller.take_visualization(self.report, now)
 
     def state(self) -> VehicleState:
         """Returns the state as it is now."""
-        return self._teller.state()
+        return self._teller.state(self._situation())
+
+    def _situation(self) -> telling.Situation:
+        return telling.Situation(
+            self.report,
+            self.grid,
+            self.order,
+            is_free=self.is_free,
+            paused=self.paused,
+            actions=(*self.actions.states(self.paused), *self.instant.states()),
+            errors=self.errors(),
+        )
+
+    def errors(self) -> tuple[Error, ...]:
+        """Returns all errors: of messages, of the robot, and of the order under way."""
+        order = self.order
+        if order is None or order.cancelled or self.phase is Phase.CANCELLING:
+            return self.complaints.all(self.report, ())
+        fault = "" if self.is_free else self.wheels.fault
+        return self.complaints.all(self.report, of_order(order, fault, self.actions.failed))
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is to be sent: at first, and when it was asked for."""

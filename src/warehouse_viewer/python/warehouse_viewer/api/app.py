@@ -68,7 +68,9 @@ class Viewer:
         )
         self.hub = Hub(source, model, self.history)
         operations = OperationsClient(ros, shift)
-        self.monitor = Monitor(feed, operations.feed, self.journal, self.changes)
+        self.monitor = Monitor(
+            feed, operations.feed, self.journal, self.changes, self.transports.assigned
+        )
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,

@@ -6,6 +6,7 @@ from typing import Any
 
 import genpy
 
+from warehouse_layout.message_enums import OrderEventKind
 from warehouse_msgs import msg
 from warehouse_viewer.api.schemas.operations import MODES, STATES
 
@@ -27,6 +28,19 @@ def order(status: msg.OrderStatus) -> dict[str, Any]:
     return out | {
         "state": STATES[status.state],
         "lines": [plain(line) | {"picked": picked} for line, picked in lines],
+    }
+
+
+def past_event(event: msg.OrderEvent) -> dict[str, Any]:
+    """Returns an OrderEvent as JSON has it."""
+    return {
+        "time": round(event.header.stamp.to_sec(), 1),
+        "kind": OrderEventKind(event.kind).name,
+        "sku": event.sku,
+        "quantity": event.quantity,
+        "station": event.station,
+        "storage_unit": f"storage_unit{event.shelf_id}" if event.shelf_id else "",
+        "text": event.text,
     }
 
 

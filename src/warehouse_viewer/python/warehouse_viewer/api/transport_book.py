@@ -8,6 +8,7 @@ from warehouse_client.message_names import TRANSPORT
 from warehouse_msgs.msg import TransportEvent
 
 KEPT = 2000
+UNDER_WAY = ("ASSIGNED", "LIFTED", "ARRIVED")
 
 
 class TransportBook:
@@ -34,6 +35,12 @@ class TransportBook:
         with self._lock:
             return self._transports.get(number)
 
+    def assigned(self) -> dict[int, tuple[int, str]]:
+        """Returns the unit and the station of each robot whose transport is not at its goal yet."""
+        with self._lock:
+            rows = [t for t in self._transports.values() if t["robot"] and t["state"] in UNDER_WAY]
+        return {_number(t["robot"]): (_number(t["storage_unit"]), t["station"]) for t in rows}
+
     def newest_first(self, state: str | None = None) -> list[dict[str, Any]]:
         """Returns all transports, or those in one state: the name of a kind of TransportEvent."""
         with self._lock:
@@ -52,3 +59,7 @@ def entry_of(event: TransportEvent) -> dict[str, Any]:
         "station": event.station,
         "text": event.text,
     }
+
+
+def _number(name: str) -> int:
+    return int(name.lstrip("abcdefghijklmnopqrstuvwxyz_"))

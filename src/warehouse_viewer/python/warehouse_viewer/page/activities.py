@@ -4,7 +4,7 @@ pictures and API. words.js and design.css have them for the page."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,7 @@ class Activity(IntEnum):
 TOO_LONG = 30.0  # to wait [s, simulated]
 QUEUED_TOO_LONG = 120.0  # to stand in the queue of a station, while a unit is served [s, simulated]
 IN_QUEUE = "in the queue of "  # how the coordinator's reason begins there
+FAULTY = ", which is "  # how it says that the queue has a robot that does not drive
 
 
 def shown_status(fleet: FleetState) -> np.ndarray:
@@ -46,19 +47,27 @@ def shown_status(fleet: FleetState) -> np.ndarray:
 def wait_too_long(coordinator: CoordinatorState | None) -> list[int]:
     """Returns the numbers of the robots that wait for too long, by a CoordinatorState or None.
 
-    A robot in the queue of a station stands while a unit before it is served: it waits for too
-    long from QUEUED_TOO_LONG on, others from TOO_LONG on.
+    A robot in the queue of a station stands while units before it are served: it waits for too
+    long from QUEUED_TOO_LONG for each of them on, others from TOO_LONG on.
     """
     if coordinator is None:
         return []
     texts = list(coordinator.waiting_text) or [""] * len(coordinator.waiting_kiva)
+    before = dict(zip(coordinator.waiting_kiva, coordinator.waiting_for))
     waits = zip(coordinator.waiting_kiva, coordinator.waiting_since, texts)
     now = coordinator.header.stamp.to_sec()
-    return [
-        robot
-        for robot, since, text in waits
-        if now - since >= (QUEUED_TOO_LONG if text.startswith(IN_QUEUE) else TOO_LONG)
-    ]
+    return [robot for robot, since, text in waits if now - since >= _explained(robot, text, before)]
+
+
+def _explained(robot: int, text: str, before: Mapping[int, int]) -> float:
+    """Returns how long a robot may wait for its reason [s]; `before`: the robot ahead of each."""
+    if not text.startswith(IN_QUEUE) or FAULTY in text:
+        return TOO_LONG
+    place, passed = 0, {0}
+    while robot not in passed:
+        passed.add(robot)
+        robot, place = before.get(robot, 0), place + 1
+    return QUEUED_TOO_LONG * max(1, place - 1)
 
 
 def activity(fleet: FleetState, waiting: Collection[int] = ()) -> np.ndarray:

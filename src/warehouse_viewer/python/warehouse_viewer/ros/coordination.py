@@ -5,7 +5,7 @@ from types import ModuleType
 from typing import Any
 
 from warehouse_client.message_names import MODE, THEN
-from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
+from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Tow, Transport
 from warehouse_viewer.page.source import RefusedError
 from warehouse_viewer.ros.simulation import is_offered, request
 
@@ -13,6 +13,7 @@ SERVICES = {
     Transport: "warehouse/transport",
     ReleaseTransport: "warehouse/release_transport",
     SetRobotMode: "warehouse/set_robot_mode",
+    Tow: "warehouse/tow",
 }
 NONE_RUNS = "no coordinator runs: start with coordinator:=true"
 _MODES = {name: number for number, name in MODE.items()}
@@ -62,6 +63,10 @@ class Coordination:
     def set_mode(self, robot: int, mode: str) -> str:
         """Sets a robot's mode by its name; returns the coordinator's message."""
         return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
+
+    def tow(self, robot: int) -> str:
+        """Moves a broken robot to where it is in no robot's way; returns the answer's message."""
+        return self._done(self._call(Tow, kiva_id=robot))
 
     def _call(self, kind: type, **fields: Any) -> Any:
         if not self.runs():

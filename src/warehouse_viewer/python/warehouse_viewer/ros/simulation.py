@@ -14,6 +14,7 @@ from gazebo_msgs.srv import GetPhysicsProperties, GetPhysicsPropertiesResponse, 
 from warehouse_client import identity, placing, services
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
+from warehouse_layout.message_enums import FailureKind
 from warehouse_layout.models import models
 from warehouse_viewer.page.source import AwayError, RefusedError
 
@@ -31,6 +32,7 @@ SERVICES = {
     "create": ("warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
     "person": ("warehouse/person", "warehouse_msgs", "Person"),
     "pick_up": ("warehouse/pick_up", "warehouse_msgs", "PickUp"),
+    "fail": ("warehouse/fail", "warehouse_msgs", "Fail"),
 }
 
 
@@ -147,6 +149,10 @@ class Simulation:
     def pick_up(self, number: int) -> str:
         """Puts an item that fell back on its storage unit."""
         return self._do("pick_up", item=f"item{number}")
+
+    def repair(self, number: int) -> str:
+        """Repairs all that is broken in a robot."""
+        return self._do("fail", kiva_id=number, kind=FailureKind.REPAIRED, repair_time=0.0)
 
     def _new_person(self) -> str:
         names = self._call("gazebo/get_world_properties", GetWorldProperties, {}).model_names

@@ -1,82 +1,141 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The alarms that hold now: since when, and which person saw them."""
+"""The alarms that hold now and those that have ended: since when, and what people did."""
 
 import threading
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, NamedTuple
 
 from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
 
+KEPT = 500  # alarms that have ended
+MOST_ACTIONS = 50  # of an alarm
+REPAIRED = "ROBOT_BROKEN"  # alarms whose mean duration is the time to repair
+# Kinds of which a robot has one alarm, whichever it is now.
+OF_ROBOT = ("ROBOT_BROKEN", "ROBOT_LOST", "ROBOT_STALLED", "ROBOT_BLOCKED", "COLLISION")
+
 
 class Trouble(NamedTuple):
-    """Something of a kind in KINDS that holds now. `subject`: whom it concerns; `since` [s],
-    simulated: when it began, if that is known better than by its first mention."""
+    """Something of a kind in KINDS that holds now.
+
+    subject: whom it concerns. since [s], simulated: when it began, if that is known better than by
+    its first mention. consequences: sentences of which the part before a colon is the short one.
+    queue: how many robots wait for it.
+    """
 
     kind: str
     subject: str
     text: str
     since: float | None = None
+    consequences: tuple[str, ...] = ()
+    queue: int = 0
+
+    @property
+    def headline(self) -> str:
+        """The cause with its consequences, in a sentence."""
+        short = [text.partition(": ")[0] for text in self.consequences]
+        return f"{self.text}: {', '.join(short)}" if short else self.text
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What stays the same as long as it is the same alarm."""
+        return ("" if self.kind in OF_ROBOT else self.kind), self.subject
+
+
+class Action(NamedTuple):
+    """What a person did about an alarm at a simulated time [s]."""
+
+    time: float
+    by: str
+    what: str
 
 
 @dataclass
 class Alarm:
-    """A Trouble with its number and the person that saw it; times are simulated [s]."""
+    """A Trouble with its number and what people did; times are simulated [s]."""
 
     trouble: Trouble
     since: float
     number: int = field(default_factory=count(1).__next__)
     seen_by: str = ""
     seen_at: float = 0.0
+    actions: list[Action] = field(default_factory=list)
 
     def is_due(self, now: float) -> bool:
         """Whether it has lasted long enough to be told."""
         return now - self.since >= KINDS[self.trouble.kind].after
 
-    def told(self) -> dict[str, Any]:
-        """Returns the alarm as JSON has it."""
-        kind, subject, text, _ = self.trouble
-        about = KINDS[kind]
+    def told(self, remedies: Iterable[Any] = ()) -> dict[str, Any]:
+        """Returns the alarm as JSON has it; `remedies`: named tuples."""
+        trouble, about = self.trouble, KINDS[self.trouble.kind]
         return {
             "id": self.number,
-            "kind": kind,
+            "kind": trouble.kind,
             "severity": about.severity,
             "title": about.title,
-            "subject": subject,
-            "text": text,
+            "subject": trouble.subject,
+            "text": trouble.headline,
+            "cause": trouble.text,
+            "consequences": list(trouble.consequences),
             "to_do": about.to_do,
+            "remedies": [remedy._asdict() for remedy in remedies],
             "since": round(self.since, 1),
             "seen_by": self.seen_by,
             "seen_at": round(self.seen_at, 1),
+            "actions": [action._asdict() for action in self.actions],
         }
 
 
 class AlarmBook:
-    """Alarms by kind and subject, for as long as each lasts. Any thread may call."""
+    """Alarms for as long as each lasts, and the last KEPT that have ended. Any thread may call.
 
-    def __init__(self) -> None:
+    remedies(trouble): what can be done about a Trouble now, as named tuples.
+    """
+
+    def __init__(self, remedies: Callable[[Trouble], Iterable[Any]] = lambda _: ()) -> None:
         self._lock, self._alarms = threading.Lock(), dict[tuple[str, str], Alarm]()
-        self._now = 0.0
+        self._ended: deque[dict[str, Any]] = deque(maxlen=KEPT)
+        self._remedies, self._now = remedies, 0.0
 
     def update(self, now: float, troubles: Iterable[Trouble]) -> None:
         """Takes in all that is wrong at `now` [s]: what is left out has ended."""
         with self._lock:
             before, self._alarms, self._now = self._alarms, {}, now
             for trouble in troubles:
-                key = trouble.kind, trouble.subject
+                key = trouble.key
                 since = now if trouble.since is None else trouble.since
-                alarm = before.get(key) or self._alarms.get(key) or Alarm(trouble, since)
+                alarm = before.pop(key, None) or self._alarms.get(key) or Alarm(trouble, since)
                 alarm.trouble, alarm.since = trouble, min(alarm.since, since)
                 if alarm.since > now:  # the world was reset meanwhile
                     alarm.since = now
                 self._alarms[key] = alarm
+            for alarm in before.values():
+                if alarm.is_due(now):
+                    until = {"until": round(now, 1), "duration": round(now - alarm.since, 1)}
+                    self._ended.append(alarm.told() | until)
 
     def told(self) -> list[dict[str, Any]]:
         """Returns the alarms as JSON has them, the worst first, of those the oldest first."""
         with self._lock:
-            due = [alarm.told() for alarm in self._alarms.values() if alarm.is_due(self._now)]
+            due = [
+                alarm.told(self._remedies(alarm.trouble))
+                for alarm in self._alarms.values()
+                if alarm.is_due(self._now)
+            ]
         return sorted(due, key=lambda row: (SEVERITIES.index(row["severity"]), row["since"]))
+
+    def history(self) -> list[dict[str, Any]]:
+        """Returns the alarms that have ended as JSON has them, the newest first."""
+        with self._lock:
+            return list(reversed(self._ended))
+
+    def time_to_repair(self) -> tuple[int, float]:
+        """Returns how many broken robots were repaired, and how long it took on the average [s]."""
+        with self._lock:
+            spans = [row["duration"] for row in self._ended if row["kind"] == REPAIRED]
+        return len(spans), sum(spans) / max(len(spans), 1)
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm, or, with an empty name, takes that back. Returns
@@ -85,5 +144,12 @@ class AlarmBook:
             for alarm in self._alarms.values():
                 if alarm.number == number:
                     alarm.seen_by, alarm.seen_at = by, self._now if by else 0.0
-                    return alarm.told()
+                    return alarm.told(self._remedies(alarm.trouble))
         return None
+
+    def note(self, subject: str, by: str, what: str) -> None:
+        """Notes what a person did about a robot, item or station, in the alarms that concern it."""
+        with self._lock:
+            for alarm in self._alarms.values():
+                if alarm.trouble.subject == subject and len(alarm.actions) < MOST_ACTIONS:
+                    alarm.actions.append(Action(round(self._now, 1), by, what))

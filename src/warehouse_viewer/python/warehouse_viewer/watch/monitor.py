@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,9 +13,10 @@ import numpy as np
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.page.activities import Activity, activity, wait_too_long
 from warehouse_viewer.page.journal import Journal
-from warehouse_viewer.watch import troubles
+from warehouse_viewer.watch import causes, troubles
 from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
 from warehouse_viewer.watch.figures import Figures
+from warehouse_viewer.watch.reasons import Reasons
 from warehouse_viewer.watch.span_log import SpanLog
 from warehouse_viewer.watch.station_watch import StationWatch
 
@@ -32,12 +33,21 @@ class Monitor:
     """Reads what the feeds hear into spans, alarms, stations and figures. Lives in an asyncio loop.
 
     `feed` is a ros.feed.Feed, `shift` a ShiftFeed; what changes is noted in a ChangeBook under
-    `alarms` and `figures`.
+    `alarms` and `figures`. assigned(): the unit and the station of each robot with a transport.
     """
 
-    def __init__(self, feed: Feed, shift: ShiftFeed, journal: Journal, book: ChangeBook) -> None:
+    def __init__(
+        self,
+        feed: Feed,
+        shift: ShiftFeed,
+        journal: Journal,
+        book: ChangeBook,
+        assigned: Callable[[], Mapping[int, tuple[int, str]]] = dict,
+    ) -> None:
         self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
-        self.spans, self.alarms = SpanLog(), AlarmBook()
+        self._assigned = assigned
+        self.spans, self.alarms = SpanLog(), AlarmBook(self._remedies)
+        self.reasons = Reasons()
         self.stations, self._figures = StationWatch(), Figures()
         self._moments = troubles.Moments()
         self._event = journal.last_id
@@ -68,6 +78,10 @@ class Monitor:
             self._read |= {"stations": stations, "fleet": fleet}
             self.stations.update(self.now, rows, fleet)
             self._note_spans(fleet, rows)
+        starved = self.stations.starved
+        self.reasons.update(
+            self.now, fleet, self._feed.coordinator, rows, starved, self._assigned()
+        )
         self._note_alarms(fleet, rows)
         self._note_figures()
 
@@ -86,7 +100,8 @@ class Monitor:
         for event in self._journal.since(self._event):
             self._event = event["id"]
             self._moments.take_event(event)
-        self.alarms.update(self.now, self._troubles(fleet, stations))
+        pending = self._troubles(fleet, stations)
+        self.alarms.update(self.now, causes.by_cause(pending, self.reasons, self.now))
         self._note("alarms", self.alarms.told())
 
     def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
@@ -104,6 +119,17 @@ class Monitor:
         pending += self._moments.lasting(self.now)
         notices = self._shift["notices"]
         return pending + list(troubles.of_notices(notices.notices if notices else ()))
+
+    def _remedies(self, trouble: Trouble) -> list[causes.Remedy]:
+        state = self._feed.coordinator
+        modes = {f"kiva{n}": "MANUAL" for n in state.manual_kiva} if state else {}
+        modes |= {f"kiva{n}": "OUT_OF_SERVICE" for n in state.out_of_service_kiva} if state else {}
+        return causes.remedies(trouble, modes)
+
+    def note(self, subject: str, by: str, what: str) -> None:
+        """Notes what a person did about a robot, item or station; see AlarmBook.note."""
+        self.alarms.note(subject, by, what)
+        self._note("alarms", self.alarms.told())
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm; see AlarmBook.see."""
@@ -132,7 +158,8 @@ class Monitor:
 
     def station(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside its own fields."""
-        return self.stations.told(station)
+        reason = self.reasons.station(station.name)
+        return self.stations.told(station) | {"why": reason.text if reason else ""}
 
 
 def _available(does: np.ndarray, coordinator: CoordinatorState | None) -> tuple[float, int]:

@@ -22,9 +22,11 @@ HELD_UP = 120.0  # that a robot waits [s, simulated]
 QUEUED = 600.0  # the same in the queue of a station, where waiting is as it should be
 LASTING = 600.0  # for which what happened in a moment is told [s, simulated]
 
+BROKEN = "ROBOT_BROKEN"
+
 # Kinds by patterns of the coordinator's sentences; the first group is whom they concern.
 SENTENCES = (
-    (re.compile(r"(kiva\d+): "), "ROBOT_BROKEN"),
+    (re.compile(r"(kiva\d+): "), BROKEN),
     (re.compile(r"(kiva\d+) does not move$"), "ROBOT_STALLED"),
     (re.compile(r"(kiva\d+) was pushed "), "ROBOT_LOST"),
     (re.compile(r"(.+) has waited for a person for "), "STATION_UNATTENDED"),
@@ -46,11 +48,21 @@ def of_coordinator(state: CoordinatorState) -> Iterator[Trouble]:
             yield Trouble("ROBOT_WAITS", f"kiva{robot}", f"kiva{robot} waits {why}", since)
 
 
+def _parted(text: str) -> tuple[str, str]:
+    name, _, rest = text.partition(": ")
+    return name, rest
+
+
+def _broken(name: str, failures: str) -> str:
+    failures = failures.replace("drive without torque", "drive")  # the word of pages and API
+    return f"{name} is broken ({failures})"
+
+
 def of_sentence(text: str) -> Trouble:
     """Returns what a sentence of the coordinator's alarms means."""
     for pattern, kind in SENTENCES:
         if match := pattern.match(text):
-            return Trouble(kind, match[1], text)
+            return Trouble(kind, match[1], _broken(*_parted(text)) if kind == BROKEN else text)
     return Trouble("COORDINATOR", text, text)
 
 
@@ -59,11 +71,11 @@ def of_fleet(fleet: FleetState) -> Iterator[Trouble]:
     failures = np.frombuffer(bytes(fleet.failures), np.uint8)
     for i in np.flatnonzero(failures):
         name = f"kiva{fleet.kiva_id[i]}"
-        yield Trouble("ROBOT_BROKEN", name, f"{name}: {', '.join(failures_of(failures[i]))}")
+        yield Trouble(BROKEN, name, _broken(name, ", ".join(failures_of(failures[i]))))
     blocked = np.frombuffer(bytes(fleet.last_end), np.uint8) == EventKind.BLOCKED
     for i in np.flatnonzero(blocked & (failures == 0)):
         name = f"kiva{fleet.kiva_id[i]}"
-        yield Trouble("ROBOT_BLOCKED", name, f"{name}: its last command ended before an obstacle")
+        yield Trouble("ROBOT_BLOCKED", name, f"{name} stands before an obstacle")
 
 
 def of_stations(

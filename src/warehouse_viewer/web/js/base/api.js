@@ -17,6 +17,10 @@ export function put(path, body) {
   return request('PUT', path, body);
 }
 
+export function patch(path, body) {
+  return request('PATCH', path, body);
+}
+
 export function remove(path) {
   return request('DELETE', path);
 }

@@ -33,7 +33,7 @@ class Page {
     this.chart = new ThroughputChart();
     this.shares = new RobotShares();
     this.gantt = new Gantt();
-    this.orders = new OrderList((order) => this.cancel(order), fail);
+    this.orders = new OrderList((order) => this.cancel(order), fail, (order) => this.openOrder(order));
     const taken = (text) => this.taken(text);
     this.entry = new OrderEntry(() => this.now, taken);
     this.upload = new OrderUpload(taken);
@@ -65,7 +65,10 @@ class Page {
       },
       figures: ({ figures }) => this.figures.showLeading(figures),
       alarms: ({ alarms }) => this.alarms.take(alarms),
-      orders: (message) => this.orders.take(message),
+      orders: (message) => {
+        this.orders.take(message);
+        this.details?.take(message);
+      },
       coordinator: ({ coordinator }) => this.showFleet(coordinator),
     };
   }
@@ -101,6 +104,13 @@ class Page {
     const title = `Cancel ${reference}?`;
     if (!await confirmed(title, `Order ${id}, picked so far: ${piecesOf(order)}.${at}`, `Cancel ${reference}`, 'Keep it')) return;
     await this.act(remove(`/orders/${id}`), (message) => [`${reference} is cancelled`, message].filter(Boolean).join('; '));
+  }
+
+  /** What has become of an order, and how urgent it is. */
+  async openOrder(order) {
+    const { OrderDetails } = await import('./order_details.js');
+    this.details ??= new OrderDetails(() => this.now, (text) => this.taken(text));
+    await this.details.open(order);
   }
 
   /** Orders of this page's own: they belong into the list at once. */

@@ -158,7 +158,8 @@ function field(id, read) {
   }
 }
 
-function mark(input, fault, place = $(`${input.id}-fault`)) {
+/** Marks a field with what is wrong with it; '': nothing. */
+export function mark(input, fault, place = $(`${input.id}-fault`)) {
   input.setAttribute('aria-invalid', String(Boolean(fault)));
   Object.assign(place, { textContent: fault, hidden: !fault });
 }

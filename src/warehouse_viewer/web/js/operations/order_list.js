@@ -12,9 +12,9 @@ const AROUND = 30; // rows beside those in sight that are asked for too
 const TYPING = 200; // after a key [ms]
 
 export class OrderList {
-  /** `cancel(order)` is called for a row's button, `fail(error)` where the server refuses. */
-  constructor(cancel, fail) {
-    Object.assign(this, { cancel, fail, filter: '', total: 0, first: 0, rows: [], now: 0 });
+  /** `cancel(order)` and `open(order)` are called for a row's buttons, `fail(error)` where the server refuses. */
+  constructor(cancel, fail, open) {
+    Object.assign(this, { cancel, open, fail, filter: '', total: 0, first: 0, rows: [], now: 0 });
     this.shown = new Map(); // OrderRows by their orders' numbers
     this.forget();
     this.box = $('orders');
@@ -159,7 +159,7 @@ export class OrderList {
   }
 
   draw() {
-    $('total').textContent = `${this.total.toLocaleString('en')} orders`;
+    $('total').textContent = `${this.total.toLocaleString()} orders`;
     $('news').hidden = !this.fresh && !this.missed;
     $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new orders: show';
     this.inside.style.height = `${this.rowHeight * this.total}px`;
@@ -168,7 +168,7 @@ export class OrderList {
     const shown = this.rows.slice(from - this.first, first + count - this.first);
     const kept = this.shown;
     this.shown = new Map(shown.map((order) => (
-      [order.order_id, kept.get(order.order_id) ?? new OrderRow(this.cancel)])));
+      [order.order_id, kept.get(order.order_id) ?? new OrderRow(this.cancel, this.open)])));
     for (const [id, { element }] of kept) if (!this.shown.has(id)) element.remove();
     shown.forEach((order, i) => {
       const row = this.shown.get(order.order_id);

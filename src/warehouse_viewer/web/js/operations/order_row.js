@@ -6,10 +6,12 @@ import { OrderState } from '../base/message_enums.js';
 import { ORDER_STATES } from '../base/words.js';
 
 export class OrderRow {
-  /** `cancel(order)` is called with the order that the row shows. */
-  constructor(cancel) {
+  /** `cancel(order)` and `open(order)` are called with the order that the row shows. */
+  constructor(cancel, open) {
+    this.name = make('button', { type: 'button', className: 'order-name', title: 'Its history, units and urgency', click: () => open(this.order) });
     this.cells = [0, 1, 2, 3].map(() => make('span'));
     this.button = make('button', { textContent: 'Cancel', click: () => cancel(this.order) });
+    this.cells[0].append(this.name);
     this.element = make('div', {}, ...this.cells, make('span', {}, this.button));
     this.element.setAttribute('role', 'listitem');
   }
@@ -24,8 +26,8 @@ export class OrderRow {
     this.key = key;
     const pieces = piecesOf(order);
     const texts = [order.reference, [ORDER_STATES[order.state], order.station].filter(Boolean).join(' '), late.text, pieces];
-    this.cells.forEach((cell, i) => Object.assign(cell, { textContent: texts[i] }));
-    this.cells[0].title = order.reference;
+    this.cells.forEach((cell, i) => i && Object.assign(cell, { textContent: texts[i] }));
+    this.name.textContent = order.reference || `order ${order.order_id}`;
     this.cells[2].className = late.isLate ? 'late' : 'dim';
     this.cells[3].title = pieces;
     this.element.className = late.isLate ? 'order is-late' : 'order';

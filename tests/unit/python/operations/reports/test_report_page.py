@@ -8,12 +8,11 @@ import shutil
 import subprocess
 import zipfile
 
-import axe
 import paths
-import pictures
 import pytest
-from browser import browser
 from instance_file import write_instance
+from rostest_support import axe, pictures
+from rostest_support.browser import browser
 
 from warehouse_layout.drawing import page_font
 from warehouse_operations.document import canvas, page, sheets, tokens

@@ -449,6 +449,42 @@ def test_cancelled_orders_give_back_what_they_were_promised():
     assert len(ops.shift.free_units | away) == len(ops.site.units)
 
 
+def test_an_order_that_is_made_urgent_comes_before_older_ones(tmp_path):
+    path = tmp_path / "shift.db"
+    ops = shift_on(path, orders="fill:60")
+    ops.run(minutes=5)
+    events = events_of(ops)
+    urgent = list(ops.shift.backlog)[-1]
+    assert ops.shift.change_order(urgent.order_id, 9, 1800.0) == (True, "priority 9, due at 1800 s")
+    assert events == [(urgent.order_id, 8, "", 0, "", 0, "priority 9, due at 1800 s")]
+    assert next(ops.shift.backlog.by_urgency()) is urgent
+    assert [order.order_id for order in ops.shift.backlog] == sorted(ops.shift.backlog.orders)
+    there = next(o for o in ops.shift.orders.values() if o.station and not o.done)
+    assert ops.shift.change_order(there.order_id, None, 0.0)[0] and there.due == 0
+    likely, units = ops.shift.likely_completion(there.order_id)
+    assert likely > ops.shift.now and set(units) <= ops.shift.inventory.of_unit.keys()
+    ops.run(minutes=5)
+    assert urgent.station and urgent.priority == 9
+    ops.close()
+    engine = open_engine(f"sqlite:///{path}")
+    _, [(row, _)] = queries.find_orders(engine, urgent.order_id)
+    assert (row.priority, row.due) == (9, 1800.0)
+    kinds = [event.kind for event in queries.order_events(engine, urgent.order_id, 500)]
+    assert kinds[:3] == [0, 8, 1]
+    engine.dispose()
+
+
+def test_what_can_not_be_changed_is_refused():
+    ops = shift_on(orders="none")
+    order, _ = ops.shift.submit([("sku-1", 1)])
+    assert ops.shift.change_order(99, 1, None) == (False, "order 99 is unknown, or over")
+    refused = ops.shift.change_order(order.order_id, 256, None)
+    assert refused == (False, "priority is 256; 0 to 255 was expected")
+    assert not ops.shift.change_order(order.order_id, None, float("nan"))[0]
+    assert (order.priority, order.due) == (0, 0.0)
+    assert ops.shift.likely_completion(99) == (0.0, [])
+
+
 def test_a_station_closes_while_units_are_on_the_way():
     ops = shift_on(orders="fill:30")
     ops.run(minutes=5)

@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hub's page in a real browser: a warehouse from the first click to its own pages."""
 
-import sys
-
-import axe
-import paths
 import pytest
 from hub_process import PATIENCE, Hub
-
-sys.path.append(str(paths.ROOT / "tests" / "rostest"))
-
-from browser import browser  # noqa: E402
+from rostest_support import axe
+from rostest_support.browser import browser
 
 STATE = "document.querySelector('.simulation .badge')?.textContent"
 LIVE = "document.getElementById('link').dataset.state === 'live'"

@@ -4,9 +4,7 @@
 `pytest -s` shows how long frames take, and how large the page is.
 """
 
-import axe
 import numpy as np
-import pictures
 import pytest
 from editor_page import (
     LOADED,
@@ -26,6 +24,7 @@ from editor_page import (
     press,
     saved,
 )
+from rostest_support import axe, pictures
 
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile, StationEntry

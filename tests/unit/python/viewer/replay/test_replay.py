@@ -11,14 +11,14 @@ import subprocess
 import sys
 import urllib.request
 
-import axe
 import numpy as np
 import pytest
 import rosbag
 import rospy
 from asgi import request
-from browser import browser
 from paths import ROOT
+from rostest_support import axe
+from rostest_support.browser import browser
 from sample_messages import World, fleet, objects, scenery, states
 from std_msgs.msg import Header
 

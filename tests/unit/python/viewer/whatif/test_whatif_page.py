@@ -4,18 +4,14 @@
 import contextlib
 import re
 import subprocess
-import sys
 
-import axe
 import paths
 import pytest
-
-sys.path.append(str(paths.ROOT / "tests" / "rostest"))
-
-from browser import browser  # noqa: E402
+from rostest_support import axe
+from rostest_support.browser import browser
 
 from warehouse_layout.file import layout_file
-from warehouse_layout.file.request import PRESETS  # noqa: E402
+from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generator
 
 PATIENCE = 300.0  # runs yield to all else that the machine has to do [s, wall]

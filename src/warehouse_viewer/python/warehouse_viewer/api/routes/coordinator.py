@@ -5,6 +5,7 @@ from fastapi import APIRouter, HTTPException, Path
 
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.remedies import apply
 from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.fleet import (
@@ -18,6 +19,8 @@ from warehouse_viewer.api.schemas.fleet import (
     Vda5050Robot,
 )
 from warehouse_viewer.api.schemas.pydantic_versions import as_dict
+from warehouse_viewer.api.schemas.watch import Doer
+from warehouse_viewer.watch.causes import LABELS
 
 router = APIRouter()
 TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
@@ -41,7 +44,31 @@ async def get_vda5050(backend: ApiBackend = BACKEND) -> object:
 async def set_mode(body: NewMode, number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
     """Gives a robot to the coordinator or to a person, or takes it out of service."""
     await backend.robot(number)
-    return {"message": await backend.coordinate("set_mode", number, body.mode)}
+    message = await backend.coordinate("set_mode", number, body.mode)
+    label = {"AUTOMATIC": "Automatic again", "MANUAL": "Manual"}.get(body.mode, "Out of service")
+    backend.monitor.note(f"kiva{number}", body.by.strip(), label)
+    return {"message": message}
+
+
+@router.post("/robots/{number}/repair", response_model=Done, responses=problems(404, *SENT))
+async def repair_robot(body: Doer, number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
+    """Repairs all that is broken in a robot."""
+    await backend.robot(number)
+    return await _mended(backend, "REPAIR", number, body.by)
+
+
+@router.post("/robots/{number}/tow", response_model=Done, responses=problems(404, *SENT))
+async def tow_robot(body: Doer, number: int = NUMBER, backend: ApiBackend = BACKEND) -> object:
+    """Moves a broken robot, with what it carries, to where it is in no robot's way."""
+    await backend.robot(number)
+    return await _mended(backend, "TOW", number, body.by)
+
+
+async def _mended(backend: ApiBackend, action: str, number: int, by: str) -> object:
+    name = f"kiva{number}"
+    message = await apply(backend, action, name)
+    backend.monitor.note(name, by.strip(), LABELS[action])
+    return {"message": message}
 
 
 @router.get("/transports", response_model=Transports, responses=problems())

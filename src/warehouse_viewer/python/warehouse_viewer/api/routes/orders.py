@@ -10,7 +10,7 @@ from fastapi.responses import Response
 from warehouse_msgs import msg, srv
 from warehouse_viewer.api import order_sheet
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
-from warehouse_viewer.api.operations_json import order, plain
+from warehouse_viewer.api.operations_json import order, past_event, plain
 from warehouse_viewer.api.routes.common import LIMIT, OFFSET, SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.operations import (
@@ -18,6 +18,8 @@ from warehouse_viewer.api.schemas.operations import (
     Accepted,
     NewOrder,
     Order,
+    OrderChange,
+    OrderHistory,
     Orders,
     OrderTable,
     Skus,
@@ -152,6 +154,31 @@ async def submit_order(body: NewOrder, backend: ApiBackend = BACKEND) -> object:
     fields = body.reference, lines, backend.operations.time(body.due), body.priority
     answer = await backend.call(backend.operations.call, "submit_order", srv.SubmitOrder, *fields)
     return {"order_id": answer.order_id, "message": answer.message}
+
+
+@router.patch("/orders/{number}", response_model=Done, responses=problems(*SENT))
+async def change_order(
+    body: OrderChange, number: int = ORDER, backend: ApiBackend = BACKEND
+) -> object:
+    """Makes an order that is not complete more or less urgent, or due at another time."""
+    due = backend.operations.time(body.due or 0.0)
+    fields = number, body.priority is not None, body.priority or 0, body.due is not None, due
+    answer = await backend.call(backend.operations.call, "change_order", srv.ChangeOrder, *fields)
+    return {"message": answer.message}
+
+
+@router.get("/orders/{number}/history", response_model=OrderHistory, responses=problems(404))
+async def get_order_history(number: int = ORDER, backend: ApiBackend = BACKEND) -> object:
+    """What has become of an order, the units on their way for it, and its likely end."""
+    fields = "order_history", srv.OrderHistory, number
+    answer = await backend.call(backend.operations.request, *fields)
+    if not answer.success:
+        raise HTTPException(404, answer.message)
+    return {
+        "events": [past_event(event) for event in answer.events],
+        "storage_units": [f"storage_unit{unit}" for unit in answer.units],
+        "estimated": answer.estimated,
+    }
 
 
 @router.delete("/orders/{number}", response_model=Done, responses=problems(409))

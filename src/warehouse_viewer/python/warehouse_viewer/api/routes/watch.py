@@ -7,12 +7,25 @@ from fastapi import APIRouter, HTTPException, Path, Query
 from fastapi.responses import Response
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.remedies import apply
 from warehouse_viewer.api.routes.common import SENT, problems
-from warehouse_viewer.api.schemas.watch import Alarm, Alarms, LeadingFigures, Seen
+from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.watch import (
+    Alarm,
+    AlarmHistory,
+    Alarms,
+    Doer,
+    LeadingFigures,
+    Seen,
+    Why,
+)
 from warehouse_viewer.watch.alarm_kinds import KINDS
 
 router = APIRouter()
 ALARM = Path(ge=1, le=2**53)
+ACTION = Path(max_length=40, regex=r"^[A-Z_]+$")
+SUBJECT = Path(max_length=80, regex=r"^[ -~]+$", description="kiva3, pick1")
+TIME = Query(None, ge=0, le=1e10, description="[s], simulated")
 COUNT = Query(0, ge=0, le=2**53)
 NO_FIGURES = "there are no figures; is a shift running (operations.launch)?"
 BYTES: dict[int | str, dict[str, Any]] = {
@@ -35,6 +48,52 @@ async def see_alarm(body: Seen, number: int = ALARM, backend: ApiBackend = BACKE
     if alarm is None:
         raise HTTPException(404, f"alarm {number} has ended, or never was")
     return alarm
+
+
+@router.get("/alarms/history", response_model=AlarmHistory, responses=problems())
+async def get_alarm_history(backend: ApiBackend = BACKEND) -> object:
+    """The alarms that have ended: cause, duration, who did what; and the mean time to repair."""
+    book = backend.monitor.alarms
+    alarms, (repairs, mean) = book.history(), book.time_to_repair()
+    return {
+        "total": len(alarms),
+        "alarms": alarms,
+        "repairs": repairs,
+        "mean_time_to_repair": round(mean, 1),
+    }
+
+
+@router.post(
+    "/alarms/{number}/remedies/{action}", response_model=Done, responses=problems(404, *SENT)
+)
+async def apply_remedy(
+    body: Doer, action: str = ACTION, number: int = ALARM, backend: ApiBackend = BACKEND
+) -> object:
+    """Does what one of an alarm's `remedies` says, and notes who did it."""
+    alarm = next((row for row in backend.monitor.alarms.told() if row["id"] == number), None)
+    if alarm is None:
+        raise HTTPException(404, f"alarm {number} has ended, or never was")
+    remedy = next((row for row in alarm["remedies"] if row["action"] == action), None)
+    if remedy is None:
+        offered = ", ".join(row["action"] for row in alarm["remedies"])
+        raise HTTPException(409, f"{action} is no remedy of alarm {number} now; it has {offered}")
+    message = await apply(backend, action, remedy["target"])
+    backend.monitor.note(remedy["target"], body.by.strip(), remedy["label"])
+    return {"message": message}
+
+
+@router.get("/why/{name}", response_model=Why, responses=problems(404))
+async def get_why(
+    name: str = SUBJECT, time: float | None = TIME, backend: ApiBackend = BACKEND
+) -> object:
+    """Why a robot or a station waits, where a robot goes, and for which order. With `time`: the
+    sentence that held then, as far as it is remembered."""
+    reasons = backend.monitor.reasons
+    reason = reasons.find(name)
+    if reason is None:
+        raise HTTPException(404, f"no robot or station {name}")
+    out = reason.told()
+    return out | {"sentence": reasons.at(name, time)} if time is not None else out
 
 
 @router.get("/figures", response_model=LeadingFigures, responses=problems())

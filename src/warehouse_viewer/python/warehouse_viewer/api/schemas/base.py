@@ -17,11 +17,13 @@ if TYPE_CHECKING:
     Name = str
     Label = str
     Number = float
+    Person = str
 else:
     Int32, Int8, UInt8 = integer(-INT32 - 1, INT32), integer(-128, 127), integer(0, 255)
     Name = text(r"^[ -~]*$", 100)  # printable ASCII, or nothing
     Label = text(r"^[A-Za-z0-9_.-]+$", 100, least=1)
     Number = number()
+    Person = text(r"^[^\x00-\x1f\x7f]*$", 60)
 
 
 class Problem(BaseModel):

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.base import Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.base import Int32, Name, Number, Person, UInt8
 from warehouse_viewer.api.schemas.pydantic_versions import Body, check_all, schema_extra
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
@@ -54,6 +54,7 @@ class NewTransport(Body, **schema_extra(DESTINATION)):
 class NewMode(Body):
     """Sets how a robot is commanded."""
 
+    by: Person = Field("", description="name of the person that sets it; empty: not known")
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 

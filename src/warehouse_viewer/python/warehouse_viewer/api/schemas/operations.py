@@ -55,6 +55,33 @@ class NewOrder(Body):
     priority: UInt8 = 0
 
 
+class OrderChange(Body):
+    """Makes an order more or less urgent; what is left out stays as it is."""
+
+    priority: UInt8 | None = None
+    due: Moment | None = Field(None, description="[s], simulated time; 0 = none")
+
+
+class PastEvent(BaseModel):
+    """Something that happened to an order."""
+
+    time: float = Field(description="[s], simulated")
+    kind: str
+    sku: str
+    quantity: int
+    station: str
+    storage_unit: str
+    text: str
+
+
+class OrderHistory(BaseModel):
+    """What has become of an order so far, and what is on its way for it."""
+
+    events: list[PastEvent] = Field(description="the oldest first, 500 at most")
+    storage_units: list[str] = Field(description="at its station, or on their way there")
+    estimated: float = Field(description="when it is likely complete [s], simulated; 0: not known")
+
+
 class Accepted(BaseModel):
     """The number of an order that was accepted."""
 
@@ -205,6 +232,10 @@ class Station(BaseModel):
         description="since when the unit is there, or the station does what it does [s], simulated"
     )
     pieces_per_hour: float = Field(description="of the last quarter of an hour")
+    inbound_orders: list[int] = Field(
+        description="an order that each unit of `inbound` is brought for; 0: goods, or not known"
+    )
+    why: str = Field("", description="why it waits, or what it does; see /why")
     queue: list[Queued] = Field(description="of `inbound`")
     totes: list[Tote] = Field(description="by position; of a station in mode MANUAL alone")
 

@@ -1,18 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Alarms, and the four figures by which a shift is led."""
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.pydantic_versions import Body, text
+from warehouse_viewer.api.schemas.base import Person
+from warehouse_viewer.api.schemas.pydantic_versions import Body
 
 Severity = Literal["critical", "warning", "note"]
 
-if TYPE_CHECKING:
-    Person = str
-else:
-    Person = text(r"^[^\x00-\x1f\x7f]*$", 60)
+
+class Remedy(BaseModel):
+    """Something that a person can do about an alarm."""
+
+    action: str
+    label: str = Field(description="the words of the button")
+    target: str = Field(description="the robot, item or station that it is done to")
+
+
+class Action(BaseModel):
+    """What a person did about an alarm."""
+
+    time: float = Field(description="[s], simulated")
+    by: str
+    what: str
 
 
 class Alarm(BaseModel):
@@ -23,11 +35,52 @@ class Alarm(BaseModel):
     severity: Severity
     title: str
     subject: str = Field(description="the robot, station or item that it concerns")
-    text: str = Field(description="the cause, as a sentence")
+    text: str = Field(description="the cause and its consequences, as a sentence")
+    cause: str = Field(description="the cause alone")
+    consequences: list[str] = Field(description="what follows from the cause, each a sentence")
     to_do: str = Field(description="what a person should do")
     since: float = Field(description="[s], simulated")
     seen_by: str = Field(description="the name of the person that saw it; empty: no person yet")
     seen_at: float = Field(description="[s], simulated; 0: not yet")
+    remedies: list[Remedy] = Field(description="what may help, as /remedies carries it out")
+    actions: list[Action] = Field(description="what people did, the first first")
+
+
+class EndedAlarm(Alarm):
+    """An alarm whose cause has gone."""
+
+    until: float = Field(description="[s], simulated")
+    duration: float = Field(description="[s], simulated")
+
+
+class AlarmHistory(BaseModel):
+    """The alarms that have ended since the viewer began, the newest first; the last 500."""
+
+    total: int
+    alarms: list[EndedAlarm]
+    repairs: int = Field(description="how many broken robots work again")
+    mean_time_to_repair: float = Field(description="of these [s], simulated; 0 without any")
+
+
+class Why(BaseModel):
+    """Why a robot or a station waits, or what it does; the same sentence on all pages."""
+
+    name: str
+    text: str = Field(description="without its subject: waits in the queue of pick4 behind kiva16")
+    sentence: str = Field(description="with its subject, and where a robot goes for which order")
+    since: float = Field(description="[s], simulated")
+    errand: str = Field(description="where a robot goes, for which unit and order; or empty")
+    station: str = Field(description="where the robot goes, or empty")
+    storage_unit: str
+    order: int = Field(description="number of the order; 0: for none, or goods come")
+    behind: str = Field(description="the robot directly ahead, or empty")
+    cause: str = Field(description="the robot or station at fault, or empty")
+
+
+class Doer(Body):
+    """Names the person that does something; empty: not known."""
+
+    by: Person = ""
 
 
 class AlarmKind(BaseModel):
@@ -37,6 +90,7 @@ class AlarmKind(BaseModel):
     title: str
     to_do: str
     after: float = Field(description="duration from which it counts [s], simulated")
+    remedies: list[str] = Field(description="actions that may help")
 
 
 class Alarms(BaseModel):
