@@ -433,7 +433,7 @@ class RemoteVehicle:
 
     def _take_load(self, state: VehicleState) -> None:
         """Believes what the vehicle says of its load; which unit it is, only if no pick told."""
-        if self.lifts or not self.view.tells_loads:
+        if self.lifts or not self.view.reports_loads:
             return
         if not state.loads:
             self.load = 0

@@ -20,7 +20,7 @@ class VehicleView:
     connection: ConnectionState | None = None
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
-    tells_loads: bool = False
+    reports_loads: bool = False
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
     def take_state(self, state: VehicleState, now: float) -> bool:
@@ -34,7 +34,7 @@ class VehicleView:
             return False
         self._stamp = stamp
         self.state, self.heard_at = state, now
-        self.tells_loads |= bool(state.loads)
+        self.reports_loads |= bool(state.loads)
         if state.position:
             at = state.position
             self.pose = self.frame.to_world(at.x, at.y, at.theta)

@@ -30,7 +30,7 @@ from warehouse_vda5050.master.shadow import Shadow
 from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
-from warehouse_vda5050.telling import BrokerTopic, masters_message
+from warehouse_vda5050.broker_topic import BrokerTopic, masters_message
 from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
@@ -83,7 +83,7 @@ class Master:
                 self._follow_floor(fleet)
                 self._show(fleet)
             self._publish_events(fleet.take_events())
-            self._at_broker.tell(lambda: self._told(fleet))
+            self._at_broker.update(lambda: self._message(fleet))
         self._show_silence(fleet)
 
     # --- in
@@ -120,7 +120,7 @@ class Master:
 
     # --- out
 
-    def _told(self, fleet: RemoteFleet) -> Vda5050:
+    def _message(self, fleet: RemoteFleet) -> Vda5050:
         return masters_message(fleet.vehicles, self._broker, time.monotonic())
 
     def _show(self, fleet: RemoteFleet) -> None:

@@ -34,7 +34,7 @@ class ActionQueue:
         self._due: list[Action] = []
         self.running: list[Action] = []
 
-    def tell(self, nodes: Iterable[Node]) -> None:
+    def add(self, nodes: Iterable[Node]) -> None:
         """Lists the actions of new nodes as WAITING."""
         for action in (action for node in nodes for action in node.actions):
             state = ActionState(action.id, action.type, ActionStatus.WAITING)

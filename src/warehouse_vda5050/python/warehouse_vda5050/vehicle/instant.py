@@ -160,12 +160,12 @@ def _trigger(vehicle: Commanded, action: Action, now: float) -> str | None:
     return _refuse_if("" if vehicle.hands.trigger() else "no action waits for a trigger")
 
 
-def _tell_state(vehicle: Commanded, action: Action, now: float) -> str | None:
+def _request_state(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_state()
     return ""
 
 
-def _tell_factsheet(vehicle: Commanded, action: Action, now: float) -> str | None:
+def _request_factsheet(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_factsheet()
     return ""
 
@@ -202,8 +202,8 @@ ACTIONS: dict[str, Begin] = {
     "startCharging": _charge(True),
     "stopCharging": _charge(False),
     "initPosition": _init_position,
-    "stateRequest": _tell_state,
-    "factsheetRequest": _tell_factsheet,
+    "stateRequest": _request_state,
+    "factsheetRequest": _request_factsheet,
     "logReport": _report_log,
     "trigger": _trigger,
 }

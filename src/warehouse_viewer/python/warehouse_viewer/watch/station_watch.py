@@ -95,7 +95,7 @@ class StationWatch:
         """Returns the Activity of each station, (n,) uint8."""
         return np.array([self._past[station.name].state for station in stations], np.uint8)
 
-    def told(self, station: StationState) -> dict[str, Any]:
+    def as_json(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside the message's own fields."""
         past = self._past.get(station.name) or _Past(since=self.now)
         since = self.starved.get(station.name, past.since)

@@ -35,7 +35,7 @@ export class Where {
   /** Looks for a SKU; '': for none. */
   async ask(sku) {
     if (sku === this.sku) {
-      if (this.isKnown) this.tell();
+      if (this.isKnown) this.publish();
       return;
     }
     Object.assign(this, { sku, isKnown: false });
@@ -54,7 +54,7 @@ export class Where {
       if (answer.places.length) this.follow();
     }
     this.isKnown = true;
-    this.tell();
+    this.publish();
   }
 
   /** Shows from now on what changes, too. */
@@ -68,7 +68,7 @@ export class Where {
       }
       if (!stock.some((place) => place.sku === sku || this.places.has(place.item))) return;
       this.take(stock.filter((place) => place.sku === sku || this.places.has(place.item)));
-      this.tell();
+      this.publish();
     } });
   }
 
@@ -76,7 +76,7 @@ export class Where {
     for (const place of places) this.places.set(place.item, place);
   }
 
-  tell() {
+  publish() {
     this.units = piecesByUnit(this.places, this.sku);
     this.show(this.sku, this.units);
     if (!this.stage) return;

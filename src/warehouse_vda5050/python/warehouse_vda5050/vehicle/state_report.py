@@ -39,7 +39,7 @@ class Situation:
     errors: tuple[Error, ...]
 
 
-class Teller:
+class StateReporter:
     """Makes the states of one vehicle."""
 
     def __init__(self, sheet: Factsheet, settings: VehicleSettings) -> None:

@@ -10,7 +10,7 @@ from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import SILENT
 from warehouse_vda5050.model import AgvPosition, ConnectionState, VehicleState
-from warehouse_vda5050.telling import masters_message
+from warehouse_vda5050.broker_topic import masters_message
 from warehouse_vda5050.topics import Identity
 
 
