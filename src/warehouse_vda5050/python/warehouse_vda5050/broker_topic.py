@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse's own programs are told of robots at a broker: /warehouse/vda5050."""
+"""The topic /warehouse/vda5050: robots at a broker, for the warehouse's own programs."""
 
 import time
 from collections.abc import Callable, Iterable

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A small master: fetches a unit with one vehicle, carries it to a station, puts it down.
 
-It knows of the warehouse what a map tells, and of robots what they say over MQTT.
+It knows the warehouse from a map, and robots from their MQTT messages.
 """
 
 import time
@@ -107,7 +107,7 @@ class DemoMaster:
         self._send(who, Kind.INSTANT_ACTIONS, InstantActions((action,)))
 
     def known(self) -> list[Identity]:
-        """Returns the vehicles that are online and have told where they are."""
+        """Returns the vehicles that are online and have reported a position."""
         return [
             who for who, state in self.states.items() if self.online.get(who) and state.position
         ]
@@ -137,7 +137,7 @@ class DemoMaster:
         return self.until(lambda: self._follow(who, order, lines), seconds, f"order {order.id}")
 
     def _follow(self, who: Identity, order: VehicleOrder, states: list[str]) -> VehicleState | None:
-        """Tells how far an order is; returns the state once it is over."""
+        """Writes how far an order is; returns the state once it is over."""
         state = self.states[who]
         if state.order_id != order.id:
             if state.errors and any(("orderId", order.id) in e.references for e in state.errors):

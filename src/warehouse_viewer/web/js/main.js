@@ -295,7 +295,7 @@ class Page {
     return Boolean(this.placer) || isPerson(this.selected) || this.details.selectedRobot >= 0;
   }
 
-  describe(cell) {
+  textOf(cell) {
     return `${this.placer ? `${this.placer.what} at` : 'go to'} ${cell.join(', ')}`;
   }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""VDA 5050 3.0.0: other names than 2.1.0, and error types that tell more.
+"""VDA 5050 3.0.0: other names than 2.1.0, and more specific error types.
 
 Names are those of the schemas published with the specification. Zones, corridors, shared paths and
 retriable actions are refused (field_rules).
@@ -178,7 +178,7 @@ def _former(error: Error) -> Error:
 
 
 def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:
-    """Parts the states of instant actions from those of the order, and tells what is paused."""
+    """Separates the states of instant actions from the order's, and marks paused ones."""
     reported = value.pop("actionStates")
     for item, action in zip(reported, actions):
         item["actionStatus"] = action.status.value

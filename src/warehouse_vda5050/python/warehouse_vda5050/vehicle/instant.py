@@ -18,7 +18,7 @@ from warehouse_vda5050.vehicle.progress import OrderProgress
 Begin = Callable[["Commanded", Action, float], "str | None"]
 KEPT = 50  # states of instant actions that are over since COPY
 MOST = 1000  # states of all
-COPY = 5.0  # so long after an action the same actionId is a copy, and not another request [s]
+COPY = 5.0  # after an action, the time within which the same actionId is a copy [s]
 
 
 class ActionError(Exception):
@@ -50,12 +50,12 @@ class Commanded(Protocol):
         ...
 
     def note(self, error: Error) -> None:
-        """Tells an error of a message."""
+        """Reports an error of a message."""
         ...
 
 
 class InstantDesk:
-    """Begins instant actions of one vehicle, and tells how far each has come.
+    """Begins instant actions of one vehicle, and reports how far each has come.
 
     Masters repeat what they don't find in the state, so an actionId that is known is not done
     again; others name all their pauses "pause", so some time later it is.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One vehicle: takes orders and instant actions, drives by a Driver, tells its state.
+"""One vehicle: takes orders and instant actions, drives by a Driver, reports its state.
 
 vehicle = Vehicle(driver, grid)
 vehicle.on_order(order, now)       # as they come; now is any clock that goes on [s]
@@ -105,7 +105,7 @@ class Vehicle:
         self.complaints.note_unknown(Kind.INSTANT_ACTIONS, unknown)
 
     def note(self, error: Error) -> None:
-        """Tells an error of a message, until the next order or update is accepted."""
+        """Reports an error of a message, until the next order or update is accepted."""
         self.request_state()
         self.complaints.note(error)
 
@@ -276,7 +276,7 @@ class Vehicle:
         return self._reporter.take(self._situation(), now)
 
     def take_visualization(self, now: float) -> Visualization | None:
-        """Returns position and speed if the robot moved and it is time to tell them."""
+        """Returns position and speed if the robot moved and they are due."""
         return self._reporter.take_visualization(self.report, now)
 
     def state(self) -> VehicleState:

@@ -27,8 +27,8 @@ from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
 from warehouse_viewer.replay.live import LiveRecording
-from warehouse_viewer.replay.memory import SECONDS
 from warehouse_viewer.replay.live_figures import LiveFigures
+from warehouse_viewer.replay.memory import SECONDS
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed

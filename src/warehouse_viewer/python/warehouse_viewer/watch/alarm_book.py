@@ -64,7 +64,7 @@ class Alarm:
     actions: list[Action] = field(default_factory=list)
 
     def is_due(self, now: float) -> bool:
-        """Whether it has lasted long enough to be told."""
+        """Whether it has lasted long enough to be an alarm."""
         return now - self.since >= KINDS[self.trouble.kind].after
 
     def as_json(self, remedies: Iterable[Any] = ()) -> dict[str, Any]:

@@ -153,7 +153,7 @@ class Monitor:
             self._book.note(topic, topic, row)
 
     def figures(self) -> dict[str, Any] | None:
-        """Returns the four figures as JSON has them; None if no shift has told any."""
+        """Returns the four figures as JSON has them; None before the first of a shift."""
         return self._noted.get("figures")
 
     def station(self, station: StationState) -> dict[str, Any]:

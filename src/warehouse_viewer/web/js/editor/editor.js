@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout editor: one drawing, one tool, one brush; what changes is told to listeners.
+// The layout editor: one drawing, one tool, one brush; listeners are notified of changes.
 
 import { $ } from '../base/dom.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';

@@ -14,7 +14,7 @@ const KINDS = { RECEIVED: 'received', ASSIGNED: 'given to', PICKED: 'picked', CO
   UNPICKED: 'put back', REOPENED: 'open again', CHANGED: 'changed to' };
 
 export class OrderDetails {
-  /** `now()`: the simulated time [s]; `done(text)` is told of what was changed. */
+  /** `now()`: the simulated time [s]; `done(text)` is called after a change. */
   constructor(now, done) {
     Object.assign(this, { now, done });
     on($('order-close'), 'click', () => $('order').close());
