@@ -58,7 +58,7 @@ enum class Failure : std::uint8_t {
   kLift = 2,
   /// No scans, and the robot stands, since it does not see people.
   kLaser = 3,
-  /// It receives no commands and reports nothing; it completes the commands that it has.
+  /// It hears and reports nothing; it completes the commands that it has.
   kRadio = 4,
   /// Less grip: it turns and brakes as that allows.
   kWheelSlip = 5,

@@ -24,7 +24,9 @@ from warehouse_layout.generate.generator import CHARGED
 SIDES = (0, 2, 1, 3)  # headings of the sides that get stations: +x, -x, +y, -y
 LANE = 3  # cells of a side that the lane of a station takes
 APART = 1  # free cells between them where stations are on several sides: many share a street
+LEAST_QUEUE = 3  # cells of a lane before its service cell
 BELT_CELLS = 2
+BELTED = {"pick", "both"}  # kinds of stations that have a belt
 MOST_EDGE = 100  # of a block, in cells
 
 
@@ -35,6 +37,16 @@ class Style:
     sides: int = 1  # with stations
     block: tuple[int, int] = (2, 8)  # storage places along y and x
     is_one_way: bool = True
+    first_side: int = 0  # heading of the side that gets the first station
+    more_queue: int = 0  # cells by which lanes are longer, or shorter, than they would be
+    parks_near: bool = False  # whether robots park between stations and storage, or behind it
+    aspect: float = 1.0  # length along x over that along y that is aimed at
+    pick_kind: str = "pick"  # of the picking stations; "both": bundles are put in there as well
+
+    @property
+    def headings(self) -> tuple[int, ...]:
+        """The sides that get stations, by their headings."""
+        return tuple((side + self.first_side) % len(SIDES) for side in SIDES[: self.sides])
 
     def check(self) -> None:
         """Raises RequestError where robots with units couldn't come to every place."""
@@ -82,19 +94,20 @@ class _Kind:
     name: str
 
 
-def _kinds(picks: int, replenish: int, sides: int) -> dict[int, list[_Kind]]:
+def _kinds(picks: int, replenish: int, style: Style) -> dict[int, list[_Kind]]:
     """Returns the stations of each side, by its heading: picking and replenishing spread alike."""
-    out: dict[int, list[_Kind]] = {side: [] for side in SIDES[:sides]}
+    sides = style.headings
+    out: dict[int, list[_Kind]] = {side: [] for side in sides}
     for i in range(picks):
-        out[SIDES[i % sides]].append(_Kind("pick", f"pick{i + 1}"))
+        out[sides[i % len(sides)]].append(_Kind(style.pick_kind, f"pick{i + 1}"))
     for i in range(replenish):
-        out[SIDES[(picks + i) % sides]].append(_Kind("replenish", f"replenish{i + 1}"))
+        out[sides[(picks + i) % len(sides)]].append(_Kind("replenish", f"replenish{i + 1}"))
     return out
 
 
 def _plans(request: Request, replenish: int, style: Style) -> Iterator["_Plan"]:
     """Yields candidates: rows of blocks, and as many columns as that needs."""
-    kinds = _kinds(request.belts, replenish, style.sides)
+    kinds = _kinds(request.belts, replenish, style)
     places = places_for(request.shelves)
     blocks = math.ceil(max(request.robots + places, 1) / math.prod(style.block))
     for rows in _row_counts(blocks, kinds, style):
@@ -153,7 +166,8 @@ class _Plan:
     @cached_property
     def queue(self) -> int:
         """Cells of a lane before its service cell: more of them where ways are long."""
-        return max(QUEUE, WAIT + math.ceil((self.street_x[-1] + self.street_y[-1]) / FETCH))
+        most = max(QUEUE, WAIT + math.ceil((self.street_x[-1] + self.street_y[-1]) / FETCH))
+        return max(most + self.style.more_queue, LEAST_QUEUE)
 
     @cached_property
     def corner(self) -> tuple[int, int]:
@@ -169,7 +183,7 @@ class _Plan:
 
     def _margin(self, side: int) -> int:
         kinds = [station.kind for station in self.kinds.get(side, ())]
-        return (self.queue if kinds else 0) + (BELT_CELLS if "pick" in kinds else 0)
+        return (self.queue if kinds else 0) + (BELT_CELLS if set(kinds) & BELTED else 0)
 
     def fits(self, width: int, height: int) -> bool:
         """Returns whether a count of cells has room for it."""
@@ -177,9 +191,10 @@ class _Plan:
         return rows <= height and columns <= width
 
     def cost(self) -> float:
-        """Returns the area in cells, times the square root of length over width."""
+        """Returns the area in cells, times the square root of how far from its aspect it is."""
         height, width = self.shape
-        return width * height * math.sqrt(max(width / height, height / width))
+        ratio = width / height / self.style.aspect
+        return width * height * math.sqrt(max(ratio, 1 / ratio))
 
     # --- drawing
 
@@ -228,7 +243,7 @@ class _Plan:
                     inside[y, x] = up if is_ahead else down
 
     def _draw_places(self, inside: np.ndarray) -> None:
-        """Draws storage in the blocks nearest to the stations, and parking behind it.
+        """Draws storage in the blocks nearest to the stations, and parking behind it or before.
 
         Stations on several sides need a longer edge than storage needs room: what no robot parks
         on in the middle is not a floor then.
@@ -237,21 +252,25 @@ class _Plan:
         blocks[self.street_y] = blocks[:, self.street_x] = False
         cells = np.argwhere(blocks.T)[:, ::-1]
         cells = cells[np.argsort(-self._far(*cells.T), kind="stable")]
-        storage, others = np.split(cells[::-1], [places_for(self.request.shelves)])
-        parking = others[::-1] if self.style.sides == 1 else others[: self.request.robots][::-1]
+        robots = self.request.robots
+        near = robots if self.style.parks_near else 0
+        ends = [near, near + places_for(self.request.shelves)]
+        front, storage, others = np.split(cells[::-1], ends)
+        behind = others if self.style.sides == 1 else others[: robots - near]
+        parking = np.concatenate([behind[::-1], front])
         inside[tuple(storage.T)] = lf.STORAGE
         inside[tuple(parking.T)] = lf.PARKING
         count = min(math.ceil(CHARGED * self.request.robots - 1e-9), len(parking))
         charging = parking[np.arange(count) * len(parking) // max(count, 1)]
         inside[tuple(charging.T)] = lf.CHARGING
-        if len(parking) < len(others):
+        if len(behind) < len(others):
             used = np.concatenate([storage, parking])
             self._draw_hole(inside, int(self._far(*used.T).max()))
 
     def _far(self, y: np.ndarray, x: np.ndarray) -> np.ndarray:
         """Returns how many cells lie between cells and the nearest side with stations."""
         ends = self.street_x[-1] - x, self.street_y[-1] - y, x, y
-        return np.min([ends[side] for side in SIDES[: self.style.sides]], axis=0)
+        return np.min([ends[side] for side in self.style.headings], axis=0)
 
     def _draw_hole(self, inside: np.ndarray, depth: int) -> None:
         """Leaves out the streets that are more than `depth` cells away from all stations."""
@@ -299,7 +318,7 @@ class _Plan:
             floor[y, x] = lf.FLOOR
         out = np.subtract(station.queue[-1], station.queue[-2])
         along = np.subtract(station.service, station.queue[-1])
-        if station.kind == "pick":
+        if station.kind in BELTED:
             for i in range(BELT_CELLS):
                 x, y = station.service + (i + 1) * out
                 floor[y, x] = lf.BELT

@@ -77,9 +77,9 @@ def _stations_for(picks: int) -> int:
     return math.ceil(picks / PICKS_TO_REPLENISH)
 
 
-def with_lanes(ground: Ground, picks: int) -> Iterator[Site]:
-    """Yields sites whose stations have lanes with queues."""
-    stations = picks + _stations_for(picks)
+def with_lanes(ground: Ground, picks: int, replenish: int | None = None) -> Iterator[Site]:
+    """Yields sites whose stations have lanes with queues. replenish: None: as picks take."""
+    stations = picks + (_stations_for(picks) if replenish is None else replenish)
     for shift in ground.shifts if picks else ():
         is_street = _streets_of(ground, shift)
         lanes = _Lanes(is_street & ground.free, ground, shift)

@@ -4,6 +4,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,9 @@ from warehouse_layout.place import file_check
 LEAST, MOST = 8, 1000  # cells of an edge
 PILLAR = 9  # cells of the largest thing that a floor may be laid around
 TRIES = 24  # places in which a floor is tried
+ROOMS = 3  # rectangles that are told apart
+SHARE, ALIKE = 0.3, 0.6  # of the largest one that another has at least; of it in a larger one
+Room = tuple[int, int, int, int]  # column, row, width, height
 
 
 class BuildingError(ValueError):
@@ -55,9 +59,18 @@ class Building:
         inside = ~np.isin(self.file.floor, [lf.NO_FLOOR, lf.WALL])
         return float(inside.sum()) * self.file.spacing**2
 
-    def room(self) -> tuple[int, int, int, int]:
-        """Returns the largest rectangle, (column, row, width, height), with pillars in it."""
-        return largest_rectangle(self._without_pillars())
+    @cached_property
+    def rooms(self) -> list[Room]:
+        """The largest rectangles of it, with pillars in them: those of an L have an arm each."""
+        every = sorted(rectangles(self._without_pillars()), key=lambda room: -room[2] * room[3])
+        out: list[Room] = []
+        for room in every:
+            area = room[2] * room[3]
+            if len(out) == ROOMS or area < SHARE * out[0][2] * out[0][3] if out else not area:
+                break
+            if all(_shared(room, other) <= ALIKE * area for other in out):
+                out.append(room)
+        return out
 
     def _without_pillars(self) -> np.ndarray:
         """Returns the free cells, small things within them included."""
@@ -69,9 +82,10 @@ class Building:
         small[edge] = small[0] = False
         return self.free | small[labels]
 
-    def filled(self, floor: LayoutFile) -> LayoutFile | None:
-        """Returns the building with a floor in it where a fleet can work there; None if nowhere."""
-        column, row, width, height = self.room()
+    def filled(self, floor: LayoutFile, room: Room) -> LayoutFile | None:
+        """Returns the building with a floor in a room of it where a fleet can work there; None if
+        nowhere."""
+        column, row, width, height = room
         rows, columns = floor.floor.shape
         if columns > width or rows > height:
             return None
@@ -125,16 +139,24 @@ def _moved(station: StationEntry, x: int, y: int) -> StationEntry:
     )
 
 
-def largest_rectangle(free: np.ndarray) -> tuple[int, int, int, int]:
-    """Returns the largest rectangle of free cells, (column, row, width, height)."""
-    best = (0, 0, 0, 0)
+def rectangles(free: np.ndarray) -> set[Room]:
+    """Returns rectangles of free cells that can't be made longer, wider or higher; some others."""
+    out = set()
     heights = np.zeros(free.shape[1], int)
     for row, line in enumerate(free):
         heights = np.where(line, heights + 1, 0)
         for column, width, height in _under(heights.tolist()):
-            if width * height > best[2] * best[3]:
-                best = (column, row - height + 1, width, height)
-    return best
+            out.add((column, row - height + 1, width, height))
+    return out
+
+
+def _shared(first: Room, second: Room) -> int:
+    """Returns how many cells two rectangles have in common."""
+    across, along = (
+        min(first[i] + first[i + 2], second[i] + second[i + 2]) - max(first[i], second[i])
+        for i in (0, 1)
+    )
+    return max(across, 0) * max(along, 0)
 
 
 def _under(heights: list[int]) -> Iterator[tuple[int, int, int]]:

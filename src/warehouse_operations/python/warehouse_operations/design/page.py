@@ -8,14 +8,18 @@ from pathlib import Path
 from warehouse_layout.drawing import draw
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import SUFFIX
-from warehouse_operations.design.search import Candidate, Search
+from warehouse_operations.design.candidate import Candidate
+from warehouse_operations.design.plans import OUTLINE, policies_of
+from warehouse_operations.design.search import Search
 from warehouse_operations.document import page, sheets
 from warehouse_operations.runs.version import version
+from warehouse_operations.sizing.wish import count
 
 FRONT, REPORT, BEST = "front.csv", "report.html", f"best{SUFFIX}"
 HEAD = (
     "layout", "to buy", "cost a piece", "late %", "robots", "stations", "replenishing", "units",
-    "block", "one-way", "sides", "policies", "contacts",
+    "plan", "block", "one-way", "sides", "policies", "contacts", "pieces of ideal %",
+    "unseen cost a piece", "± cost", "unseen late %", "± late %",
 )  # fmt: skip
 DRAWN = 4  # layouts that the report shows
 
@@ -34,6 +38,8 @@ def write(folder: Path, search: Search, front: Sequence[Candidate], why: str) ->
 
 def _row(number: int, candidate: Candidate) -> list[object]:
     chosen, bill = candidate.chosen, candidate.bill
+    is_outline = chosen["plan"] == OUTLINE
+    cost, late = candidate.unseen_cost, candidate.unseen_late
     return [
         f"front-{number}{SUFFIX}",
         round(bill.to_buy, 2),
@@ -43,31 +49,62 @@ def _row(number: int, candidate: Candidate) -> list[object]:
         candidate.stations,
         chosen["replenish"],
         chosen["units"],
-        f"{chosen['depth']}x{chosen['length']}",
-        chosen["one_way"],
-        chosen["sides"],
-        ", ".join(f"{role}: {name}" for role, name in chosen["policies"].items()),
+        chosen["plan"],
+        "2x8" if is_outline else f"{chosen['depth']}x{chosen['length']}",
+        not is_outline and chosen["one_way"],
+        "" if is_outline else chosen["sides"],
+        ", ".join(f"{role}: {name}" for role, name in policies_of(chosen).items()),
         "" if candidate.contacts is None else candidate.contacts,
+        "" if candidate.traffic is None else round(100 * candidate.traffic, 1),
+        round(cost.mean, 6),
+        round(cost.half, 6),
+        round(100 * late.mean, 4),
+        round(100 * late.half, 4),
     ]
 
 
 def answer(search: Search, front: Sequence[Candidate]) -> str:
-    """Returns the answer as a sentence."""
+    """Returns the answer in sentences: what stands there, what it costs, and how sure that is."""
     best = front[0]
-    contacts = "" if best.contacts is None else f" Simulated robots had {best.contacts} contacts."
-    return (
-        f"{best.robots} robots, {best.stations} picking stations and {best.chosen['units']} storage"
-        f" units: {100 * best.late:.2f} % of the orders are late, {100 * search.late:g} % may be."
-        f" {best.bill.text()}{contacts}"
+    puts = (
+        f"{count(best.chosen['replenish'], 'replenishing station')}"
+        if best.chosen["replenish"]
+        else "bundles put in at these"
     )
+    return (
+        f"{count(best.robots, 'robot')}, {count(best.stations, 'picking station')}, {puts},"
+        f" {count(best.chosen['units'], 'storage unit')}. {best.bill.text()} {_sure(search, best)}"
+        f"{_physics(best)}"
+    )
+
+
+def _sure(search: Search, best: Candidate) -> str:
+    """Returns what days say that had no part in the choice."""
+    cost, late, limit = best.unseen_cost, best.unseen_late, search.late
+    if late.mean > limit:
+        word = "the limit is missed"
+    else:
+        word = "in time" if late.mean + late.half <= limit else "in time on the average, not surely"
+    return (
+        f"On {late.count} days that the search did not see, {100 * late.mean:.2f} ±"
+        f" {100 * late.half:.2f} % of the orders are late, {100 * limit:g} % may be ({word}); a"
+        f" piece costs {cost.mean:.4f} ± {cost.half:.4f}."
+    )
+
+
+def _physics(best: Candidate) -> str:
+    if best.contacts is None:
+        return ""
+    share = f", and pick {100 * best.traffic:.0f} % of the pieces" if best.traffic else ""
+    return f" Simulated robots have {count(best.contacts, 'contact')}{share}."
 
 
 def effort(search: Search) -> str:
     """Returns what the search took."""
     return (
-        f"{search.trials} trials, {search.by_hand} of them without a shift; {search.shifts} shifts,"
-        f" {search.simulated} of them simulated in this run in {search.wall_s / 3600:.2f} h of"
-        f" computing."
+        f"{search.trials} trials by short shifts, {search.by_hand} without a shift;"
+        f" {search.shifts} shifts, {search.simulated} of them simulated in this run;"
+        f" {search.cpu_s / 3600:.3f} CPU hours in all."
     )
 
 

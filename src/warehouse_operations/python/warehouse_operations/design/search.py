@@ -1,74 +1,67 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The search for layouts, in stages, each of which leaves fewer and judges them longer.
+"""The search for layouts, in rounds of two stages, and two more at the end.
 
-1. By hand: what has no room, or too few stations for the day's pieces, is not simulated.
-2. Ideal and short: a shift of ideal robots up to the end of the busiest hour. Optuna chooses what
-   is tried next (several objectives: to buy, cost a piece; constraint: late orders).
-3. Ideal and whole: the best by whole days, with the same seeds for all.
-4. Physics: the last five.
+By hand: what has no room, or would cost more than a layout that is known to do, is not simulated.
+1. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
+   `layout new` makes them, then what Optuna proposes (objectives: to buy, cost a piece;
+   constraint: late orders), then neighbours of the best with less to pay.
+2. Ideal and whole: the cheapest by whole days, with the same seeds for all. What is late gets
+   robots, what is not loses one. What a short shift took for able and days do not is not followed.
+3. Physics: those of the front.
+4. Unseen: the front by seeds of which none had a part in its choice; they decide nothing more.
 
 Trials are asked for in batches of the same size on any number of cores, and the budget counts
-simulated robot-hours: so the answer depends on arguments and seed alone. Shifts are kept; started
+simulated pieces: so the answer depends on arguments and seed alone. Shifts are kept; started
 again, a search comes by the same trials without simulating them again.
 """
 
+import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, wait
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from warehouse_layout.file.layout_file import LayoutFile
-from warehouse_operations.design.plans import Space
+from warehouse_operations.design.candidate import Candidate, Judge, beats, front, robots_of
+from warehouse_operations.design.plans import MANY_ROBOTS, Chosen, Space
 from warehouse_operations.sizing import point as shift
-from warehouse_operations.sizing.costs import Bill, Costs, LayoutCosts
+from warehouse_operations.sizing import sites
+from warehouse_operations.sizing.costs import Bill, Costs
 from warehouse_operations.sizing.day import RUN_IN
 from warehouse_operations.sizing.point import Point, Record
 from warehouse_operations.sizing.store import Store
-from warehouse_operations.sizing.verdict import Verdict
-from warehouse_operations.sizing.wish import Wish, WishError
+from warehouse_operations.sizing.wish import Wish, WishError, count
 
 BATCH = 4  # trials that are asked for together
-SECONDS_A_ORDER = 0.012  # of a core, about, that an order of an ideal shift takes
-FIRST_SHARE = 0.6  # of the budget, for the short shifts
-LAST, WHOLE = 5, 12  # layouts that physics sees, and that have whole days
-SEEDS = (101, 102, 103)  # of the whole days: none that the search saw
+# Seconds of a core, about, that an ideal shift takes, and each of its pieces.
+SECONDS_A_SHIFT, SECONDS_A_PIECE = 0.1, 0.0003
+ROUNDS = 4
+SHORT_SHARE = 0.5  # of a round's budget, for the short shifts
+PROPOSING = 2  # rounds in which Optuna proposes; in the others neighbours are tried
+LAST = 5  # layouts that physics sees at most
+RESCUES = 3  # batches of whole days, at most, beyond the budget where nothing is in time
 SEARCH_SEED = 1
-TRIED = 0.35  # of short shifts: more late orders than that are as bad as any
-MOST_TRIALS = 2000
-
-
-@dataclass
-class Candidate:
-    """A layout that was judged. late: share of the orders, by the longest shifts it had.
-
-    contacts: of simulated robots; None: it was not simulated with physics.
-    """
-
-    number: int
-    chosen: Mapping[str, Any]
-    file: LayoutFile
-    late: float
-    bill: Bill
-    verdict: Verdict | None = None
-    contacts: int | None = None
-
-    @property
-    def robots(self) -> int:
-        """How many robots it has."""
-        return int(self.chosen["robots"])
-
-    @property
-    def stations(self) -> int:
-        """How many picking stations it has."""
-        return int(self.chosen["stations"])
+SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days: none that the search saw
+UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
+ASKED = 500  # batches of trials a round, at most
+SAME, HOPELESS = 2, 8  # layouts with the same stations: in a batch, and late until they are left
+PARENTS = 3  # layouts whose neighbours are tried
+SHORT, WHOLE = "short shifts", "whole days"
+WORST = 1e12  # price, and cost a piece, of a layout without room
+RISK = 0.05  # that more orders are late than may be, where a layout goes on
 
 
 @dataclass(eq=False)
 class Search:
-    """Searches a Space. hours: of a core, about. on_shift(done, text): after each shift."""
+    """Searches a Space. hours: of a core, about. on_shift(done, text): after each shift.
+
+    is_random: parameters by chance alone, with the same budget. physics_hours: of the simulated
+    shift of each of the last layouts; 0: none.
+    """
 
     space: Space
     costs: Costs
@@ -81,39 +74,77 @@ class Search:
     is_random: bool = False
     physics_hours: float = 0.0
     on_shift: Callable[[float, str], object] = lambda *_: None
-    trials: int = 0
+    trials: int = 0  # with a shift
     shifts: int = 0
-    wall_s: float = 0.0
+    cpu_s: float = 0.0  # of all its shifts, kept ones too
     simulated: int = 0  # shifts that were not kept from before
     by_hand: int = 0  # trials that were given up without a shift
-    candidates: list[Candidate] = field(default_factory=list)
     importance: dict[str, float] = field(default_factory=dict)
+    _known: dict[str, Candidate | None] = field(default_factory=dict)
+    _beaten: dict[str, Bill] = field(default_factory=dict)  # of those that cost more than others
+    _days: dict[str, Candidate] = field(default_factory=dict)  # judged by whole days
+    _beside: list[Candidate] = field(default_factory=list)  # to be judged by whole days, too
+    _spent: float = 0.0  # of the budget [s]
+    _stage: str = SHORT
 
     def run(self) -> list[Candidate]:
         """Returns the layouts that had whole days, the cheapest that keeps the limit first; []
         where no layout has room for a fleet at all."""
-        self._search()
-        best = self._whole(self._best(WHOLE))
+        study, rng = self._study(), np.random.default_rng(self.seed)
+        for number in range(ROUNDS):
+            proposes = self.is_random or number < PROPOSING
+            self._stage = SHORT
+            end = self.budget * (number + SHORT_SHARE) / ROUNDS
+            self._short(end, study if proposes else None, rng)
+            self._stage = WHOLE
+            self._whole(self.budget * (number + 1) / ROUNDS)
+        self.importance = _importance(study)
+        for _ in range(RESCUES):
+            if any(each.late <= self.late for each in self._days.values()):
+                break
+            self._judge_days(self._least_late())
+        best = sorted(
+            self._days.values(),
+            key=lambda each: (each.late > self.late, each.bill.a_piece, each.number),
+        )
+        chosen = front(best, self.late)[:LAST]
         if self.physics_hours:
-            self._with_physics(best[:LAST])
+            self._stage = "physics"
+            self._with_physics(chosen)
+        self._stage = "unseen seeds"
+        self.test(chosen)
         return best
 
-    # The search.
+    @cached_property
+    def judge(self) -> Judge:
+        """What judges layouts by their shifts."""
+        return Judge(self.costs, self.space.day, self.late, self.space.building.file)
+
+    # The budget.
 
     @property
-    def most_trials(self) -> int:
-        """How many trials the budget has room for."""
-        orders = self.space.day.orders * self._short_hours / max(self.space.day.hours, 1.0)
-        seconds = FIRST_SHARE * 3600 * self.hours
-        return min(max(int(seconds / (SECONDS_A_ORDER * max(orders, 1.0))), BATCH), MOST_TRIALS)
+    def budget(self) -> float:
+        """Seconds of a core, about, for short shifts and whole days: some batches at least."""
+        whole = len(SEEDS + MORE_SEEDS) * self._seconds(self.space.day.hours)
+        least = BATCH * (2 * self._seconds(self._short_hours) + whole)
+        return max(3600 * self.hours, least)
+
+    def _seconds(self, hours: float) -> float:
+        """Returns what a shift takes of a core, about [s]."""
+        by_hour = list(self.space.day.by_hour)
+        orders = sum(by_hour[: math.ceil(hours)]) + by_hour[0] * RUN_IN / 60
+        return SECONDS_A_SHIFT + SECONDS_A_PIECE * orders * self.space.day.pieces_per_order
 
     @property
     def _short_hours(self) -> float:
-        """Hours up to the end of the busiest each."""
+        """Hours up to the end of the busiest one."""
         by_hour = list(self.space.day.by_hour)
         return float(min(by_hour.index(max(by_hour)) + 1, len(by_hour)))
 
-    def _search(self) -> None:
+    # The search by short shifts.
+
+    def _study(self) -> Any:
+        """Returns a study of Optuna, which begins with the floors that are tried first."""
         import optuna
 
         optuna.logging.set_verbosity(optuna.logging.ERROR)
@@ -123,120 +154,213 @@ class Search:
             if self.is_random
             else samplers.TPESampler(seed=self.seed, n_startup_trials=3 * BATCH)
         )
-        study = optuna.create_study(directions=["minimize"] * 3, sampler=sampler)
-        known: dict[str, Candidate | None] = {}
-        while self.trials < self.most_trials:
-            trials = [study.ask() for _ in range(min(BATCH, self.most_trials - self.trials))]
+        study = optuna.create_study(directions=["minimize"] * 2, sampler=sampler)
+        if not self.is_random:
+            for start in self.space.starts():
+                study.enqueue_trial(start)
+        return study
+
+    def _short(self, end: float, study: Any, rng: np.random.Generator) -> None:
+        """Judges layouts by short shifts until a part of the budget is spent: what a study
+        proposes, or without it neighbours of the best."""
+        for _ in range(ASKED):
+            if self._spent >= end:
+                break
+            if study is None:
+                self._judge_short(self._neighbours(rng))
+                continue
+            trials = [study.ask() for _ in range(BATCH)]
             chosen = [self.space.choose(trial) for trial in trials]
-            fresh = {str(each): each for each in chosen if str(each) not in known}
-            known |= self._judged(fresh)
+            self._judge_short(chosen)
             for trial, parameters in zip(trials, chosen):
-                self.trials += 1
-                self._tell(study, trial, known[str(parameters)])
-        self.candidates = [candidate for candidate in known.values() if candidate]
-        self.importance = _importance(study)
+                self._tell(study, trial, self._known[self.space.known_as(parameters)])
 
     def _tell(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
         """Tells Optuna what came of a trial: a layout without room is as bad as can be."""
-        late = candidate.late if candidate else 1.0
-        worst = LayoutCosts(self.costs, self.space.building.file, 1000).bill(1000, 50, 1, 1)
-        bill = candidate.bill if candidate else worst
-        trial.set_constraint("late", late - self.late)
-        study.tell(trial, [bill.to_buy, bill.a_piece, max(late, self.late)])
+        if candidate is None:
+            bill = self._beaten.get(self.space.known_as(trial.params))
+            trial.set_constraint("late", 0.0 if bill else 1.0)
+            study.tell(trial, [bill.to_buy, bill.a_piece] if bill else [WORST, WORST])
+            return
+        trial.set_constraint("late", candidate.late - self.late)
+        study.tell(trial, [candidate.bill.to_buy, candidate.bill.a_piece])
 
-    def _judged(self, fresh: Mapping[str, Mapping[str, Any]]) -> dict[str, Candidate | None]:
-        """Returns the candidates of new parameters, judged by a short shift each."""
-        files = {key: self.space.file_of(chosen) for key, chosen in fresh.items()}
+    def _neighbours(self, rng: np.random.Generator) -> list[dict[str, Any]]:
+        """Returns neighbours of the best: with less to pay where they are in time, else more."""
+        able = [each for each in self._known.values() if each and self._is_able(each)]
+        parents = sorted(able, key=lambda each: (each.bill.a_piece, each.number))[:PARENTS]
+        if not parents:
+            judged = [each for each in self._known.values() if each]
+            parents = sorted(judged, key=lambda each: (each.late, each.number))[:PARENTS]
+        return [
+            self.space.neighbour(parent.chosen, rng, self._is_able(parent))
+            for parent in itertools.islice(itertools.cycle(parents), BATCH)
+        ]
+
+    def _is_able(self, each: Candidate) -> bool:
+        """Returns whether a candidate is in time by all that is known."""
+        return each.late <= self.late and not self._is_refuted(each)
+
+    def _is_refuted(self, each: Candidate) -> bool:
+        """Returns whether days speak against a layout: of those with the same stations none was in
+        time, and as many robots were late, or so many that more would not help."""
+        alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
+        if not alike or any(day.late <= self.late for day in alike):
+            return False
+        most = max(day.robots for day in alike)
+        is_hopeless = len(alike) >= HOPELESS or most >= MANY_ROBOTS * each.stations
+        return is_hopeless or each.robots <= most
+
+    def _judge_short(self, chosen: Sequence[Chosen]) -> None:
+        """Judges parameters that are new by a short shift each."""
+        fresh = {self.space.known_as(each): each for each in chosen}
+        fresh = {key: each for key, each in fresh.items() if key not in self._known}
+        files: dict[str, LayoutFile] = {}
         points: dict[str, Point] = {}
-        for key, file in files.items():
-            if file is not None and (made := self._points(file, (SEARCH_SEED,), True)):
-                points[key] = made[0]
+        for key, each in fresh.items():
+            self._known[key] = None
+            file = self.space.file_of(each)
+            if file is None:
+                continue
+            if self._costs_more(file):
+                self._beaten[key] = self.judge.bill(file)
+                continue
+            if made := self._points(file, (SEARCH_SEED,), True):
+                files[key], points[key] = file, made[0]
         self.by_hand += len(fresh) - len(points)
-        records = dict(zip(points, self._shifts(list(points.values()))))
-        out: dict[str, Candidate | None] = dict.fromkeys(fresh)
-        for key, record in records.items():
-            file = files[key]
-            assert file is not None
-            number = self.trials + 1 + list(fresh).index(key)
-            out[key] = self._candidate(number, fresh[key], file, [record])
+        self._spent += len(points) * self._seconds(self._short_hours)
+        for key, record in zip(points, self._shifts(list(points.values()))):
+            self.trials += 1
+            self._known[key] = self.judge.judged(self.trials, fresh[key], files[key], [record])
+
+    def _costs_more(self, file: LayoutFile) -> bool:
+        """Returns whether a layout would be beaten by one with whole days if all went well."""
+        bill = self.judge.bill(file)
+        return any(day.late <= self.late and beats(day.bill, bill) for day in self._days.values())
+
+    # Whole days.
+
+    def _whole(self, end: float) -> None:
+        """Judges the cheapest by whole days until a part of the budget is spent."""
+        while self._spent < end:
+            known = [each for each in self._known.values() if each and each.late <= self.late]
+            queue = [each for each in (*known, *self._beside) if self._is_open(each)]
+            queue.sort(key=lambda each: (each.bill.a_piece, each.number))
+            batch = _mixed(queue)
+            if not batch:
+                break
+            self._judge_days(batch)
+
+    def _is_open(self, each: Candidate) -> bool:
+        """Returns whether whole days of a candidate could still change the front."""
+        if self.space.known_as(each.chosen) in self._days or self._is_refuted(each):
+            return False
+        return not any(
+            other.late <= self.late and beats(other.bill, each.bill)
+            for other in self._days.values()
+        )
+
+    def _least_late(self) -> list[Candidate]:
+        """Returns candidates that are late least by short shifts, with the most stations."""
+        left = [
+            each
+            for key, each in self._known.items()
+            if each and key not in self._days and not self._is_refuted(each)
+        ]
+        left.sort(key=lambda each: (each.late, -each.stations, -each.robots, each.number))
+        return left[:BATCH]
+
+    def _judge_days(self, batch: Sequence[Candidate]) -> None:
+        """Judges candidates by whole days, and notes which may follow from them."""
+        for each in self.by_whole_days(batch):
+            key = self.space.known_as(each.chosen)
+            self._days[key] = self._known[key] = each
+            self._beside += self._with_other_robots(each)
+
+    def _with_other_robots(self, each: Candidate) -> list[Candidate]:
+        """Returns candidates with one robot or half as many more than one that is late, or one less
+        than one that is not."""
+        out = []
+        robots = self.space.parameters["robots"]
+        steps = (1, max(2, each.robots // 2)) if each.late > self.late else (-1,)
+        for more in () if self.is_random else steps:
+            chosen = dict(each.chosen) | {"robots": each.robots + more}
+            if not robots[0] <= each.robots + more <= robots[-1]:
+                continue
+            file = self.space.file_of(chosen)
+            if file is not None and self.space.known_as(chosen) not in self._days:
+                out.append(Candidate(each.number, chosen, file, 0.0, self.judge.bill(file)))
         return out
 
-    def _wish(self, file: LayoutFile, short: bool) -> Wish:
-        day = self.space.day
-        hours = self._short_hours if short else day.hours
-        return Wish(
-            file, day.orders_per_hour, late=self.late, hours=hours, day=day, realism=self.realism
-        )
+    def by_whole_days(self, batch: Sequence[Candidate]) -> list[Candidate]:
+        """Returns candidates judged by whole days: more of those that are in time so far. late is
+        its upper limit then."""
+        records = self._records(batch, SEEDS)
+        judged = [
+            self.judge.judged(each.number, each.chosen, each.file, mine)
+            for each, mine in zip(batch, records)
+        ]
+        going = [i for i, each in enumerate(judged) if each.late <= self.late]
+        for i, more in zip(going, self._records([batch[i] for i in going], MORE_SEEDS)):
+            each = batch[i]
+            judged[i] = self.judge.judged(each.number, each.chosen, each.file, [*records[i], *more])
+            verdict = judged[i].verdict
+            assert verdict is not None
+            judged[i].late = max(verdict.limit(RISK, 1), 0.0)
+        return judged
 
-    def _points(self, file: LayoutFile, seeds: Sequence[int], short: bool) -> list[Point]:
-        try:
-            wish = self._wish(file, short)
-            stations = len(wish.stations)
-            return wish.points(_robots(file), stations, seeds)
-        except WishError:
-            return []
+    def by_short_shifts(self, candidates: Sequence[Candidate]) -> list[Candidate]:
+        """Returns candidates judged by a short shift each."""
+        points = [self._points(each.file, (SEARCH_SEED,), True)[0] for each in candidates]
+        return [
+            self.judge.judged(each.number, each.chosen, each.file, [record])
+            for each, record in zip(candidates, self._shifts(points))
+        ]
 
-    def _candidate(
-        self, number: int, chosen: Mapping[str, Any], file: LayoutFile, records: list[Record]
-    ) -> Candidate:
-        verdict = Verdict(
-            int(chosen["robots"]), int(chosen["stations"]), tuple(records), self.late,
-            len(records), RUN_IN, True,
-        )  # fmt: skip
-        late = float(np.mean([figures["late"] for figures in verdict.figures]))
-        # What is done in all of the day: a short shift has its busiest hours alone.
-        day = self.space.day
-        orders = day.orders / day.hours * (1 - late)
-        priced = LayoutCosts(self.costs, self.space.building.file, int(chosen["units"]))
-        priced.replenishing = int(chosen["replenish"])
-        priced.chargers = LayoutCosts(self.costs, file, 0).chargers
-        bill = priced.bill(
-            verdict.robots,
-            verdict.stations,
-            orders,
-            orders * day.pieces_per_order,
-            verdict.estimate("robots_at_work").mean,
-        )
-        return Candidate(number, chosen, file, late, bill, verdict)
+    def _records(self, batch: Sequence[Candidate], seeds: Sequence[int]) -> list[list[Record]]:
+        """Returns the records of whole days of each candidate."""
+        points = [self._points(each.file, seeds, False) for each in batch]
+        self._spent += len(seeds) * len(batch) * self._seconds(self.space.day.hours)
+        records = iter(self._shifts([point for part in points for point in part]))
+        return [[next(records) for _ in part] for part in points]
 
     # The last stages.
 
-    def _best(self, count: int) -> list[Candidate]:
-        """Returns the candidates that go on: the cheapest a piece of those that are late seldom,
-        then those that are late least."""
-        able = sorted(
-            (each for each in self.candidates if each.late <= 2 * self.late),
-            key=lambda each: (each.bill.a_piece, each.number),
-        )
-        rest = sorted(
-            (each for each in self.candidates if each.late > 2 * self.late),
-            key=lambda each: (each.late, each.number),
-        )
-        return [*able, *rest][:count]
-
-    def _whole(self, candidates: Sequence[Candidate]) -> list[Candidate]:
-        """Returns candidates judged by whole days, those that keep the limit first."""
-        points = {each.number: self._points(each.file, SEEDS, False) for each in candidates}
-        records = iter(self._shifts([point for part in points.values() for point in part]))
-        out = [
-            self._candidate(
-                each.number, each.chosen, each.file, [next(records) for _ in points[each.number]]
-            )
-            for each in candidates
-        ]
-        return sorted(out, key=lambda each: (each.late > self.late, each.bill.a_piece, each.number))
-
     def _with_physics(self, candidates: Sequence[Candidate]) -> None:
-        points = [
-            replace(
-                point, physics=True, run_in=0, minutes=max(math.ceil(60 * self.physics_hours), 1)
-            )
+        """Counts contacts of simulated robots, and what traffic takes of the ideal pieces."""
+        minutes = max(math.ceil(60 * self.physics_hours), 1)
+        ideal = [
+            replace(point, run_in=0, minutes=minutes)
             for each in candidates
             for point in self._points(each.file, SEEDS[:1], False)
         ]
-        for candidate, record in zip(candidates, self._shifts(points)):
+        records = self._shifts([*ideal, *(replace(point, physics=True) for point in ideal)])
+        for candidate, before, record in zip(
+            candidates, records[: len(ideal)], records[len(ideal) :]
+        ):
             counts = [int(fault.split()[0]) for fault in record.faults if "collisions" in fault]
             candidate.contacts = sum(counts)
+            pieces = sum(before.series["pieces"])
+            candidate.traffic = sum(record.series["pieces"]) / pieces if pieces else None
+
+    def test(self, candidates: Sequence[Candidate]) -> None:
+        """Judges candidates by unseen seeds."""
+        for candidate, records in zip(candidates, self._records(candidates, UNSEEN)):
+            self.judge.test(candidate, records)
+
+    # Shifts.
+
+    def _points(self, file: LayoutFile, seeds: Sequence[int], short: bool) -> list[Point]:
+        day = self.space.day
+        hours = self._short_hours if short else day.hours
+        try:
+            wish = Wish(
+                file, day.orders_per_hour, late=self.late, hours=hours, day=day,
+                realism=self.realism,
+            )  # fmt: skip
+            return wish.points(robots_of(file), len(sites.picking_stations(file)), seeds)
+        except WishError:
+            return []
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
         """Returns the Record of each Point, simulating those that are not kept."""
@@ -251,24 +375,34 @@ class Search:
                     record = records[i] = future.result()
                     self.store.put(points[i], record)
                     self.simulated += 1
-                    self.wall_s += record.wall_s
-                    self._show(points[i])
+                    self._show()
         finally:
             for future in pending:
                 future.cancel()
-        return [record for record in records if record is not None]
+        complete = [record for record in records if record is not None]
+        self.cpu_s += sum(record.cpu_s for record in complete)
+        return complete
 
-    def _show(self, point: Point) -> None:
-        kind = "physics" if point.physics else "ideal"
-        text = (
-            f"trial {self.trials} of {self.most_trials}, {self.simulated} shifts ({kind}),"
-            f" {self.wall_s / 3600:.2f} h of computing"
-        )
-        self.on_shift(self.trials / max(self.most_trials, 1), text)
+    def _show(self) -> None:
+        """Shows how far it is, about: the later stages may end sooner."""
+        text = f"{self._stage}: {self.trials} trials, {count(self.simulated, 'shift')} simulated"
+        share = self._spent / self.budget
+        self.on_shift(min(share, 1.0), text)
 
 
-def _robots(file: LayoutFile) -> int:
-    return file.robots if isinstance(file.robots, int) else len(file.robots)
+def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
+    """Returns the next to have whole days, BATCH at most: the cheapest, but few with the same
+    stations."""
+    out: list[Candidate] = []
+    for each in queue:
+        alike = sum(_stations_of(other) == _stations_of(each) for other in out)
+        if alike < SAME and len(out) < BATCH:
+            out.append(each)
+    return out
+
+
+def _stations_of(candidate: Candidate) -> tuple[int, int]:
+    return candidate.stations, int(candidate.chosen["replenish"])
 
 
 def _importance(study: Any) -> dict[str, float]:
@@ -291,21 +425,3 @@ def _importance(study: Any) -> dict[str, float]:
     except (ValueError, RuntimeError):
         return {}
     return {name: float(value) for name, value in shares.items()}
-
-
-def front(candidates: Sequence[Candidate], late: float) -> list[Candidate]:
-    """Returns those that no other each beats in what they cost to buy and a piece: of those that
-    keep the limit, or of all where none does."""
-    able = [each for each in candidates if each.late <= late] or list(candidates)
-
-    def is_beaten(each: Candidate) -> bool:
-        return any(
-            other.bill.to_buy <= each.bill.to_buy
-            and other.bill.a_piece <= each.bill.a_piece
-            and (other.bill.to_buy < each.bill.to_buy or other.bill.a_piece < each.bill.a_piece)
-            for other in able
-        )
-
-    return sorted(
-        (each for each in able if not is_beaten(each)), key=lambda each: each.bill.a_piece
-    )

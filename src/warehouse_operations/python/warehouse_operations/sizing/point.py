@@ -50,7 +50,7 @@ class Point:
 class Record:
     """A shift of a point, minute by minute: a list for each of SERIES.
 
-    faults: sentences, of physics. wall_s: what it took [s].
+    faults: sentences, of physics. wall_s, cpu_s: what it took, by the clock and of the process [s].
     """
 
     robots: int
@@ -60,6 +60,7 @@ class Record:
     series: dict[str, list[float]]
     faults: list[str]
     wall_s: float
+    cpu_s: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Returns what JSON can hold, and Record(**…) is made of."""
@@ -68,7 +69,7 @@ class Record:
 
 def simulate(point: Point) -> Record:
     """Simulates the shift of a Point. Raises what sites.open_shift raises."""
-    began = clock.monotonic()
+    began, began_cpu = clock.monotonic(), clock.process_time()
     file = layout_file.parse(point.layout)
     with sites.open_shift(
         file,
@@ -98,6 +99,7 @@ def simulate(point: Point) -> Record:
             series,
             faults,
             clock.monotonic() - began,
+            clock.process_time() - began_cpu,
         )
 
 

@@ -26,7 +26,7 @@ export const FailureKind = Object.freeze({
   MOTOR: 1, // the drive has no torque, and its brakes close: it stands where it can
   LIFT_STUCK: 2, // the tower stands wherever it is
   LASER_BLIND: 3, // no scans, and the robot stands, since it does not see people
-  RADIO_LOST: 4, // it receives no commands and reports nothing; it completes the commands that it has
+  RADIO_LOST: 4, // it hears and reports nothing; it completes the commands that it has
   WHEEL_SLIPS: 5, // less grip: it turns and brakes as that allows
 });
 

@@ -10,8 +10,12 @@ export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open,
   const next = queue?.[0]?.unit, span = lasting(Math.max(0, now - since));
   if (waiting) return [`unit ${unit} has waited for a person for ${lasting(waiting)}`, waiting >= UNATTENDED ? 'is-bad' : ''];
   if (unit) return [`unit ${unit} is there, for ${span}`, ''];
-  if (next && why) return [`${why}, for ${span}`, activity === 'WAITING' ? 'is-long' : '']; // the server's sentence
-  if (next) return [`waits for unit ${next}, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  if (open && orders?.length) return [`waits for a unit, for ${span}`, activity === 'WAITING' ? 'is-long' : ''];
-  return ['', ''];
+  const text = reasonOf(next, why, open && orders?.length);
+  return text ? [`${text}, for ${span}`, activity === 'WAITING' ? 'is-long' : ''] : ['', ''];
+}
+
+/** The server's sentence while a unit is to come, or what is known without it. */
+function reasonOf(next, why, hasWork) {
+  if (next) return why || `waits for unit ${next}`;
+  return hasWork ? 'waits for a unit' : '';
 }
