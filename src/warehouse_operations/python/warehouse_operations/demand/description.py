@@ -11,7 +11,13 @@ import numpy as np
 
 from warehouse_layout.file.csv_table import CsvTable, fields
 from warehouse_operations.stock.demand_file import Demand, Due
-from warehouse_operations.stock.order_file import NEEDED, OPTIONAL, DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import (
+    NEEDED,
+    OPTIONAL,
+    DemandError,
+    OrderDraft,
+    read_csv,
+)
 
 DAY = 86_400.0  # [s]
 QUANTILES = 21  # of the time until orders are due
@@ -27,7 +33,7 @@ class Orders:
     """
 
     path: str
-    orders: Sequence[Wanted]
+    orders: Sequence[OrderDraft]
     rows: int
     repeated: Sequence[tuple[int, str, str]]
 
@@ -94,7 +100,7 @@ def _shares(counts: Mapping[int, int]) -> dict[int, float]:
     return {n: round(counts[n] / total, 6) for n in sorted(counts)}
 
 
-def due_of(orders: Sequence[Wanted]) -> Due:
+def due_of(orders: Sequence[OrderDraft]) -> Due:
     """Returns the time that orders have until they are due."""
     left = [max(order.due - order.at, 0.0) for order in orders if order.due]
     if not left:

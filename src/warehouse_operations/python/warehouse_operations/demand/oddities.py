@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from warehouse_operations.demand.description import DAY, Orders
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 
 NAMED = 3  # references in a sentence
 MANY = 0.05  # of all orders, that come in the same second
@@ -31,7 +31,7 @@ def oddities(orders: Orders) -> list[str]:
     return [sentence for check in checks for sentence in check(orders)]
 
 
-def _named(orders: Sequence[Wanted]) -> str:
+def _named(orders: Sequence[OrderDraft]) -> str:
     names = ", ".join(order.reference for order in orders[:NAMED])
     return names + (" …" if len(orders) > NAMED else "")
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from warehouse_operations.runs.event_file import Event
 from warehouse_operations.stock.days import check_stock
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 
 if TYPE_CHECKING:
     from warehouse_operations.runs.operations import Operations
@@ -107,7 +107,7 @@ class Director:
         for order in read_csv(event.value):
             self._shift.context.clock.schedule(now + order.at, self._submit, (order, now))
 
-    def _submit(self, argument: tuple[Wanted, float]) -> None:
+    def _submit(self, argument: tuple[OrderDraft, float]) -> None:
         order, begin = argument
         due = order.due + begin if order.due else 0.0
         _, text = self._shift.submit(order.lines, due, order.priority, order.reference)

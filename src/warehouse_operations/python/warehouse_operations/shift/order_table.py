@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from warehouse_operations.shift.order_book import TOO_MANY, OrderBook
 from warehouse_operations.stock import acceptance
-from warehouse_operations.stock.order_file import Fault, Wanted, parse_csv
+from warehouse_operations.stock.order_file import Fault, OrderDraft, parse_csv
 
 MOST_ORDERS = 5_000  # of a table
 
@@ -43,7 +43,7 @@ def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer
     return answer
 
 
-def _faults_of_all(drafts: list[Wanted], book: OrderBook) -> list[Fault]:
+def _faults_of_all(drafts: list[OrderDraft], book: OrderBook) -> list[Fault]:
     """Returns what is wrong with the orders together."""
     if not drafts:
         return [Fault(0, "", "there is no order in it")]
