@@ -17,7 +17,7 @@ from warehouse_layout.place import file_check
 LEAST, MOST = 8, 1000  # cells of an edge
 PILLAR = 9  # cells of the largest thing that a floor may be laid around
 TRIES = 24  # places in which a floor is tried
-ROOMS = 3  # rectangles that are told apart
+MAX_ROOMS = 3  # largest free rectangles of a building in which a floor is laid
 SHARE, ALIKE = 0.3, 0.6  # of the largest one that another has at least; of it in a larger one
 Room = tuple[int, int, int, int]  # column, row, width, height
 
@@ -66,7 +66,7 @@ class Building:
         out: list[Room] = []
         for room in every:
             area = room[2] * room[3]
-            if len(out) == ROOMS or area < SHARE * out[0][2] * out[0][3] if out else not area:
+            if len(out) == MAX_ROOMS or area < SHARE * out[0][2] * out[0][3] if out else not area:
                 break
             if all(_shared(room, other) <= ALIKE * area for other in out):
                 out.append(room)

@@ -173,10 +173,10 @@ class Search:
             chosen = [self.space.choose(trial) for trial in trials]
             self._judge_short(chosen)
             for trial, parameters in zip(trials, chosen):
-                self._tell(study, trial, self._known[self.space.known_as(parameters)])
+                self._report_to_optuna(study, trial, self._known[self.space.known_as(parameters)])
 
-    def _tell(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
-        """Tells Optuna what came of a trial: a layout without room is as bad as can be."""
+    def _report_to_optuna(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
+        """Reports the result of a trial to Optuna: a layout without room gets the WORST cost."""
         if candidate is None:
             bill = self._beaten.get(self.space.known_as(trial.params))
             trial.set_constraint("late", 0.0 if bill else 1.0)

@@ -27,8 +27,8 @@ COMPARED = (
 NOTE = "Means of the runs with half their 95 % confidence interval, where there are several runs."
 INTERVALS = "Means of the runs with 95 % confidence intervals."
 NO_INTERVALS = (
-    "Fewer than three runs don't tell how much of a difference is chance: simulate with three seeds"
-    " or more."
+    "Fewer than three runs don't show how much of a difference is chance: simulate with three"
+    " seeds or more."
 )
 SHORT = {
     PIECES: "pieces an hour",
@@ -126,7 +126,7 @@ def too_few(group: Group) -> str:
     """Returns a clause about a group that has no interval, and how many runs would."""
     count = len(group.runs)
     runs = f"{count} run{'' if count == 1 else 's'}"
-    return f"{runs}: chance can't be told apart; {LEAST} seeds or more can"
+    return f"{runs}: too few to exclude chance; simulate {LEAST} seeds or more"
 
 
 def _differences(groups: Sequence[Group], verdicts: Sequence[Verdict], label: str) -> str:

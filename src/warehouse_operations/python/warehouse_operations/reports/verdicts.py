@@ -19,7 +19,7 @@ from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.runs.run_files import Run
 
 # Names of figures, with their words, factor and digits.
-TOLD: tuple[tuple[str, str, float, int], ...] = (
+COMPARED: tuple[tuple[str, str, float, int], ...] = (
     ("pieces_per_hour", "pieces an hour", 1, 0),
     ("metres_per_piece", "metres driven for a piece", 1, 1),
     ("turnover_s", "minutes from an order's arrival to its completion, median", 1 / 60, 1),
@@ -57,12 +57,12 @@ class Verdict:
 
 
 def verdicts(groups: Sequence[Group]) -> list[Verdict]:
-    """Returns how all groups differ from the first in all figures of TOLD."""
+    """Returns how all groups differ from the first in all figures of COMPARED."""
     cut = warm_up(groups)
     figures = [{run.seed: figures_of(run, cut) for run in group.runs} for group in groups]
     out = []
     for group, its in zip(groups[1:], figures[1:]):
-        for name, words, *_ in TOLD:
+        for name, words, *_ in COMPARED:
             a, b = (
                 {seed: figures_of_run[name] for seed, figures_of_run in all_.items()}
                 for all_ in (figures[0], its)
@@ -88,7 +88,7 @@ def _rows(group: Group) -> np.ndarray:
 
 
 def figures_of(run: Run, cut: int) -> dict[str, float]:
-    """Returns the figures of TOLD of a run without its first intervals.
+    """Returns the figures of COMPARED of a run without its first intervals.
 
     Figures of runs that were written before these series are those of the whole shift.
     """

@@ -101,7 +101,10 @@ class ProgressBar:
 
 
 class ProgressLines(ProgressBar):
-    """Tells programs how far a shift is: {time, of [simulated s], pieces, wall_s}, a line each."""
+    """Writes the progress of a shift for programs, a JSON object a line.
+
+    {time, of [simulated s], pieces, wall_s}
+    """
 
     PERIOD = 0.5  # [s, wall]
 
