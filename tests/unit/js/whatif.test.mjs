@@ -3,7 +3,8 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
+import { fitsOrders, freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
+import { eventsOf, linesOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
 import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
 import { chartOf, topOf } from '../../../src/warehouse_viewer/web/js/whatif/whiskers.js';
@@ -27,12 +28,29 @@ test('only what is not the same differs', () => {
   assert.deepEqual(differences([first, first], USUAL), []);
 });
 
+test('events are lines of a field', () => {
+  const lines = ['2:00:00 close pick1', '90m robots +2', '3h fail 20% for 30m', '600 fail robot 7', '1h picker pick2 14 2', '5m sku_out bolt m8'];
+  const events = eventsOf(`${lines.join('\n')}\n\n  `);
+  assert.deepEqual(events[2], { at: '3h', fail: '20%', for: '30m' });
+  assert.deepEqual(events[4], { at: '1h', picker: { station: 'pick2', seconds_a_piece: 14, pickers: 2 } });
+  assert.deepEqual(linesOf(events), lines);
+  assert.deepEqual(linesOf(undefined), []);
+  assert.deepEqual(eventsOf('close'), [{ at: 'close', '': '' }]); // the server says what is wrong
+});
+
+test('files are offered for the orders that they hold', () => {
+  assert.deepEqual(['file', 'day', 'demand'].map((kind) => fitsOrders(kind, 'a.csv')), [true, true, false]);
+  assert.equal(fitsOrders('demand', 'a.demand.yaml'), true);
+});
+
 test('orders of the form are those of simulate', () => {
-  for (const orders of ['fill', 'mix:300:1.55x1.05', 'monday.csv', 'poisson:20', 'fill:9']) {
+  for (const orders of ['fill', 'mix:300:1.55x1.05', 'monday.csv', 'poisson:20', 'fill:9', 'day:monday.csv', 'demand:a.demand.yaml*1.3']) {
     assert.equal(ordersText(partsOf(orders)), orders);
   }
   assert.equal(ordersOf('mix:1200:1.55x1.05'), '1,200 orders an hour');
   assert.equal(ordersOf('monday.csv'), 'orders of monday.csv');
+  assert.equal(ordersOf('day:monday.csv'), 'the day of monday.csv');
+  assert.equal(ordersOf('demand:day.demand.yaml*1.3'), 'days as day, × 1.3');
 });
 
 test('names are free, and the picks are in the address', () => {

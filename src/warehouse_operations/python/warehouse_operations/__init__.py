@@ -19,6 +19,7 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     runs      whole shifts in folders: simulate, sweep
     demand    a day of orders, described: its peak, its oddities
     reports   figures, comparisons, charts, pages
+    slotting  which SKUs lie together, and what that gains
     sizing    numbers of robots and stations for a wish or a day, with costs
     design    layouts that a search finds
     ros       the nodes

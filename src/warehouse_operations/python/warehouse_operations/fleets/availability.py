@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.transports.charging import FULL, Opportunity, Policy
+from warehouse_operations.fleets.consumption import Drain
 from warehouse_operations.stock.yaml_file import read_yaml
 
 HOUR = 3600.0  # [s]
-UNDER_WAY = 90.0  # what driving takes beside the electronics, loaded or not, on the average [W]
-TAPERED = 0.05  # of the charging power, that is left when a battery is full
+DAY = 24 * HOUR  # [s]
 SECTIONS = ("energy", "failures")
 KINDS = ("motor", "lift_stuck", "laser_blind", "radio_lost", "wheel_slips")
 
@@ -35,6 +35,10 @@ class Energy:
     initial_least: float = 0.6
     initial_most: float = 1.0
     electronics: float = 80.0
+    rolling_resistance: float = Drain.rolling_resistance
+    drive_efficiency: float = Drain.drive_efficiency
+    regeneration: float = Drain.regeneration
+    lift_efficiency: float = Drain.lift_efficiency
     charge_power: float = 1500.0
     charge_taper: float = 0.8
 
@@ -43,26 +47,30 @@ class Energy:
         """The energy of a full battery [J]."""
         return self.capacity * self.health * HOUR
 
-    def used(self, seconds: float, is_under_way: bool) -> float:
-        """Returns the part of a full battery that a robot uses."""
-        return seconds * (self.electronics + UNDER_WAY * is_under_way) / self.joules
+    @property
+    def drain(self) -> Drain:
+        """What motion takes."""
+        return Drain(**{field.name: getattr(self, field.name) for field in fields(Drain)})
 
     def charged(self, charge: float, seconds: float) -> float:
-        """Returns the state of charge after a duration at a charger."""
+        """Returns the state of charge after a duration at a charger, electronics on."""
         rate = (self.charge_power - self.electronics) / self.joules
+        if rate <= 0:
+            return max(charge + rate * seconds, 0.0)
         constant = max(self.charge_taper - charge, 0.0) / rate
         if seconds <= constant:
             return charge + rate * seconds
+        # From the taper on the power falls evenly with the charge, and the electronics take
+        # theirs: an exponential approach.
         charge = max(charge, self.charge_taper)
-        # From the taper on the power falls evenly with the charge: an exponential approach.
-        slope = rate * (1 - TAPERED) / max(1 - self.charge_taper, 1e-9)
-        top = self.charge_taper + rate / slope
-        left = (top - charge) * np.exp(-slope * (seconds - constant))
-        return min(float(top - left), 1.0)
+        slope = self.charge_power / max(1 - self.charge_taper, 1e-9) / self.joules
+        top = 1 - self.electronics / self.joules / slope
+        return float(top - (top - charge) * np.exp(-slope * (seconds - constant)))
 
     def seconds_to(self, charge: float, aim: float) -> float:
-        """Returns how long charging takes from one state of charge to another [s]."""
-        low, high = 0.0, 24 * HOUR
+        """Returns how long charging takes from one state of charge to another [s]; a day where it
+        is longer."""
+        low, high = 0.0, DAY
         for _ in range(50):
             middle = (low + high) / 2
             low, high = (low, middle) if self.charged(charge, middle) >= aim else (middle, high)
@@ -146,7 +154,8 @@ def _section(
 class Upkeep:
     """The batteries of a fleet of ideal robots, by index, and what was spent on them.
 
-    cells: charging places. charge: states of charge, (n,). down_s, charging_s: robot-seconds.
+    cells: charging places. charge: states of charge, (n,). place: the charging place that is kept
+    for a robot, by index. charging_s: robot-seconds.
     """
 
     def __init__(
@@ -161,23 +170,32 @@ class Upkeep:
         self.energy, self.failures, self.rng = energy, availability.failures, rng
         self.policy, self._cells = policy or Opportunity(), [int(cell) for cell in cells]
         least, most = (energy.initial_least, energy.initial_most) if energy else (1.0, 1.0)
-        self.charge = rng.uniform(least, most, robots)
+        self.charge = rng.uniform(least, max(least, most), robots)
         self._noted = np.zeros(robots)  # until when the charge holds [s]
-        self.place: dict[int, int] = {}  # of charging robots
-        self._begins: dict[int, float] = {}  # when they are there [s]
-        self.down_s = self.charging_s = 0.0
+        self.place: dict[int, int] = {}
+        # Robots at chargers or on their way: when they are there [s], and the cell. A full robot
+        # stays there, and is charged, until it has work; its place is kept no longer.
+        self._stands: dict[int, tuple[float, int]] = {}
+        self._failures: list[tuple[float, float]] = []  # (when, how long), [s]
+        self.charging_s = 0.0
 
-    def note(self, index: int, now: float, is_under_way: bool) -> None:
-        """Brings the charge of a robot up to date: it did that since the last note."""
+    def note(self, index: int, now: float) -> None:
+        """Brings the charge of a robot up to date: electronics, and what a charger gave."""
         if self.energy is None:
             return
         begin, charge = float(self._noted[index]), float(self.charge[index])
-        charging = max(now - max(begin, self._begins[index]), 0.0) if index in self.place else 0.0
-        charge -= self.energy.used(max(now - begin - charging, 0.0), is_under_way)
+        there, _ = self._stands.get(index, (np.inf, 0))
+        charging = max(now - max(begin, there), 0.0)
+        charge -= max(now - begin - charging, 0.0) * self.energy.electronics / self.energy.joules
         if charging:
             charge = self.energy.charged(max(charge, 0.0), charging)
-            self.charging_s += charging
+            self.charging_s += charging * (index in self.place)
         self.charge[index], self._noted[index] = max(charge, 0.0), max(now, begin)
+
+    def spend(self, index: int, joules: float) -> None:
+        """Takes the energy of a motion from the battery of a robot [J]."""
+        if self.energy is not None:
+            self.charge[index] = max(self.charge[index] - joules / self.energy.joules, 0.0)
 
     def may_work(self, index: int) -> bool:
         """Returns whether a robot without work may be given some."""
@@ -189,19 +207,20 @@ class Upkeep:
         return not self.policy.spares(charge)[0]
 
     def leave(self, index: int) -> None:
-        """Frees the charging place of a robot."""
+        """Has a robot leave its charger for work."""
         self.place.pop(index, None)
-        self._begins.pop(index, None)
+        self._stands.pop(index, None)
+
+    def release_full(self, index: int) -> None:
+        """Keeps no charging place any longer for a robot that is full."""
+        if self.charge[index] >= FULL:
+            self.place.pop(index, None)
 
     def wants(self, index: int, is_wanted: bool) -> bool:
         """Returns whether a robot without work is to charge."""
         if self.energy is None or index in self.place:
             return False
         return bool(self.policy.sends(self.charge[[index]], is_wanted)[0])
-
-    def is_full(self, index: int) -> bool:
-        """Returns whether charging gains nothing any more."""
-        return bool(self.charge[index] >= FULL)
 
     def free_cells(self, index: int) -> list[int]:
         """Returns the charging places that a robot may take: free ones, or that of the fullest
@@ -219,15 +238,27 @@ class Upkeep:
         self.leave(fullest)
         return [cell]
 
+    def is_taken(self, cell: int) -> bool:
+        """Returns whether a robot stands in a charging place, or is to."""
+        return any(cell == other for _, other in self._stands.values())
+
     def begin(self, index: int, cell: int, there: float) -> float:
         """Gives a robot a charging place; returns when it may work again [s]."""
-        self.place[index], self._begins[index] = cell, there
+        self.place[index], self._stands[index] = cell, (there, cell)
         assert self.energy is not None
         enough = getattr(self.policy, "enough", getattr(self.policy, "high", 1.0))
         charge = max(float(self.charge[index]), 0.0)
         if charge >= enough:
             return there
         return there + self.energy.seconds_to(charge, enough)
+
+    def note_failure(self, time: float, duration: float) -> None:
+        """Notes that a robot can't work from a time on, for a duration [s]."""
+        self._failures.append((time, duration))
+
+    def down_s(self, now: float) -> float:
+        """Returns the robot-seconds of failures up to now."""
+        return sum(min(duration, now - begin) for begin, duration in self._failures)
 
     def next_failure(self, robots: int) -> float:
         """Draws the time to the fleet's next failure [s]; infinity where there are none."""

@@ -163,11 +163,19 @@ class IdealFleet(TransportRequests):
 
     # Availability.
 
-    def keep_up(self, availability: Availability, rng: np.random.Generator) -> None:
-        """Has robots charge, fail and be repaired from now on."""
+    def keep_up(
+        self, availability: Availability, rng: np.random.Generator, items: Mapping[int, int]
+    ) -> None:
+        """Has robots charge, fail and be repaired from now on. items: of each unit, by its id."""
         count, cells = len(self._trips.robots), np.asarray(self.plan.charging, int)
         policy = self._trips.hooks.charging
-        self._trips.keep_up(Upkeep(availability, count, cells, rng, policy))
+        self._trips.keep_up(Upkeep(availability, count, cells, rng, policy), items)
+
+    def set_charges(self, charges: Mapping[int, float]) -> None:
+        """Sets the states of charge of robots, by id."""
+        if upkeep := self._trips.upkeep:
+            for kiva_id, charge in charges.items():
+                upkeep.charge[self._index(kiva_id)] = charge
 
     @property
     def energy(self) -> dict[str, float]:
@@ -176,8 +184,10 @@ class IdealFleet(TransportRequests):
         upkeep = self._trips.upkeep
         if not upkeep:
             return {}
+        for index in range(self.robot_count):
+            upkeep.note(index, self.time)
         time = max(self.time * self.robot_count, 1e-9)
-        out = {"availability": 1 - upkeep.down_s / time} if upkeep.failures else {}
+        out = {"availability": 1 - upkeep.down_s(self.time) / time} if upkeep.failures else {}
         if upkeep.energy:
             out |= {
                 "charge_mean": float(upkeep.charge.mean()),

@@ -3,8 +3,8 @@
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,14 +23,27 @@ from warehouse_fleet.transports.transport_book import (
 )
 from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.availability import Upkeep
+from warehouse_operations.fleets.consumption import Consumption, Way
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
-from warehouse_operations.stock.travel import Travel
+from warehouse_operations.stock.travel import Table, Travel
 
-UNDER_WAY = ("to unit", "lift", "to station", "back")
 OUT = "out of service"  # beside the ACTIVITIES
+TAKEN = 10.0  # metres by which a charging place counts as farther while a robot stands there
+WAYS = 100_000  # of loaded robots that are remembered for their energy, at most
+DEAD = 30.0  # after which a broken robot loses its transport [s]; as recover.DEAD
+TOWED = 60.0  # after which people tow a robot that is broken in a lane [s]; as world_fleet's
 RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
+
+
+class Approach(NamedTuple):
+    """The way of a robot to a charger: its first cell, when it begins and ends [s], its length."""
+
+    start: int
+    begin: float
+    there: float
+    metres: float
 
 
 @dataclass(eq=False)
@@ -46,6 +59,9 @@ class Robot:
     in_service: bool = True
     halt: float = 0.0  # for how long it has to stand amid its way [s]
     able: float = 0.0  # when it can drive again, if it failed while it waited [s]
+    plan: int = 0  # the number of times that a failure took its transport from it
+    place: int | None = None  # the storage place that is kept for its unit
+    approach: Approach | None = None  # its last way, if that led to a charger
 
 
 class Trips:
@@ -73,10 +89,15 @@ class Trips:
         self.ways: Counter[tuple[int, int, bool]] = Counter()
         self._idle = dict(enumerate(self.robots))  # by index
         self.upkeep: Upkeep | None = None
+        self._consumption: Consumption | None = None
+        self._ways_loaded: dict[tuple[int, int, int], Way] = {}
+        self._width = floor.plan.passable.shape[1]
 
-    def keep_up(self, upkeep: Upkeep) -> None:
-        """Has robots charge, fail and be repaired from now on."""
+    def keep_up(self, upkeep: Upkeep, items: Mapping[int, int]) -> None:
+        """Has robots charge, fail and be repaired from now on. items: of each unit, by its id."""
         self.upkeep = upkeep
+        if upkeep.energy:
+            self._consumption = Consumption(upkeep.energy.drain, self.kinematics, items)
         self._schedule_failure(upkeep)
 
     def _schedule_failure(self, upkeep: Upkeep) -> None:
@@ -87,34 +108,98 @@ class Trips:
     def _fail_by_chance(self, upkeep: Upkeep) -> None:
         index, duration = upkeep.draw_failure(len(self.robots))
         if duration:
-            self.fail(index, duration)
-            upkeep.down_s += duration
+            upkeep.note_failure(self.time, duration)
+            self._break_down(self.robots[index], duration)
         self._schedule_failure(upkeep)
 
-    def _charge(self, upkeep: Upkeep) -> dict[int, Robot]:
-        """Sends robots without work to charging places; returns those that may be given work."""
-        is_wanted = bool(self.book.open)
-        for index, robot in self._idle.items():
-            upkeep.note(index, self.time, robot.there > self.time)
-            if upkeep.is_full(index):
-                upkeep.leave(index)
+    def _break_down(self, robot: Robot, duration: float) -> None:
+        """Has a robot break: another one fetches the unit that it was to fetch, and it loses the
+        transport of one that it carries, unless it is repaired soon."""
+        transport = self.book.of_robot.get(robot.index)
+        if transport and transport.step <= READY:
+            robot.plan += 1
+            self.book.unassign(transport)
+            self._free(robot)
+            robot.there = self.time + duration
+        elif transport and duration > DEAD:
+            self.queue.schedule(self.time + DEAD, self._lose, (robot, transport, duration - DEAD))
+            self.fail(robot.index, duration)
+        else:
+            self.fail(robot.index, duration)
+
+    def _lose(self, lost: tuple[Robot, Transport, float]) -> None:
+        """Ends the transport of a robot that stands broken with its unit; people tow it out of a
+        lane, and once it is repaired the unit is stored."""
+        robot, transport, left = lost
+        if self.book.of_robot.get(robot.index) is not transport:
+            return  # it ended meanwhile
+        robot.plan += 1
+        robot.halt, robot.able = 0.0, 0.0
+        self._leave_lane(transport, min(left, TOWED - DEAD))
+        if robot.place is not None:
+            self.floor.clear(robot.place)
+            robot.place = None
+        has_unit = transport.shelf not in self.floor.units
+        self.book.publish_event(transport, Kind.FAILED, "its robot is broken")
+        self.book.remove(transport)
+        self._begin(robot, "idle")
+        self.queue.schedule(self.time + left, self._repaired, (robot, transport, has_unit))
+
+    def _leave_lane(self, transport: Transport, delay: float) -> None:
+        lane = self._lane(transport)
+        if lane and transport in lane.queue:
+            lane.queue.remove(transport)
+        elif lane and lane.serving is transport:
+            lane.serving, lane.free_from = None, self.time + delay
+            self._serve_next(lane, float(self.kinematics.run(self.floor.plan.spacing)))
+
+    def _repaired(self, work: tuple[Robot, Transport, bool]) -> None:
+        """Has a robot go on that lost its transport: it stores the unit that it still carries."""
+        robot, lost, has_unit = work
+        if not has_unit:
+            self._free(robot)
+            return
+        asked = self.book.of_unit.get(lost.shelf)
+        transport = asked or self.book.add(lost.shelf, "", robot.cell)
+        self.book.hand_over(transport, robot.index)
+        self.book.go_on(transport, STORING)
+        self.book.publish_event(transport, Kind.RECEIVED, "its robot was found with it")
+        self._store(transport)
+
+    def _charge(self, upkeep: Upkeep, is_wanted: bool) -> None:
+        """Sends robots without work to charging places. is_wanted: whether transports wait."""
+        for index in self._idle:
+            upkeep.note(index, self.time)
+            upkeep.release_full(index)
         wants = [index for index in self._idle if upkeep.wants(index, is_wanted)]
         for index in sorted(wants, key=lambda index: float(upkeep.charge[index])):
             cells = upkeep.free_cells(index)
             if not cells:
                 break
             self._drive_to_charger(upkeep, index, cells)
-        return {index: robot for index, robot in self._idle.items() if upkeep.may_work(index)}
 
     def _drive_to_charger(self, upkeep: Upkeep, index: int, cells: list[int]) -> None:
         robot = self._idle[index]
         seconds, metres = self.travel.unloaded([robot.cell], cells)
-        at = int(seconds[0].argmin())
+        taken = np.array([cell != robot.cell and upkeep.is_taken(cell) for cell in cells])
+        at = int((metres[0] + TAKEN * taken).argmin())
         self.distance_m += float(metres[0, at])
-        robot.there = max(self.time, robot.there) + float(seconds[0, at])
+        begin = max(self.time, robot.there)
+        robot.there = begin + float(seconds[0, at])
+        self._spend_unloaded(robot, cells[at])
+        robot.approach = Approach(robot.cell, begin, robot.there, float(metres[0, at]))
         robot.cell = cells[at]
         able = upkeep.begin(index, robot.cell, robot.there)
         self.queue.schedule(max(able, self.time), _wake, None)
+
+    def _turn_off(self, robot: Robot) -> None:
+        """Has a robot that is on its way to a charger stop where it is."""
+        here, there = self._start(robot)
+        if self.upkeep and robot.approach and here != robot.cell:
+            approach, rest = robot.approach, robot.there - max(self.time, robot.approach.begin)
+            self.distance_m -= approach.metres * rest / (approach.there - approach.begin)
+            self._spend_unloaded(replace(robot, cell=here), robot.cell, back=True)
+        robot.cell, robot.there, robot.approach = here, there, None
 
     def step_until(self, time: float) -> None:
         """Goes on to a time [s], or to the first event before it."""
@@ -160,15 +245,58 @@ class Trips:
         self.kinematics = kinematics
         self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
 
+    def _spend_unloaded(self, robot: Robot, to: int, back: bool = False) -> None:
+        """Takes the energy of a way without a unit, along the floor's axes, from the battery, or
+        puts it back where that way is not driven after all."""
+        if not self.upkeep or not self._consumption:
+            return
+        x, y = (
+            abs(a - b) for a, b in zip(divmod(robot.cell, self._width), divmod(to, self._width))
+        )
+        spacing = self.floor.plan.spacing
+        way = Way(tuple(spacing * cells for cells in (x, y) if cells))
+        energy = self._consumption.drive(way, None)
+        self.upkeep.spend(robot.index, -energy if back else energy)
+
+    def _spend_loaded(
+        self, transport: Transport, table: Table, end: int, other: int, outbound: int
+    ) -> None:
+        """Takes the energy of a way with a unit, between a table's own cell and another, from the
+        battery."""
+        if not self.upkeep or not self._consumption:
+            return
+        key = end, other, outbound
+        if key not in self._ways_loaded:
+            if len(self._ways_loaded) >= WAYS:
+                self._ways_loaded.clear()
+            cells = table.cells(other)
+            self._ways_loaded[key] = Way.along(cells, self.floor.plan.spacing)
+        energy = self._consumption.drive(self._ways_loaded[key], transport.shelf)
+        self.upkeep.spend(transport.robot, energy)
+
+    def _spend_in_lane(self, transport: Transport, lane: Lane) -> None:
+        """Takes the energy of moving up cell by cell from the battery: a start and a stop for each
+        robot that is ahead in the lane."""
+        if not self.upkeep or not self._consumption:
+            return
+        ahead = min(len(lane.queue) + (lane.serving is not None), lane.station.service)
+        spacing = self.floor.plan.spacing
+        self.upkeep.spend(
+            transport.robot, ahead * self._consumption.start(spacing, transport.shelf)
+        )
+
     def _schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
         """Has a robot act after a delay [s], and as much later as it had to stand meanwhile."""
         delay += max(robot.able - self.time, 0.0)
-        self.queue.schedule(self.time + delay, self._act, (act, argument, robot))
+        planned = act, argument, robot, robot.plan
+        self.queue.schedule(self.time + delay, self._act, planned)
 
-    def _act(self, planned: tuple[Callable[[Any], object], Any, Robot]) -> None:
-        act, argument, robot = planned
+    def _act(self, planned: tuple[Callable[[Any], object], Any, Robot, int]) -> None:
+        act, argument, robot, plan = planned
+        if plan != robot.plan:
+            return
         if robot.halt:
             halt, robot.halt = robot.halt, 0.0
             self.queue.schedule(self.time + halt, self._act, planned)
@@ -180,34 +308,49 @@ class Trips:
 
     def _begin(self, robot: Robot, activity: str) -> None:
         if self.upkeep:
-            self.upkeep.note(robot.index, self.time, robot.activity in UNDER_WAY)
+            self.upkeep.note(robot.index, self.time)
         if robot.activity != OUT:
             self.seconds[robot.activity] += self.time - robot.since
         robot.activity, robot.since = activity, self.time
 
     def _match(self) -> None:
-        """Gives robots without work the transports that wait."""
+        """Gives robots without work the transports that wait, and lets them charge otherwise."""
         if not self._idle:
             return
-        if not self.book.open:
-            if self.upkeep:
-                self._charge(self.upkeep)
+        if self.upkeep:
+            self._charge(self.upkeep, is_wanted=True)
+        if self.book.open:
+            self._match_open()
+        # What has just ended may lead to more work at once.
+        if self.upkeep and not self.book.open and not self.book.has_events:
+            self._charge(self.upkeep, is_wanted=False)
+
+    def _match_open(self) -> None:
+        upkeep = self.upkeep
+        indices = [index for index in self._idle if not upkeep or upkeep.may_work(index)]
+        if not indices:
             return
-        idle = self._charge(self.upkeep) if self.upkeep else self._idle
-        if not idle:
-            return
-        waiting, robots = list(self.book.open), list(idle.values())
-        indices = list(idle)
+        waiting, robots = list(self.book.open), [self._idle[index] for index in indices]
+        starts = [self._start(robot) for robot in robots]
         seconds, metres = self.travel.unloaded(
             [self.floor.units[transport.shelf] for transport in waiting],
-            [robot.cell for robot in robots],
+            [cell for cell, _ in starts],
         )
         # One that drives somewhere must come there first.
-        seconds += np.array([max(robot.there - self.time, 0.0) for robot in robots])
+        seconds += np.array([max(there - self.time, 0.0) for _, there in starts])
         tasks = self._tasks(waiting)
         for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
             self.distance_m += metres[task, robot]
             self._assign(waiting[task], indices[robot], seconds[task, robot])
+
+    def _start(self, robot: Robot) -> tuple[int, float]:
+        """Returns the cell from which a robot without work can set off, and when it is there."""
+        approach = robot.approach
+        if not approach or not self.time < robot.there == approach.there:
+            return robot.cell, robot.there
+        left = min((robot.there - self.time) / (approach.there - approach.begin), 1.0)
+        here = _between(approach.start, robot.cell, 1 - left, self._width)
+        return here, max(self.time, approach.begin)
 
     def _tasks(self, waiting: list[Transport]) -> list[Task]:
         asked = Counter(transport.station for transport in waiting)
@@ -226,7 +369,9 @@ class Trips:
     def _assign(self, transport: Transport, index: int, seconds: float) -> None:
         robot = self._idle.pop(index)
         if self.upkeep:
+            self._turn_off(robot)
             self.upkeep.leave(index)
+        self._spend_unloaded(robot, self.floor.units[transport.shelf])
         robot.cell, robot.there = self.floor.units[transport.shelf], self.time + seconds
         self.book.assign(transport, index)
         self.book.publish_event(transport, Kind.ASSIGNED)
@@ -240,6 +385,8 @@ class Trips:
             self.book.go_on(transport, step)
         robot = self._driver(transport)
         self._begin(robot, "lift")
+        if self.upkeep and self._consumption:
+            self.upkeep.spend(robot.index, self._consumption.lift(transport.shelf))
         self._schedule(self.kinematics.lift, self._lift, transport, robot)
 
     def _lift(self, transport: Transport) -> None:
@@ -253,6 +400,7 @@ class Trips:
         self.book.go_on(transport, BRINGING)
         self._begin(self._driver(transport), "to station")
         table = self.travel.loaded_to(transport.cell)
+        self._spend_loaded(transport, table, transport.cell, home, 0)
         self.distance_m += table.metres[home]
         self.ways[transport.cell, home, False] += 1
         self._schedule(table.seconds[home], self._reach_end, transport, self._driver(transport))
@@ -263,6 +411,7 @@ class Trips:
             self._store(transport)
         elif lane := self._lane(transport):
             self._begin(self._driver(transport), "queue")
+            self._spend_in_lane(transport, lane)
             lane.queue.append(transport)
             self._serve_next(lane, 0.0)
         else:
@@ -325,7 +474,9 @@ class Trips:
             return
         place = int(self.hooks.choose_place(transport.shelf, cells, table.metres[cells]))
         self.floor.free[place] = False
+        robot.place = place
         self._begin(robot, "back")
+        self._spend_loaded(transport, table, robot.cell, place, 1)
         self.distance_m += table.metres[place]
         self.ways[robot.cell, place, True] += 1
         self._schedule(table.seconds[place], self._lower, (transport, place), robot)
@@ -349,6 +500,7 @@ class Trips:
     def _drop(self, argument: tuple[Transport, int]) -> None:
         transport, place = argument
         self.floor.units[transport.shelf] = place
+        self._driver(transport).place = None
         self.book.publish_event(transport, Kind.STORED)
         self.end(transport)
 
@@ -357,21 +509,36 @@ class Trips:
         self.book.remove(transport)
         if transport.robot == NOWHERE:
             return
-        robot = self._driver(transport)
+        self._free(self._driver(transport))
+
+    def _free(self, robot: Robot) -> None:
+        """Lets a robot without a transport be given another one."""
         if robot.halt:  # it failed just before
             robot.there, robot.halt = max(robot.there, self.time) + robot.halt, 0.0
         if not robot.in_service:
             self._begin(robot, OUT)
             return
         self._begin(robot, "idle")
-        self._idle[transport.robot] = robot
+        self._idle[robot.index] = robot
         to = self.hooks.park(robot.kiva_id, robot.cell)
         if to is not None and to != robot.cell:
             seconds, metres = self.travel.unloaded([robot.cell], [to])
             self.distance_m += float(metres[0, 0])
             begin = max(self.time, robot.there)
+            self._spend_unloaded(robot, int(to))
             robot.cell, robot.there = int(to), begin + float(seconds[0, 0])
 
 
 def _wake(_: object) -> None:
     """Does nothing: after it, robots that may work again are given work."""
+
+
+def _between(start: int, end: int, share: float, width: int) -> int:
+    """Returns the cell after a share of the way along the axes between two, along the row first."""
+    (y, x), (to_y, to_x) = divmod(start, width), divmod(end, width)
+    along = round(share * (abs(to_x - x) + abs(to_y - y)))
+    in_row = min(along, abs(to_x - x))
+    in_column = along - in_row
+    x += in_row if to_x > x else -in_row
+    y += in_column if to_y > y else -in_column
+    return y * width + x

@@ -4,6 +4,7 @@
 import contextlib
 import math
 import time as clock
+from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -78,7 +79,8 @@ class Operations:
         self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
         if availability and isinstance(self.fleet, IdealFleet):
-            self.fleet.keep_up(availability, np.random.default_rng((seed, 1)))
+            items = Counter(unit for _, unit in self.site.items)
+            self.fleet.keep_up(availability, np.random.default_rng((seed, 1)), items)
         self.wall_s = 0.0
         self.log = MinuteLog(
             self.context,

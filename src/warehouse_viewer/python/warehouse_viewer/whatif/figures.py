@@ -8,7 +8,7 @@ Fewer than three runs have no interval, and differ by nothing that is shown.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,7 @@ from warehouse_operations.reports.comparison import (
 )
 from warehouse_operations.reports.verdicts import figures_of, warm_up
 from warehouse_operations.runs.run_files import Run
+from warehouse_operations.sizing.costs import Bill
 
 MORE, LESS, NEITHER = 1, -1, 0  # is better
 
@@ -69,6 +70,42 @@ def values_of(run: Run, cut: int) -> dict[str, float]:
     }
 
 
+BillOf = Callable[[float, float, float], Bill]  # by orders and pieces an hour, and time at work
+COSTS = (("to_buy", "To buy", "", 0), ("a_year", "Costs", "a year", 0))
+A_PIECE = ("a_piece", "Cost of a piece", "", 4)
+
+
+def _bills(runs: Sequence[Run], bill_of: BillOf) -> list[Bill]:
+    """Returns what each run would cost."""
+    bills = []
+    for run in runs:
+        spent, kpis = run.data["robots"], run.kpis
+        at_work = 1 - spent.get("idle", 0.0) / (sum(spent.values()) or 1.0)
+        rates = kpis["order_throughput_per_hour"], kpis["item_throughput_per_hour"]
+        bills.append(bill_of(*rates, at_work))
+    return bills
+
+
+def _cost_rows(
+    scenarios: Mapping[str, Sequence[Run]], costs: Mapping[str, BillOf]
+) -> list[dict[str, Any]]:
+    """Returns rows of what scenarios cost, the means of their runs."""
+    bills = {name: _bills(runs, costs[name]) for name, runs in scenarios.items()}
+    currency = next(iter(bills.values()))[0].currency
+    rows = []
+    for key, title, unit, digits in (*COSTS, A_PIECE):
+        cells: list[dict[str, Any]] = []
+        for of_runs in bills.values():
+            estimate = Estimate.of([getattr(bill, key) for bill in of_runs])
+            # What is bought is known; how much of it is used is chance.
+            half = _finite(estimate.half) if key == A_PIECE[0] else None
+            cells.append({"mean": estimate.mean, "half": half, "count": estimate.count})
+        units = f"{currency} {unit}".strip()
+        row = {"key": key, "title": title, "unit": units, "digits": digits, "cells": cells}
+        rows.append(row | {"note": "the whole shift", "plain": True})
+    return rows
+
+
 def summary(runs: Sequence[Run]) -> dict[str, Any]:
     """Returns {key: estimate} of FIGURES, with the warm-up in minutes."""
     group = Group("", tuple(runs))
@@ -86,8 +123,11 @@ def _limit(runs: Sequence[Run]) -> dict[str, str]:
     return {"what": str(limits.limit(parts)), "when": limits.when(parts)}
 
 
-def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
-    """Returns the FIGURES of scenarios side by side, and how they differ from the first."""
+def comparison(
+    scenarios: Mapping[str, Sequence[Run]], costs: Mapping[str, BillOf] | None = None
+) -> dict[str, Any]:
+    """Returns the FIGURES of scenarios side by side, and how they differ from the first; with
+    costs, by scenario, what each costs, too."""
     groups = [Group(name, tuple(runs)) for name, runs in scenarios.items()]
     cut = warm_up(groups)
     figures = [_by_seed(group, cut) for group in groups]
@@ -105,6 +145,8 @@ def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
             if difference := known.get((figure.key, i)):
                 cells[i].update(_told(difference.corrected(corrected[figure.key, i]), figure))
         rows.append(_shown(figure) | {"cells": cells})
+    if costs:
+        rows += _cost_rows(scenarios, costs)
     return {
         "names": list(scenarios),
         "warm_up": _minutes(groups),

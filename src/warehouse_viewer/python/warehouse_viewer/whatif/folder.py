@@ -18,6 +18,9 @@ from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
 from warehouse_operations.runs import event_file
 from warehouse_operations.runs.simulation import ERRORS, Description
+from warehouse_operations.sizing import costs
+from warehouse_operations.sizing.costs import Costs
+from warehouse_operations.sizing.prices import PriceError
 from warehouse_operations.stock import demand_file, orders_text
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand import make_demand
@@ -35,6 +38,7 @@ from warehouse_viewer.whatif.scenario import (
 from warehouse_viewer.whatif.stored import States
 
 MOST_SCENARIOS, MOST_FILES = 200, 500
+COSTS = "costs.yaml"  # beside the scenarios, of all of them
 
 
 class Folder:
@@ -161,6 +165,26 @@ class Folder:
             except DemandError as error:
                 raise DemandError(str(error).replace(str(file), name)) from error
         return self._add(ORDERS, name, suffix, text)
+
+    @property
+    def costs_file(self) -> Path:
+        """The file of costs, which may be missing."""
+        return self.path / COSTS
+
+    def costs(self) -> Costs | None:
+        """Returns the costs of the folder; None where it has none. Raises PriceError."""
+        return costs.read(self.costs_file) if self.costs_file.is_file() else None
+
+    def set_costs(self, name: str, text: str) -> None:
+        """Keeps a file of costs in place of the last one. Raises PriceError."""
+        with tempfile.TemporaryDirectory(prefix=".draft-", dir=self.path) as made:
+            draft = Path(made, COSTS)
+            draft.write_text(text, "utf-8")
+            try:
+                costs.read(draft)
+            except PriceError as error:
+                raise PriceError(str(error).replace(str(draft), name)) from error
+            os.replace(draft, self.costs_file)
 
     def _add(self, below: str, name: str, suffix: str, text: str) -> str:
         """Writes a file. One of that name that says something else stays, under its own name."""

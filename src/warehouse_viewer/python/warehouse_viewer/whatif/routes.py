@@ -14,6 +14,7 @@ from warehouse_layout.file.request import LIMITS, MOST_STATIONS, PRESETS
 from warehouse_operations.policies import DEFAULTS, ROLES
 from warehouse_operations.runs.run_files import RunError
 from warehouse_operations.runs.simulation import ERRORS
+from warehouse_operations.sizing.prices import PriceError
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server.site import WHATIF
@@ -35,7 +36,15 @@ REPORT_CONTENT = (
     " font-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline';"
     " frame-ancestors 'none'"
 )
-REFUSED = (ScenarioError, QueueError, LayoutFileError, DemandError, RunError, *ERRORS)
+REFUSED = (
+    ScenarioError,
+    QueueError,
+    LayoutFileError,
+    DemandError,
+    RunError,
+    PriceError,
+    *ERRORS,
+)
 
 Answer = dict[str, Any]
 Endpoint = Callable[[Request], Awaitable[Response]]
@@ -54,6 +63,8 @@ def routes(workshop: Workshop) -> list[Route]:
         Route(f"{PAGE}/layouts", _asking(work, work.add_layout, "name", "text"), methods=posts),
         Route(f"{PAGE}/stock", _asking(work, work.add_stock, "name", "text"), methods=posts),
         Route(f"{PAGE}/orders", _asking(work, work.add_orders, "name", "text"), methods=posts),
+        Route(f"{PAGE}/costs", _asking(work, work.set_costs, "name", "text"), methods=posts),
+        Route(f"{PAGE}/costs", _asking(work, work.drop_costs), methods=["DELETE"]),
         Route(scenario, _asking(work, work.change, "settings"), methods=["PUT"]),
         Route(scenario, _asking(work, work.delete), methods=["DELETE"]),
         Route(f"{scenario}/duplicate", _asking(work, work.duplicate), methods=posts),

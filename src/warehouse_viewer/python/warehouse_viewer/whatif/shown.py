@@ -7,8 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.generate import layout_choice
+from warehouse_layout.place import placement
 from warehouse_operations.runs.run_files import Run
+from warehouse_operations.sizing.costs import Costs, LayoutCosts
 from warehouse_viewer.whatif import stored
 from warehouse_viewer.whatif.queue import Active
 from warehouse_viewer.whatif.stored import Planned
@@ -31,6 +34,17 @@ def layout_counts(layout: str, _: int) -> tuple[int, int]:
     file = layout_choice.chosen(layout)
     robots = file.robots if isinstance(file.robots, int) else len(file.robots)
     return robots, sum(station.kind != "replenish" for station in file.stations)
+
+
+@functools.lru_cache(100)
+def _priced(layout: str, _: int) -> tuple[LayoutFile, int]:
+    file = layout_choice.chosen(layout)
+    return file, len(placement.place(file).units)
+
+
+def layout_costs(costs: Costs, layout: str, version: int) -> LayoutCosts:
+    """Returns the costs of a layout of that version."""
+    return LayoutCosts(costs, *_priced(layout, version))
 
 
 def changed(path: Path) -> int:

@@ -2,6 +2,7 @@
 """Scenarios and their runs: what the page shows, and what it asks for."""
 
 import contextlib
+import functools
 import shutil
 import threading
 from collections.abc import Sequence
@@ -72,6 +73,7 @@ class Workshop:
             "folder": str(self.folder.path.resolve()),
             "layouts": self.folder.layouts(),
             "orders": self.folder.orders(),
+            "costs": self.folder.costs_file.is_file(),
             "processes": self._queue.processes,
         }
 
@@ -138,7 +140,22 @@ class Workshop:
         least, most = COMPARED
         if not least <= len(set(names)) <= most or len(set(names)) != len(names):
             raise ScenarioError(f"{least} to {most} scenarios were expected")
-        return figures.comparison({name: self._runs(name) for name in names})
+        return figures.comparison(
+            {name: self._runs(name) for name in names},
+            {name: bill for name in names if (bill := self._bill(name))},
+        )
+
+    def _bill(self, name: str) -> "figures.BillOf | None":
+        """Returns what a scenario costs by what it does; None where no costs are known."""
+        costs = self.folder.costs()
+        if not costs:
+            return None
+        scenario = self.folder.read(name)
+        path = self.folder.path / LAYOUTS / scenario.layout
+        layout = str(path) if path.is_file() else scenario.layout
+        priced = shown.layout_costs(costs, layout, shown.changed(path))
+        robots, stations = self._counts(scenario)
+        return functools.partial(priced.bill, robots, stations)
 
     def report(self, names: Sequence[str]) -> str:
         """Returns the report about all runs of scenarios, HTML."""
@@ -240,6 +257,19 @@ class Workshop:
         """Keeps a file of orders for scenarios."""
         with self._lock:
             return {"name": self.folder.add_orders(name, text)}
+
+    def set_costs(self, name: str, text: str) -> Told:
+        """Keeps what things, people, floor and energy cost, for all scenarios. Raises
+        PriceError."""
+        with self._lock:
+            self.folder.set_costs(name, text)
+        return {"name": name}
+
+    def drop_costs(self) -> Told:
+        """Leaves costs out of comparisons again."""
+        with self._lock:
+            self.folder.costs_file.unlink(missing_ok=True)
+        return {}
 
     def _check_quiet(self, name: str) -> None:
         self.folder.of(name)

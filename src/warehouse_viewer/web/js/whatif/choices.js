@@ -48,10 +48,16 @@ export function policiesOf(about) {
   return Object.fromEntries(chosen.filter(([, name]) => name));
 }
 
-/** {kind, rate, lines, pieces, file} of orders as simulate takes them. */
+const OF_FILES = ['day', 'demand'];
+
+/** {kind, rate, lines, pieces, file, times} of orders as simulate takes them. */
 export function partsOf(orders) {
-  const usual = { kind: 'fill', rate: 300, lines: 1.55, pieces: 1.05, file: '' };
+  const usual = { kind: 'fill', rate: 300, lines: 1.55, pieces: 1.05, file: '', times: 1 };
   const [kind, rate, size] = orders.split(':');
+  if (OF_FILES.includes(kind)) {
+    const [file, times = '1'] = orders.slice(kind.length + 1).split('*');
+    return { ...usual, kind, file, times: Number(times) };
+  }
   if (orders.endsWith('.csv')) return { ...usual, kind: 'file', file: orders };
   if (kind === 'mix') {
     const [lines, pieces] = size.split('x').map(Number);
@@ -61,9 +67,15 @@ export function partsOf(orders) {
 }
 
 /** Orders as simulate takes them, of what partsOf() returns. */
-export function ordersText({ kind, rate, lines, pieces, file }) {
+export function ordersText({ kind, rate, lines, pieces, file, times }) {
   if (kind === 'file') return file;
+  if (OF_FILES.includes(kind)) return `${kind}:${file}${times === 1 ? '' : `*${times}`}`;
   return kind === 'mix' ? `mix:${rate}:${lines}x${pieces}` : kind;
+}
+
+/** Whether a file holds orders of that kind. */
+export function fitsOrders(kind, file) {
+  return file.endsWith('.csv') === (kind !== 'demand');
 }
 
 /** A name that no scenario has yet. */

@@ -88,9 +88,9 @@ function rowHead(text, unit = '') {
 const title = (text, columns) => make('tr', { className: 'part' }, make('th', { colSpan: columns + 1, scope: 'colgroup', textContent: text }));
 const nothing = (columns) => make('tr', {}, make('td', { colSpan: columns + 1, className: 'dim', textContent: 'nothing: they are the same' }));
 
-function cellOf({ digits }, cell, i) {
+function cellOf({ digits, plain }, cell, i) {
   const out = make('td', {}, make('span', { className: 'mean', textContent: interval(cell, digits) }), ' ');
-  if (!i) return out;
+  if (!i || plain) return out;
   const verdict = cell.verdict ?? 'too few runs';
   const sign = SIGNS[verdict] ? `${SIGNS[verdict]} ` : '';
   const relative = SIGNS[verdict] && cell.relative !== null ? ` ${cell.relative > 0 ? '+' : ''}${number(100 * cell.relative, 1)} %` : '';

@@ -2,13 +2,17 @@
 // The dialog in which a scenario is made and changed.
 
 import { $, on } from '../base/dom.js';
-import { choose, fillDays, fillLayouts, fillPolicies, freeName, hintCounts, option, ordersText, partsOf, policiesOf } from './choices.js';
+import { choose, fillDays, fillLayouts, fillPolicies, freeName, hintCounts, option, ordersText, partsOf, policiesOf, fitsOrders } from './choices.js';
+import { eventsOf, linesOf } from './events.js';
 import { ask } from './server.js';
 import { dayOf, duration, layoutOf, plural } from './words.js';
 
 const PAUSE = 350; // [ms] after a change, until the server is asked about it
 const count = (what) => $(`own-${what}`).valueAsNumber || 0;
-const KINDS = { fill: 'never run out', mix: 'arrive at a rate', file: 'of a CSV file' };
+const KINDS = {
+  fill: 'never run out', mix: 'arrive at a rate', file: 'of a CSV file', day: 'a day as it was (CSV)', demand: 'days as described (.demand.yaml)',
+};
+const OF_FILES = ['file', 'day', 'demand'];
 
 export class Form {
   /** keep(name, settings, runs, old): makes or changes a scenario; rejects with the reason. */
@@ -25,6 +29,7 @@ export class Form {
     on($('editor-save'), 'click', () => this.send(false));
     on($('editor-cancel'), 'click', () => this.dialog.close());
     on($('editor-form'), 'input', () => this.changed());
+    on($('own-orders'), 'change', () => this.fillFiles());
     on($('own-layout'), 'change', () => this.renameAlike());
   }
 
@@ -48,7 +53,9 @@ export class Form {
     $('own-orders').replaceChildren(...kinds);
     choose($('own-orders'), parts.kind);
     this.fillFiles(parts.file);
-    for (const what of ['rate', 'lines', 'pieces']) $(`own-${what}`).value = parts[what];
+    $('own-events').value = linesOf(settings.events).join('\n');
+    $('events').open = Boolean(settings.events?.length);
+    for (const what of ['rate', 'lines', 'pieces', 'times']) $(`own-${what}`).value = parts[what];
     for (const what of ['robots', 'stations']) $(`own-${what}`).value = settings[what] || '';
     for (const what of ['minutes', 'seeds']) $(`own-${what}`).value = settings[what];
     $('own-day').value = dayOf(settings);
@@ -57,8 +64,9 @@ export class Form {
   }
 
   fillFiles(chosen = $('own-file').value) {
-    $('own-file').replaceChildren(...this.about.orders.map((name) => option(name)));
-    choose($('own-file'), chosen);
+    const files = this.about.orders.filter((name) => fitsOrders($('own-orders').value, name));
+    $('own-file').replaceChildren(...files.map((name) => option(name)));
+    if (!chosen || fitsOrders($('own-orders').value, chosen)) choose($('own-file'), chosen);
   }
 
   /** A new scenario is called as its layout, until a person says otherwise. */
@@ -73,22 +81,26 @@ export class Form {
       layout: $('own-layout').value,
       robots: count('robots'),
       stations: count('stations'),
-      orders: ordersText({ kind: $('own-orders').value, rate: count('rate'), lines: count('lines'), pieces: count('pieces'), file: $('own-file').value }),
+      orders: ordersText({ kind: $('own-orders').value, rate: count('rate'), lines: count('lines'), pieces: count('pieces'), file: $('own-file').value, times: count('times') || 1 }),
       minutes: count('minutes'),
       seeds: count('seeds'),
       physics: day !== '',
       realism: day === 'ideal' ? '' : day,
       policies: policiesOf(this.about),
+      events: eventsOf($('own-events').value),
     };
   }
 
   changed() {
     const kind = $('own-orders').value;
     for (const what of ['rate', 'lines', 'pieces']) $(`${what}-label`).hidden = kind !== 'mix';
-    $('file-label').hidden = kind !== 'file';
+    $('file-label').hidden = !OF_FILES.includes(kind);
+    $('times-label').hidden = kind !== 'day' && kind !== 'demand';
     this.alike = freeName(layoutOf($('own-layout').value), this.taken);
     hintCounts(this.about, $('own-layout').value, [[$('own-robots'), 'robots'], [$('own-stations'), 'stations']]);
     const others = Object.keys(policiesOf(this.about)).length;
+    const events = eventsOf($('own-events').value).length;
+    $('events-told').textContent = events ? plural(events, 'event') : 'none';
     $('policies-told').textContent = others ? `${others} not as usual` : 'as usual';
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.estimate(), PAUSE);

@@ -30,6 +30,11 @@ class Page {
     $('folder').textContent = `Kept in ${about.folder}`;
     $('draw-one').hidden = false;
     on($('new'), 'click', () => this.form.open(about.defaults, { taken: this.names }));
+    this.showCosts();
+    on($('costs-drop'), 'click', () => this.attempt(async () => {
+      await ask('DELETE', '/costs');
+      await this.takeCosts();
+    }));
     on($('two'), 'click', () => this.showIntro(true));
     for (const button of document.querySelectorAll('[data-upload]')) on(button, 'click', () => this.openFile(button.dataset.upload));
     on($('upload'), 'change', () => this.attempt(() => this.upload($('upload').files)));
@@ -208,7 +213,7 @@ class Page {
   // --- files
   openFile(kind) {
     this.kind = kind;
-    $('upload').accept = kind === 'layouts' ? '.yaml,.csv' : '.csv';
+    $('upload').accept = { layouts: '.yaml,.csv', orders: '.csv,.yaml', costs: '.yaml' }[kind];
     $('upload').multiple = kind === 'layouts'; // a layout, and the stock that it names
     $('upload').value = '';
     $('upload').click();
@@ -221,12 +226,26 @@ class Page {
         if (file.size > MOST_FILE) throw new Error(`${file.name}: a file of up to 5 MB was expected`);
         const isStock = this.kind === 'layouts' && file.name.endsWith('.csv');
         const { name } = await ask('POST', isStock ? '/stock' : `/${this.kind}`, { name: file.name, text: await file.text() });
-        if (!isStock) await this.takeFile(this.kind, name);
+        if (this.kind === 'costs') await this.takeCosts();
+        else if (!isStock) await this.takeFile(this.kind, name);
       }
     } catch (error) {
       if (!this.form.dialog.open) throw error;
       this.form.say(error.message, 'refused');
     }
+  }
+
+  /** Shows what scenarios cost from now on. */
+  async takeCosts() {
+    Object.assign(this.about, await ask('GET', '/about'));
+    this.showCosts();
+    this.compared = null;
+    if (this.scenarios) await this.compare();
+  }
+
+  showCosts() {
+    $('costs-told').textContent = this.about.costs ? 'Costs: those of costs.yaml. ' : 'What does each cost? ';
+    $('costs-drop').hidden = !this.about.costs;
   }
 
   async takeFile(kind, name) {

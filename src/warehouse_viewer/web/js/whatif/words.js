@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios and figures in words.
 
+import { linesOf } from './events.js';
+
 export const DAYS = {
   '': 'ideal, meeting no traffic: quickest',
   ideal: 'simulated, on an ideal day',
@@ -59,8 +61,15 @@ export function ordersOf(orders) {
   if (kind === 'fill') return 'orders never run out';
   if (kind === 'poisson') return rate ? `${number(Number(rate))} orders an hour` : 'orders by chance';
   if (kind === 'mix') return `${number(Number(rate))} orders an hour${size === '1.55x1.05' ? '' : ` of ${size.replace('x', ' lines × ')} pieces`}`;
+  if (kind === 'day' || kind === 'demand') {
+    const [file, times] = rate.split('*');
+    const more = times ? `, × ${times}` : '';
+    return kind === 'day' ? `the day of ${file}${more}` : `days as ${file.replace(/\.demand\.yaml$/, '')}${more}`;
+  }
   return `orders of ${orders}`;
 }
+
+const eventsInWords = (events = []) => (events.length ? plural(events.length, 'event') : 'none');
 
 export const dayOf = ({ physics, realism }) => (physics ? realism || 'ideal' : '');
 
@@ -68,7 +77,8 @@ export const dayOf = ({ physics, realism }) => (physics ? realism || 'ideal' : '
 export function describe(settings, site) {
   const policies = Object.entries(settings.policies).map(([role, name]) => `${role}: ${name}`);
   return [layoutOf(settings.layout), plural(site.robots, 'robot'), plural(site.stations, 'station'), ordersOf(settings.orders),
-    `${settings.minutes} min × ${settings.seeds}`, DAYS_SHORT[dayOf(settings)], ...policies].join(' · ');
+    `${settings.minutes} min × ${settings.seeds}`, DAYS_SHORT[dayOf(settings)], ...policies,
+    ...(settings.events?.length ? [eventsInWords(settings.events)] : [])].join(' · ');
 }
 
 /** [what, a text for each scenario] of what is not the same in all. */
@@ -81,6 +91,7 @@ export function differences(scenarios, defaults) {
     'Minutes of work': ({ settings }) => number(settings.minutes),
     Repetitions: ({ settings }) => number(settings.seeds),
     'Robots are': ({ settings }) => DAYS_SHORT[dayOf(settings)],
+    Events: ({ settings }) => linesOf(settings.events).join('; ') || 'none',
   };
   for (const [role, name] of Object.entries(ROLES)) texts[name] = ({ settings }) => settings.policies[role] ?? defaults[role];
   return Object.entries(texts).map(([what, tell]) => [what, scenarios.map(tell)])

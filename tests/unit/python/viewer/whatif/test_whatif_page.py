@@ -105,11 +105,79 @@ def test_a_scenario_is_duplicated_changed_renamed_and_deleted(page):
     page.until(f"{CARDS}.length === 2")
 
 
+COSTS = "robot: {price: 25000}\nperson_hour: 28\ncurrency: EUR\n"
+ORDERS = "reference,sku,quantity,at,due\na,red,1,10,900\nb,blue,1,400,1000\n"
+
+
+def upload(page, kind, file):
+    page.read(f"(page.kind = '{kind}')")
+    page.driver.find_element("id", "upload").send_keys(str(file))
+
+
+def new(page):
+    """Begins a scenario; the button may have scrolled beneath the page's head."""
+    page.read("window.scrollTo({top: 0, behavior: 'instant'})")
+    page.click_on("new")
+
+
+def test_costs_are_compared(page, tmp_path):
+    good, bad = tmp_path / "costs.yaml", tmp_path / "bad.yaml"
+    good.write_text(COSTS)
+    bad.write_text("robot:\n  prize: 3\n")
+    upload(page, "costs", bad)
+    page.until("document.getElementById('told').textContent.includes('bad.yaml:2')")
+    upload(page, "costs", good)
+    page.until("page.about.costs && page.comparison.figures.rows.some((r) => r.key === 'a_piece')")
+    rows = page.read("[...document.querySelectorAll('#table tbody th')].map((c) => c.textContent)")
+    assert "Cost of a piece [EUR]" in rows and "To buy [EUR]" in rows
+    bought = "page.comparison.figures.rows.find((r) => r.key === 'to_buy').cells[{}].mean"
+    robots = PRESETS["small"].robots
+    # The reference is the one with two robots.
+    assert page.read(bought.format(1)) - page.read(bought.format(0)) == (robots - 2) * 25000
+    page.driver.find_element("css selector", "#costs-drop button").click()
+    page.until(
+        "!page.about.costs && page.comparison.figures.rows.every((r) => r.key !== 'a_piece')"
+    )
+
+
+def test_a_day_and_its_events_are_taken(page, tmp_path):
+    file = tmp_path / "monday.csv"
+    file.write_text(ORDERS)
+    new(page)
+    page.driver.find_element("css selector", "#own-orders [value=day]").click()
+    upload(page, "orders", file)
+    page.until("document.getElementById('own-file').value === 'monday.csv'")
+    write(page, "own-times", "1.3")
+    page.driver.find_element("css selector", "#own-layout [value=small]").click()
+    page.driver.find_element("css selector", "#events summary").click()
+    write(page, "own-events", "1m shut pick1")
+    result = "document.getElementById('editor-told').textContent"
+    page.until(f"{result}.includes('a list of events')")
+    write(page, "own-events", "1m close pick1\n90s open pick1")
+    write(page, "own-name", "a day")
+    page.click_on("editor-save")
+    page.until("!document.getElementById('editor').open")
+    page.until(f"{CARDS}.includes('a day')")
+    about = page.read("document.querySelector('[data-name=\"a day\"] .about').textContent")
+    assert "the day of monday.csv, × 1.3" in about and "2 events" in about
+    button(page, "a day", "Change")
+    page.until("document.getElementById('editor').open")
+    assert page.read("document.getElementById('own-events').value") == (
+        "1m close pick1\n90s open pick1"
+    )
+    assert page.read("document.getElementById('own-orders').value") == "day"
+    page.click_on("editor-cancel")
+    button(page, "a day", "Delete")
+    page.click_on("question-yes")
+    page.until(f"{CARDS}.length === 2")
+    assert page.complaints() == []
+
+
 def test_a_layout_of_ones_own_is_taken(page, tmp_path):
     good, bad = tmp_path / "own.layout.yaml", tmp_path / "bad.layout.yaml"
     layout_file.write(generator.of_request(PRESETS["small"], "own"), good)
     bad.write_text("layout: 1\nfloor: |\n  .\n  ..\n")
-    page.click_on("new")
+    new(page)
     page.driver.find_element("id", "upload")
     for file, then in (
         (bad, "document.getElementById('editor-told').textContent.includes('bad.layout.yaml:4')"),

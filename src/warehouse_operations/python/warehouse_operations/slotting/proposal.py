@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Proposes which SKUs lie together and on which units, from orders.
+
+Units are filled one after the other, the one that stands nearest to a station first. Each begins
+with the SKU that has the most lines of those left (class A before B before C), and takes the SKU
+that is most often in an order with those on it: the sum of lift-weighted pairs. So one trip has
+more of an order's lines, and the trips that are made most often are the shortest.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import NamedTuple
+
+from warehouse_operations.slotting.sku_master import Sku
+from warehouse_operations.stock.order_file import Wanted
+
+UNIT_KG = 390.0  # what a unit may hold: 450 kg is a robot's load, 60 kg the unit's own
+MOST_LINES = 60  # of an order whose pairs are counted: longer ones say little about pairs
+
+
+class Lot(NamedTuple):
+    """Pieces of a SKU for one bin."""
+
+    sku: str
+    pieces: int
+
+
+class Slot(NamedTuple):
+    """A bin: pieces of a SKU on a unit."""
+
+    sku: str
+    pieces: int
+    unit: int
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """How often SKUs are asked for, and together. lines: by SKU; together: by SKU and other."""
+
+    lines: Counter[str]
+    together: Mapping[str, Counter[str]]
+
+    @classmethod
+    def of(cls, orders: Iterable[Wanted]) -> "Pairs":
+        """Returns the pairs of orders."""
+        lines: Counter[str] = Counter()
+        together: dict[str, Counter[str]] = defaultdict(Counter)
+        for order in orders:
+            skus = sorted({sku for sku, _ in order.lines})
+            lines.update(skus)
+            if len(skus) <= MOST_LINES:
+                for a, b in combinations(skus, 2):
+                    together[a][b] += 1
+                    together[b][a] += 1
+        return cls(lines, together)
+
+    def share(self) -> float:
+        """Returns the share of lines whose order has another line."""
+        joint = sum(1 for counts in self.together.values() for _ in counts.elements())
+        return joint / max(sum(self.lines.values()), 1)
+
+
+def propose(
+    lots: Sequence[Lot],
+    room: Mapping[int, int],
+    nearest: Sequence[int],
+    pairs: Pairs,
+    skus: Mapping[str, Sku],
+) -> list[Slot]:
+    """Returns a slot for each lot. room: bins of each unit; nearest: units, the nearest first.
+
+    A SKU lies twice on a unit only where nothing else is left, and a unit holds at most UNIT_KG
+    while another has room.
+    """
+    left: dict[str, list[int]] = defaultdict(list)
+    for lot in sorted(lots):
+        left[lot.sku].append(lot.pieces)
+    slots: list[Slot] = []
+    for unit in nearest:
+        _fill(unit, room.get(unit, 0), left, pairs, skus, slots)
+    return slots
+
+
+def _fill(
+    unit: int,
+    bins: int,
+    left: dict[str, list[int]],
+    pairs: Pairs,
+    skus: Mapping[str, Sku],
+    slots: list[Slot],
+) -> None:
+    near: Counter[str] = Counter()  # how often each SKU is asked for with those on the unit
+    here: set[str] = set()
+    weight = 0.0
+    for _ in range(bins):
+        if not left:
+            return
+        weights = {sku: skus[sku].weight * left[sku][-1] if sku in skus else 0.0 for sku in left}
+        fits = [sku for sku in left if weight + weights[sku] <= UNIT_KG]
+        fresh = [sku for sku in fits if sku not in here]
+        choice = min(
+            fresh or fits or [*left],
+            key=lambda sku: (-near[sku], *_rank(sku, pairs, skus)),
+        )
+        weight += weights[choice]
+        slots.append(Slot(choice, left[choice].pop(), unit))
+        if not left[choice]:
+            del left[choice]
+        if choice not in here:
+            here.add(choice)
+            # A partner that is in few other orders says more than one that is in all.
+            for other, count in pairs.together.get(choice, {}).items():
+                near[other] += count * 1000 // max(pairs.lines[other], 1)
+
+
+def _rank(sku: str, pairs: Pairs, skus: Mapping[str, Sku]) -> tuple[str, int, str]:
+    class_ = skus[sku].class_ if sku in skus else ""
+    return class_ or "B", -pairs.lines[sku], sku
