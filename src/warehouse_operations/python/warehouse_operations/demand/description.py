@@ -66,7 +66,7 @@ def _rows(table: CsvTable) -> Iterator[tuple[int, str, str]]:
 
 
 def describe(orders: Orders, interval_s: float) -> Demand:
-    """Returns what orders are like, in intervals of that length [s]."""
+    """Returns the Demand that orders make, in intervals of a length [s]."""
     by_day = Counter(int(order.at // DAY) for order in orders.orders)
     mean = len(orders.orders) / len(by_day)
     lines = Counter(len(order.lines) for order in orders.orders)
@@ -148,7 +148,7 @@ def classes(skus: Mapping[str, int]) -> dict[str, dict[str, float]]:
 
 
 def sentences(demand: Demand) -> Iterator[str]:
-    """Yields what a description says, for people."""
+    """Yields sentences for people that summarise a description."""
     hours = demand.seconds / 3600
     days = f"{demand.days:,} days of" if demand.days > 1 else "A day of"
     yield (
