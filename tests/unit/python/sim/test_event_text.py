@@ -94,5 +94,5 @@ def test_few_are_told_one_by_one():
 
 
 def test_each_is_told_where_that_is_asked_for():
-    lines = event_text.Teller(each=True)
+    lines = event_text.EventLines(each=True)
     assert [len(lines.take(event(Event.DELETED, f"item{i}"))) for i in range(9)] == [1] * 9

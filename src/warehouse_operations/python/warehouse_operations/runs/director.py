@@ -19,8 +19,7 @@ NAMED = 8  # names in a message
 class Director:
     """Carries out events in a shift. spare: ids of robots that are out of service at first.
 
-    Raises EventError at once for an event that could not happen there: a station, a robot or a SKU
-    that there is not.
+    Raises EventError at once for an event with an unknown station, robot or SKU.
     """
 
     def __init__(

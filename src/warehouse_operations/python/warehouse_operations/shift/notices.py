@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notices for people about a shift: what it could not take, and why."""
+"""Notices for people about a shift: refused input, with the reason."""
 
 import logging
 from collections.abc import Callable, Iterator

@@ -22,8 +22,8 @@ class TableAnswer:
 
 
 def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer:
-    """Takes the orders of a table into an OrderBook; see order_file. None of them with check_only,
-    or where anything is wrong."""
+    """Submits the orders of a table to an OrderBook (see order_file): all, or none if any is faulty
+    or with check_only."""
     drafts, faults = parse_csv(table, set(book.skus), book.capacity)
     faults = faults or _faults_of_all(drafts, book)
     answer = TableAnswer(
@@ -38,7 +38,7 @@ def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer
         order, why = book.submit(draft.lines, draft.due, draft.priority, draft.reference)
         if order:
             answer.order_ids.append(order.order_id)
-        else:  # what was checked above forbids it
+        else:  # impossible after the check above
             answer.faults.append(Fault(0, "", f"{draft.reference} is refused: {why}"))
     return answer
 
