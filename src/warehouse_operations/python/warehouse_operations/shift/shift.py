@@ -48,7 +48,7 @@ from warehouse_operations.stock.whereabouts import Whereabouts
 
 __all__ = ["Settings", "Shift"]
 
-RECENT = 200  # latest orders, whose mean time is the usual one
+RECENT = 200  # latest orders, whose median time is the usual one
 
 
 class Shift:
