@@ -50,8 +50,8 @@ class Number(NamedTuple):
 
 
 def structs(header: str) -> dict[str, tuple[str, str]]:
-    """Returns {struct: (comment, body)} of a header."""
-    text = (HEADERS / header).read_text()
+    """Returns {struct: (comment, body)} of a header; each default stands on its member's line."""
+    text = re.sub(r" =\n +", " = ", (HEADERS / header).read_text())
     matches = re.findall(r"((?:^///[^\n]*\n)*)^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S)
     return {
         name: (" ".join(re.sub(r"^/// ?", "", about, flags=re.M).split()), body)

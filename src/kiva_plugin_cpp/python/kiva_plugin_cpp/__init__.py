@@ -189,7 +189,7 @@ class World(_core.World):
     def create(
         cls, name: str = "", *, robots: int = 0, items: int = 0, shelves: int = 0, **options: Any
     ) -> "World":
-        """Returns a warehouse of so many robots, items and storage units, placed by `seed`.
+        """Returns a warehouse with these counts of robots, items and units, placed by `seed`.
 
         ValueError if the items don't fit or a number is negative or beyond the limits.
         """
@@ -207,9 +207,9 @@ class World(_core.World):
     ) -> "World":
         """Returns the warehouse of a layout file, NAME.layout.yaml or read, or of a preset's name.
 
-        `seed` places what the file gives as counts; robots: so many instead of the file's. Options
-        as of World, without `world`: that is the file's building, or an empty floor. ValueError
-        with a sentence a line about all that hinders a fleet there.
+        `seed` places what the file gives as counts; `robots` overrides the file's count.
+        Options as of World, without `world`: that is the file's building, or an empty floor. Raises
+        ValueError, with a line for each fault that hinders a fleet there.
         """
         from kiva_plugin_cpp import layouts
 

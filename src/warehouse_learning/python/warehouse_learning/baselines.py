@@ -75,8 +75,9 @@ def measure(
 
 
 def measure_planner(options: Options, seconds: float, seed: int = 0) -> int:
-    """Units that the fleet's own planner brings to stations in so many simulated seconds, with as
-    many open requests, none of which is served for longer than it takes to let go."""
+    """Returns the units that the fleet's own planner delivers within `seconds` of simulated time.
+
+    As many requests are open as in the task; a delivered unit is released at once."""
     world = building.build(1, options, threads=1)[0][0]
     driver = FleetDriver(world, seed=seed)
     random = np.random.default_rng(seed)

@@ -90,7 +90,7 @@ class KivaDispatcherEnv(gymnasium.Env):
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Assigns a task; returns (observation, reward, terminated, truncated, info).
 
-        Raises ActionError if the action is none.
+        Raises ActionError for an invalid action.
         """
         if not self._driver:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")

@@ -49,12 +49,12 @@ class Options:
 
     size: of SIZES, or robots and shelves (storage units) as counts, or layout: a layout file,
     NAME.layout.yaml, with its own shelves, and its own robots unless `robots` says how many.
-    requests: units that are asked for at any time; as many as robots, unless it is told.
+    requests: units that are asked for at any time; by default as many as robots.
     max_cycles: decisions an episode.
 
-    decision: "action", a decision lasts until every robot has ended its action, or so many
-    simulated seconds, in which those that are still at an action go on with it. continuous: actions
-    are wheel speeds; then a decision lasts so many seconds.
+    decision: "action", a decision lasts until every robot has ended its action; a number is its
+    duration [s, simulated], and robots that have not ended an action continue it. continuous:
+    actions are wheel speeds; a decision needs a duration.
 
     physics_step [s]; acceleration [m/s²], 0 = speeds change at once; lift_time [s]. lasers: robots
     see and stop before obstacles by themselves, and their ranges are observed. reserve: forward is

@@ -36,7 +36,7 @@ class Action(IntEnum):
 
 
 class ActionError(ValueError):
-    """Actions that are none; the message names the robot and what was expected."""
+    """Raised for invalid actions; the message names the robot and what was expected."""
 
 
 class Warehouses:
@@ -173,7 +173,7 @@ class Warehouses:
         """Makes one decision of every robot.
 
         Returns rewards (n, robots) and what happened by robot, {name: (n, robots)}. Raises
-        ActionError if an action is none.
+        ActionError for an invalid action.
         """
         actions = self.check(actions)
         done = (self._begin_wheels if self.options.continuous else self._begin)(actions)
@@ -216,7 +216,7 @@ class Warehouses:
         return rewards
 
     def _begin(self, actions: np.ndarray) -> np.ndarray:
-        """Posts what is possible; returns who does what it was told, (n, robots) bool."""
+        """Posts the possible actions; returns which robots execute theirs, (n, robots) bool."""
         done, world, commands = self.task.begin(actions)
         self.worlds.post(world, commands)
         return done
@@ -241,7 +241,7 @@ class Warehouses:
         self._masks = None
 
     def _happened(self, done: np.ndarray, counts: np.ndarray) -> dict[str, np.ndarray]:
-        """{name: (n, robots) bool} in the last decision, by who did what it was told."""
+        """{name: (n, robots) bool} in the last decision; `done`: which robots executed theirs."""
         refused, collided, hit = self.task.take_events(done, counts)
         for w in hit:
             self._look_at_units(w)

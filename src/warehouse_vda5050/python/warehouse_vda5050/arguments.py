@@ -29,8 +29,8 @@ class BrokerArguments:
 
 
 def read_arguments(parameter: Callable[[str, Any], Any]) -> BrokerArguments:
-    """Returns what the private parameters of a node tell; `parameter` is rospy.get_param. Raises
-    ValueError."""
+    """Returns the arguments from a node's private parameters; `parameter` is rospy.get_param.
+    Raises ValueError."""
     strict = bool(parameter("~strict", False))
     codec = codec_for(str(parameter("~version", DEFAULT_VERSION)), strict)
     return BrokerArguments(

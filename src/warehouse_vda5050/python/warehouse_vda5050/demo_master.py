@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A small master: fetches a unit with one vehicle, carries it to a station, puts it down.
 
-It knows of the warehouse what a map tells, and of robots what they say over MQTT.
+It knows the warehouse from a map, and robots from their MQTT messages.
 """
 
 import time
@@ -58,18 +58,18 @@ def order_of(
 
 
 class DemoMaster:
-    """Drives vehicles at a broker. `tell` writes what happens, a line each."""
+    """Drives vehicles at a broker. `write` takes what happens, a line each."""
 
     def __init__(
         self,
         broker: BrokerSettings,
         codec: Codec,
         topics: Topics,
-        tell: Callable[[str], None] = print,
+        write: Callable[[str], None] = print,
     ) -> None:
         self.states: dict[Identity, VehicleState] = {}
         self.online: dict[Identity, bool] = {}
-        self._codec, self._topics, self._tell = codec, topics, tell
+        self._codec, self._topics, self._write = codec, topics, write
         self._headers: dict[Identity, Headers] = {}
         self._loop = MqttLoop()
         filters = [(topics.everyone(kind), kind.qos) for kind in (Kind.STATE, Kind.CONNECTION)]
@@ -85,7 +85,7 @@ class DemoMaster:
             who, kind = self._topics.parse(topic)
             message: Any = self._codec.decode(kind, payload).message
         except (MessageError, TopicError) as error:
-            self._tell(f"{topic}: {error}")
+            self._write(f"{topic}: {error}")
             return
         if isinstance(message, Connection):
             self.online[who] = message.state is ConnectionState.ONLINE
@@ -107,7 +107,7 @@ class DemoMaster:
         self._send(who, Kind.INSTANT_ACTIONS, InstantActions((action,)))
 
     def known(self) -> list[Identity]:
-        """Returns the vehicles that are online and have told where they are."""
+        """Returns the vehicles that are online and have reported a position."""
         return [
             who for who, state in self.states.items() if self.online.get(who) and state.position
         ]
@@ -131,13 +131,13 @@ class DemoMaster:
 
     def carry_out(self, who: Identity, order: VehicleOrder, seconds: float = 300.0) -> VehicleState:
         """Sends an order and waits until it is carried out. Raises TripError."""
-        self._tell(f"{who.serial}: order {order.id}, {len(order.nodes)} nodes")
+        self._write(f"{who.serial}: order {order.id}, {len(order.nodes)} nodes")
         self._send(who, Kind.ORDER, order)
         lines: list[str] = []
         return self.until(lambda: self._follow(who, order, lines), seconds, f"order {order.id}")
 
     def _follow(self, who: Identity, order: VehicleOrder, states: list[str]) -> VehicleState | None:
-        """Tells how far an order is; returns the state once it is over."""
+        """Writes how far an order is; returns the state once it is over."""
         state = self.states[who]
         if state.order_id != order.id:
             if state.errors and any(("orderId", order.id) in e.references for e in state.errors):
@@ -146,7 +146,7 @@ class DemoMaster:
         for line in _progress(state):
             if line not in states:
                 states.append(line)
-                self._tell(f"{who.serial}: {line}")
+                self._write(f"{who.serial}: {line}")
         failed = [a for a in state.actions if a.status is ActionStatus.FAILED and not a.instant]
         if failed:
             raise TripError(f"{who.serial}: {failed[0].type} failed: {failed[0].result}")

@@ -2,7 +2,7 @@
 """What a maker of a robot implements, so that any VDA 5050 master can drive it.
 
 The vehicle core (warehouse_vda5050.vehicle) does the rest: orders and their updates, actions,
-pauses, states. All methods return at once; what came of a command is told by report(). The core
+pauses, states. All methods return at once; report() returns what came of a command. The core
 calls from one thread, ten times a second or more often.
 
 A path is a list of points; the core numbers it with a `path_id` that no path had before. The robot
@@ -22,7 +22,7 @@ Point = tuple[float, float]  # [m] in the frame of the map
 
 @dataclass(frozen=True)
 class Report:
-    """What a robot tells of itself; the frame is that of the map [m, rad, m/s, rad/s].
+    """A robot's report of its state; the frame is that of the map [m, rad, m/s, rad/s].
 
     busy: it carries out a command, and takes no other. path_id: of the last path that it took, 0
     for none. reached: how many points of that path its centre has come to; the first is where it
@@ -55,7 +55,7 @@ class Report:
 
     @property
     def answers(self) -> bool:
-        """Whether the robot itself tells what stands here."""
+        """Whether the robot itself detects what stands here."""
         return self.heard and not self.silent
 
     @property
@@ -90,7 +90,7 @@ class Driver(abc.ABC):
 
     @abc.abstractmethod
     def report(self) -> Report | None:
-        """Returns what the robot tells now, None as long as it has told nothing."""
+        """Returns the robot's present report, None before the first."""
 
     @abc.abstractmethod
     def factsheet(self) -> Factsheet:
@@ -118,5 +118,5 @@ class Driver(abc.ABC):
         return "the robot stands at no charger" if on else "the robot charges as long as it stands"
 
     def init_position(self, x: float, y: float, yaw: float) -> str:
-        """Tells the robot where it is [m, rad]. Returns why it does not believe that, or ''."""
+        """Sets the robot's pose [m, rad]. Returns why the robot rejects it, or ''."""
         return "the robot finds its position by itself"

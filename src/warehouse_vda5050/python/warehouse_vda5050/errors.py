@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Errors as states tell them: the few types of 2.1, and those of 3.0, which tell more apart."""
+"""Errors in states: the few types of 2.1, and the more specific ones of 3.0."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ErrorType(StrEnum):
     NO_ORDER_TO_CANCEL = "noOrderToCancel"
     ORDER_ACTION = "orderActionError"  # an action of an order failed
     INSTANT_ACTION = "instantActionError"  # an instant action cannot be carried out
-    UNKNOWN_FIELD = "unknownField"  # told, and otherwise ignored
+    UNKNOWN_FIELD = "unknownField"  # reported, and otherwise ignored
     LOST = "localizationError"
     MOTOR = "motorError"
     LIFT = "liftError"
@@ -93,7 +93,7 @@ LEVELS = {
 class Error:
     """What is wrong with a message or a vehicle; references are (key, value): orderId, nodeId …
 
-    type is that of 2.1; `precise` is that of 3.0 where it tells more.
+    type is that of 2.1; `precise` is that of 3.0 where it is more specific.
     """
 
     type: str

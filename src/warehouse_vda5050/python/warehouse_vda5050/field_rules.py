@@ -75,7 +75,7 @@ POSITION = (
     Rule("allowedDeviationTheta", Use.CHECKED, "how far from theta it may be", Kind.NUMBER),
 )
 EDGE = (
-    Rule("edgeId", Use.DRIVEN, "told in edgeStates"),
+    Rule("edgeId", Use.DRIVEN, "reported in edgeStates"),
     Rule("sequenceId", Use.CHECKED, "in order, without gaps"),
     Rule("released", Use.CHECKED, "as the node at its end"),
     Rule("startNodeId", Use.CHECKED, "the node before it"),
@@ -98,7 +98,7 @@ EDGE = (
 )
 ACTION = (
     Rule("actionType", Use.DRIVEN, "one of the factsheet's"),
-    Rule("actionId", Use.DRIVEN, "its state is told under it"),
+    Rule("actionId", Use.DRIVEN, "identifies it in actionStates"),
     Rule("actionDescription", Use.SHOWN, ""),
     Rule("actionDescriptor", Use.SHOWN, ""),
     Rule("blockingType", Use.DRIVEN, "lifting and charging hold the robot in any case"),
@@ -126,7 +126,7 @@ TABLE: dict[str, tuple[Rule, ...]] = {
     "instantActions": (*HEADER, *INSTANT_ACTIONS),
     "instantActions.actions": ACTION,
 }
-# Fields of a state that are told only by some vehicles, and not by these.
+# Fields of a state that only some vehicles report, and these do not.
 NOT_TOLD = (
     "zoneSetId",
     "information",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What master and vehicle tell each other, free of any version's names: SI units, radians.
+"""Messages of masters and vehicles, independent of a version's names: SI units, radians.
 
 A codec turns these into the JSON of one version of VDA 5050 and back. All are values: none is
 changed once made.
@@ -175,7 +175,7 @@ class EdgeState:
 
 @dataclass(frozen=True)
 class ActionState:
-    """How far an action has come; `instant` tells it from those of the order."""
+    """How far an action has come; `instant` marks one that belongs to no order."""
 
     id: str
     type: str
@@ -222,7 +222,7 @@ class Load:
 
 @dataclass(frozen=True)
 class VehicleState:
-    """All that a vehicle tells: at every event, and after 30 s at the latest."""
+    """The state of a vehicle, sent at every event and at least each 30 s."""
 
     order_id: str = ""
     order_update: int = 0

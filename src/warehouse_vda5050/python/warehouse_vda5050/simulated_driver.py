@@ -24,7 +24,7 @@ FAILURES = {
     FailureKind.LASER_BLIND: (ErrorType.LASER, ErrorLevel.FATAL, "the laser is blind"),
     FailureKind.WHEEL_SLIPS: (ErrorType.WHEELS, ErrorLevel.WARNING, "the wheels slip"),
 }
-SETTLING = 1.0  # until the world tells a mode that was set [s, wall]
+SETTLING = 1.0  # until the world reports a mode that was set [s, wall]
 LOST = Error(
     ErrorType.LOST.value,
     ErrorLevel.FATAL,
@@ -35,7 +35,7 @@ LOST = Error(
 
 @dataclass(frozen=True)
 class Sighting:
-    """What the world tells of one robot: its entries of FleetState, and what else concerns it."""
+    """One robot's part of the world's messages: its entries of FleetState, and its failures."""
 
     x: float
     y: float
@@ -96,8 +96,8 @@ class World(Protocol):
 
 
 class SimulatedDriver(Driver):
-    """One robot of the running warehouse. `sighting`, `refusal` and `silence`, which says why the
-    world tells nothing, are set from outside."""
+    """One robot of the running warehouse. `sighting`, `refusal` and `silence`, the reason why the
+    world sends nothing, are set from outside."""
 
     def __init__(self, kiva_id: int, world: World, sheet: Factsheet | None = None) -> None:
         self.kiva_id = kiva_id
@@ -107,7 +107,7 @@ class SimulatedDriver(Driver):
         self._taken_from = world.taken_before(kiva_id)  # the mode that it goes back to
         self._gave_back: tuple[int, float] | None = None  # the mode, and when it counts no more
         self._stopped = False
-        self._charged_enough = False  # it was told to stop, and stands there still
+        self._charged_enough = False  # it was commanded to stop, and still stands there
 
     def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
         """Sends a path, or more of it."""
@@ -139,7 +139,7 @@ class SimulatedDriver(Driver):
         self._world.stop(self.kiva_id, stopped)
 
     def report(self) -> Report | None:
-        """Returns what the world told last."""
+        """Returns the last report from the world."""
         sighting = self.sighting
         return None if sighting is None else self._report(sighting)
 
@@ -171,7 +171,7 @@ class SimulatedDriver(Driver):
         )
 
     def _told_mode(self, sighting: Sighting) -> int:
-        """The mode that the world tells, or will tell in a moment."""
+        """The mode that the world reports, or will report in a moment."""
         if self._gave_back and time.monotonic() < self._gave_back[1]:
             return self._gave_back[0]
         return sighting.mode
@@ -212,8 +212,8 @@ class SimulatedDriver(Driver):
         self._world.note_taken(self.kiva_id, None)
 
     def charge(self, on: bool) -> str:
-        """Tells of charging, or no more of it until the robot has left the charger. The charger in
-        the floor charges whatever stands there."""
+        """Reports charging, or hides it until the robot has left the charger. The charger in the
+        floor charges whatever stands there."""
         if not (self.sighting and self.sighting.at_charger):
             return "the robot stands at no charger" if on else ""
         self._charged_enough = not on

@@ -57,8 +57,8 @@ class Vehicles:
         refusals: list[tuple[int, str]],
         silence: str = "",
     ) -> None:
-        """Takes in what the world tells, and lets all vehicles go on. silence: why it tells nothing
-        any more, '' if it does."""
+        """Takes the world's messages, and updates all vehicles. silence: why the world no longer
+        sends any, '' if it does."""
         for kiva_id in self.links.keys() - sightings.keys():
             self._remove(kiva_id)
         for kiva_id, text in refusals:

@@ -6,7 +6,7 @@ import contextlib
 import rospy
 
 from warehouse_vda5050.arguments import BrokerArguments, home, own_broker, read_arguments
-from warehouse_vda5050.telling import BrokerTopic, vehicles_message
+from warehouse_vda5050.broker_topic import BrokerTopic, vehicles_message
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
 
@@ -46,7 +46,7 @@ class VehiclesNode:
             while not (self._stopping or rospy.is_shutdown()):
                 self._vehicles.loop.poll(PERIOD)
                 self._update()
-                self._topic.tell(lambda: vehicles_message(self._vehicles, self._address))
+                self._topic.update(lambda: vehicles_message(self._vehicles, self._address))
 
     def _update(self) -> None:
         world = self._world

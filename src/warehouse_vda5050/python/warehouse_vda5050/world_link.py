@@ -35,12 +35,12 @@ from warehouse_vda5050.simulated_driver import Sighting
 
 SET_MODE = "warehouse/set_robot_mode"
 WAIT = 10.0  # for the scenery of the floor [s]
-SILENT = 3.0  # the world has ended, or is paused, if it tells nothing for so long [s, wall]
-TOWED = 0.02  # an idle lost robot that moves so far was moved by others [m]
+SILENT = 3.0  # silence after which the world counts as ended or paused [s, wall]
+TOWED = 0.02  # an idle lost robot that moves farther was moved by others [m]
 
 
 class WorldLink:
-    """Commands to the world, and what it told last. `floor` changes whenever it may have."""
+    """Commands to the world, and its last messages. `floor` changes whenever it may have."""
 
     def __init__(self) -> None:
         self._fleet: Any = None
@@ -88,13 +88,13 @@ class WorldLink:
             elif event.kind in (Event.ACCEPTED, Event.SPAWNED, Event.DELETED):
                 self._lost.pop(int(number), None)
 
-    # What the world tells.
+    # --- from the world
 
     @property
     def silence(self) -> str:
-        """Why nothing is heard of the robots, '' as long as the world tells of them."""
+        """Why nothing is heard of the robots, '' as long as the world sends them."""
         silent = time.monotonic() - self._heard_at
-        return f"the world has told nothing for {SILENT:g} s" if silent > SILENT else ""
+        return f"the world has reported nothing for {SILENT:g} s" if silent > SILENT else ""
 
     def take_refusals(self) -> list[tuple[int, str]]:
         """Returns (robot, reason) of each refusal since the last call."""
@@ -104,7 +104,7 @@ class WorldLink:
         return refusals
 
     def sightings(self) -> dict[int, Sighting]:
-        """Returns what was told last of each robot; {} before anything was."""
+        """Returns the last report on each robot; {} before the first."""
         fleet = self._fleet
         if fleet is None:
             return {}
@@ -163,7 +163,7 @@ class WorldLink:
         self._floor_of = floor_of
         return self.grid != before
 
-    # What it is told.
+    # --- to the world
 
     def follow(
         self, kiva_id: int, path_id: int, first: int, points: Sequence[Point], released: int

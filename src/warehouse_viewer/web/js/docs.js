@@ -21,7 +21,7 @@ async function show() {
 function socket(api, path, { description, parameters, messages = [] }) {
   const lines = parameters.map(({ name, enum: some, description: text }) => (
     make('li', {}, make('code', { textContent: name }), ` ${[text, some?.join(' | ')].filter(Boolean).join(': ')}`)));
-  const sent = messages.map((message) => make('li', {}, make('code', { textContent: told(api, message) })));
+  const sent = messages.map((message) => make('li', {}, make('code', { textContent: fieldsOf(api, message) })));
   return make('details', {},
     make('summary', {},
       make('span', { className: 'method ws', textContent: 'WS' }),
@@ -44,7 +44,7 @@ function form(api, path, method, { parameters = [], requestBody, responses }) {
   const body = requestBody?.content['application/json'].schema;
   if (body) {
     const text = JSON.stringify(example(api, body), null, 2);
-    out.append(make('p', { className: 'dim', textContent: `body: ${told(api, body)}` }),
+    out.append(make('p', { className: 'dim', textContent: `body: ${fieldsOf(api, body)}` }),
       make('textarea', { name: 'body', ariaLabel: 'Body', value: text, spellcheck: false }));
   }
   const answer = make('pre', { hidden: true, tabIndex: 0 });
@@ -101,9 +101,9 @@ function example(api, schema) {
 }
 
 /** The fields of a body, in words; of each of its variants if it has some. */
-function told(api, schema) {
+function fieldsOf(api, schema) {
   const { anyOf, properties = {}, required = [] } = resolve(api, schema);
-  if (anyOf) return anyOf.map((variant) => told(api, variant)).join(' or ');
+  if (anyOf) return anyOf.map((variant) => fieldsOf(api, variant)).join(' or ');
   const fields = Object.entries(properties).map(([name, property]) => (
     `${name}${required.includes(name) ? '' : '?'}: ${property.enum?.join(' | ') ?? property.type ?? property.$ref?.split('/').at(-1)}`));
   return `{ ${fields.join(', ')} }`;

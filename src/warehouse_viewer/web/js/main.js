@@ -6,7 +6,7 @@ import { Bar } from './panels/bar.js';
 import { Builder } from './panels/builder.js';
 import { Connection } from './base/connection.js';
 import { Details } from './panels/details.js';
-import { $, isPressed, on, onTheme, press, tell } from './base/dom.js';
+import { $, isPressed, on, onTheme, press, setText } from './base/dom.js';
 import { Drawers, marginsOf } from './base/drawers.js';
 import { FallenItems } from './panels/fallen.js';
 import { FleetPanel } from './panels/fleet.js';
@@ -115,7 +115,7 @@ class Page {
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
-    tell($('pace'), `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`);
+    setText($('pace'), `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`);
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */
@@ -295,7 +295,7 @@ class Page {
     return Boolean(this.placer) || isPerson(this.selected) || this.details.selectedRobot >= 0;
   }
 
-  told(cell) {
+  textOf(cell) {
     return `${this.placer ? `${this.placer.what} at` : 'go to'} ${cell.join(', ')}`;
   }
 

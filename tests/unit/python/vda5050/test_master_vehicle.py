@@ -144,7 +144,7 @@ def test_an_order_that_is_never_taken_is_refused(bench):
     asked = []
     for _ in range(15):
         asked = bench.instants(2.5) or asked
-    assert bench.events()[-1] == ("REFUSED", "the vehicle does not tell that it has the order")
+    assert bench.events()[-1] == ("REFUSED", "the vehicle does not confirm the order")
     cancel = asked[-1]
     assert cancel.type == "cancelOrder"  # it may have the order all the same
     bench.tell(actions=(ActionState(cancel.id, "cancelOrder", ActionStatus.FAILED),))

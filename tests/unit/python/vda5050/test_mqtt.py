@@ -161,11 +161,11 @@ def test_the_connection_between_vehicle_and_broker_has_unexpectedly_ended(site):
     site.until(connection_is(site, ConnectionState.ONLINE))
     site.send(Kind.ORDER, order("o", row(0, 9)))
     site.until(lambda: (s := site.last(Kind.STATE)) and s.order_id == "o")
-    site.robots[0].extra = {"silent": "the world has told nothing for 3 s"}
+    site.robots[0].extra = {"silent": "the world has reported nothing for 3 s"}
     site.until(connection_is(site, ConnectionState.CONNECTIONBROKEN), steps=False)
     (error,) = site.last(Kind.STATE).errors
     assert error.type == "robotSilent" and error.level.value == "FATAL"
-    assert "the world has told nothing" in error.description
+    assert "the world has reported nothing" in error.description
     site.robots[0].extra = {}
     site.until(connection_is(site, ConnectionState.ONLINE))
     site.until(lambda: is_over(site.last(Kind.STATE)) and not site.last(Kind.STATE).errors)

@@ -140,7 +140,7 @@ class FleetDriver:
         return UnitPoses(units["shelf_id"], x, y, yaw, carried, self.world.time)
 
     def _take_events(self) -> list[str]:
-        """Takes in what the world tells; returns the models of robots that refused a path."""
+        """Applies the world's events; returns the models of robots that refused a path."""
         events = self.world.events()
         if self.events is not None:
             self.events.append(events)

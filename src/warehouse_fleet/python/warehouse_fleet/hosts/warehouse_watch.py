@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Follows the topics that tell a coordinator about the warehouse."""
+"""Subscribes to the topics from which a coordinator knows the warehouse."""
 
 import threading
 from typing import Any
@@ -28,7 +28,7 @@ from warehouse_msgs.msg import (
 
 
 class WarehouseWatch:
-    """The latest of each message, and what events told since they were taken.
+    """The latest message of each topic, and the events since the last take.
 
     `news` is set by each FleetState. `by_hand`: names of stations where a person works.
     """

@@ -74,8 +74,8 @@ BEST_KNOWN = {
 
 
 def best_known(path: str | PathLike[str], robots: int) -> BestKnown | None:
-    """Returns what is known of the problem in a file of that name with so many robots; None if that
-    is none of the table. Some files are published without the prefix of their round."""
+    """Returns the best known results for the problem in a file of that name with `robots` robots;
+    None if the table lacks it. Some files are published without the prefix of their round."""
     stem = Path(path).stem
     names = (stem, *(prefix + stem for prefix in ("MR23-", "MR24-", "TR23-")))
     known = [BEST_KNOWN[name] for name in names if name in BEST_KNOWN]

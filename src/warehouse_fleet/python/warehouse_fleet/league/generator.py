@@ -30,8 +30,8 @@ def warehouse(
     stations: int = 14,
 ) -> LeagueWarehouse:
     """Returns a floor of `blocks` (columns, rows) blocks of `block` (columns, rows) shelves each,
-    with aisles of `aisle` cells between them, a margin of `margin` cells around them, and so many
-    stations along each of the top and bottom walls."""
+    with aisles of `aisle` cells between them, a margin of `margin` cells around them, and
+    `stations` stations along each of the top and bottom walls."""
     columns = blocks[0] * (block[0] + aisle) - aisle + 2 * margin
     rows = blocks[1] * (block[1] + aisle) - aisle + 2 * margin
     storage = np.zeros((rows, columns), bool)

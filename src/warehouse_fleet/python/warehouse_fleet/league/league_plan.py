@@ -53,7 +53,7 @@ class LeaguePlan:
 def read_plan(path: str | PathLike[str], floor: str | PathLike[str], ticks: int = 0) -> LeaguePlan:
     """Reads a plan, JSON, on the floor of a problem (JSON) or of a map; raises ProblemError.
 
-    ticks: so many of the plan, from its begin; 0: all.
+    ticks: number of ticks to read, from the plan's begin; 0: all.
     """
     floor = Path(floor)
     problem = None if floor.suffix == ".map" else read(floor)

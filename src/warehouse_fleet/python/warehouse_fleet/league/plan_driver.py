@@ -31,7 +31,7 @@ class Cause(IntEnum):
     AHEAD = 3  # it stands behind a robot that has not left the cell before it
     ORDER = 4  # it stands before a free cell that another one passes first
     RING = 5  # it stands where a ring of the plan is broken
-    RELEASE = 6  # it stands until it is told, or until it starts
+    RELEASE = 6  # it stands until its next cells are released, or until it starts
     ARRIVED = 7  # it has driven all of its plan
 
 

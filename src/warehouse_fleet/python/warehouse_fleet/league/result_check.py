@@ -25,7 +25,7 @@ class Checked:
 
     robots: int
     ticks: int
-    finished: int  # tasks, counted where the result tells its events
+    finished: int  # tasks, counted where the result lists its events
     faults: list[str] = field(default_factory=list)
 
 
@@ -96,7 +96,7 @@ def _drive(
     problem: Problem, actions: NDArray[np.uint8]
 ) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
     """Returns where robots stand before each tick and after the last, (ticks + 1, robots) cells,
-    within the map even if they are told to leave it; and their headings."""
+    clipped to the map where an action would leave it; and their headings."""
     turns = np.array([0, 0, 1, 3], np.uint8)[actions.T]
     first = np.zeros((1, actions.shape[0]), np.uint8)
     heading = np.concatenate([first, np.cumsum(turns, axis=0, dtype=np.uint8)]) & 3
@@ -112,7 +112,7 @@ def _check_tasks(
     """Counts the tasks whose errands were done in order, each by the robot in its cell."""
     events = [event for event in data.get("events", []) if len(event) == 4]
     if not events or not all(isinstance(part, int) for part in events[0]):
-        return  # the format of 2023 does not tell errands
+        return  # the format of 2023 does not list errands
     done: dict[int, int] = {}
     finished = 0
     for tick, robot, task, errand in events:

@@ -8,7 +8,7 @@ what is near it, and priority inheritance with backtracking keeps robots apart.
 The network orders a robot's candidates, its own cell and four neighbours; PIBT (Okumura et al.,
 Artificial Intelligence 310, 2022) takes the best one that leaves a cell for all others. So what the
 network says can be slow, but never unsafe (CS-PIBT: Veerapaneni et al., 2024). A plan is the same
-step again and again, as far as robots are told ahead.
+step, repeated up to the horizon of the commands.
 """
 
 from typing import Any
@@ -80,7 +80,7 @@ class Rollout:
         self.at = 0
 
     def is_free(self) -> np.ndarray:
-        """Returns (robots,) bool: who can still be told what to do in this tick."""
+        """Returns (robots,) bool: which robots can still take a command in this tick."""
         n = len(self.fleet)
         stopped = self.fleet.stopped.astype(bool) if self.fleet.stopped.size else np.zeros(n, bool)
         if self.at >= self._committed.shape[1]:

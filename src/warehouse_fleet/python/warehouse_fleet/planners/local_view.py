@@ -70,7 +70,7 @@ class LocalView:
         return scene.targets
 
     def rows(self, scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-        """Returns what is told of each candidate, (robots, 5, FEATURES), and whether it is one."""
+        """Returns the features of each candidate, (robots, 5, FEATURES), and which are valid."""
         targets = self.targets(scene)
         far, quarters = self._far_of(scene, targets), self._quarters(scene)
         possible = self._possible(scene, targets, far, quarters)

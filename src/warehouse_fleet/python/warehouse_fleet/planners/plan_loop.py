@@ -33,7 +33,7 @@ class PlanLoop:
     run does not depend on how fast the machine is.
 
     `planner` is a YAML file's description, see planner_plugins; None: the one of this package, on
-    so many `threads`, with the same plans for any number; 0: one less than the machine has cores.
+    `threads` threads (0: one less than the machine's cores), with the same plans for any number.
     `refused` counts plans that were refused, `alarm` says why the last one was.
     """
 

@@ -35,7 +35,7 @@ from warehouse_layout import Floor
 from warehouse_layout.file import user_file
 
 MANOEUVRE = 3  # ticks in which a robot reaches any neighbouring cell
-# (4, MANOEUVRE) of Action: forward after so many quarter turns (row), the shorter way round.
+# (4, MANOEUVRE) of Action: forward after `row` quarter turns, the shorter way round.
 TURNS = np.array([[1, 0, 0], [2, 1, 0], [2, 2, 1], [3, 1, 0]], np.uint8)
 ACTIONS = 4  # waits, forward, and turns both ways
 NAMES = {"learned": "warehouse_fleet.planners.learned_planner:Learned"}

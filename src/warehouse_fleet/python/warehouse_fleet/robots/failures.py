@@ -45,7 +45,7 @@ def names_of(failures: int) -> str:
 def heard(world: Any) -> Any:
     """Returns the robots of a kiva_plugin_cpp.World as known from their reports: arrays (n,), named
     as those of its Fleet. A robot whose radio is lost or whose reports are late has the values of
-    its last report, except for `failures`, which tell that the radio is lost, and `charge`."""
+    its last report, except for `failures`, which show the lost radio, and `charge`."""
     fleet = world.fleet
     last = world.last_heard()
     if not len(last):

@@ -67,7 +67,7 @@ class PeopleLog:
         self._before = (0, 0, 0)
 
     def update(self, time: float, people: Any, robots: int) -> None:
-        """Takes in the people at a time [s], beside so many robots."""
+        """Updates from the people at a time [s]; `robots` is the count of robots."""
         elapsed = 0.0 if self._time is None else max(0.0, time - self._time)
         there, slowed, stopped = self._before
         self._time = time

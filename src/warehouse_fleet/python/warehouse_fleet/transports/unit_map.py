@@ -13,7 +13,7 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
 ASKEW = 0.1  # [rad] from the axes, and more: nor there
 UNIT_REACH = 0.48  # of a unit's sides, with room for a robot that turns beside it [m]
-SEEN_LATE = 0.5  # what is reported of units may lag behind by so much [s]
+SEEN_LATE = 0.5  # largest lag of the reported states of units [s]
 
 
 class UnitPoses(NamedTuple):
@@ -37,7 +37,7 @@ class Crooked(NamedTuple):
 
 class UnitMap:
     """The cell of each unit, `cell_of`: NOWHERE if it is carried, or stands across cells. `unit_in`
-    holds those that stand, by cell; `stands`, (cells,) bool, tells in which there is one. `crooked`
+    holds those that stand, by cell; `stands`, (cells,) bool, marks those cells. `crooked`
     holds those that stand across cells, by unit."""
 
     def __init__(self, plan: FloorPlan) -> None:

@@ -211,7 +211,9 @@ def _parser() -> argparse.ArgumentParser:
         prog="layout", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    _add(commands, "check", _check, "tell whether a fleet can work there, or what hinders it")
+    _add(
+        commands, "check", _check, "check whether a fleet can work there, and list what hinders it"
+    )
     drawing = _add(commands, "draw", _draw, "draw a plan with dimensions and a legend")
     drawing.add_argument(
         "--out", metavar="F.svg|F.png", type=_suffixed(".svg", ".png"), required=True
@@ -278,7 +280,9 @@ def _add_convert(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
 def _add_new(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    parser = _add(commands, "new", _new, "make a layout of so many robots and storage units", NEW)
+    parser = _add(
+        commands, "new", _new, "make a layout for a number of robots and storage units", NEW
+    )
     presets = [name for name in PRESETS if name != EMPTY]
     parser.add_argument(
         "preset", nargs="?", metavar="PRESET", choices=presets, help=", ".join(presets)
@@ -306,8 +310,8 @@ def _add_new(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") ->
     parser.add_argument("--out", metavar="F", type=_suffixed(lf.SUFFIX), required=True)
 
 
-CONVERT = """Write a layout in another format. What IN is, it tells by itself; the end of the name
-of OUT tells which to write.
+CONVERT = """Write a layout in another format. The format of IN is detected from its content; the
+end of the name of OUT selects the format to write.
 
 in   .layout.yaml .sdf .world .xinst .xlayo .map map.yaml .lif.json .dxf .xml .csv .xlsx
 out  .layout.yaml .sdf .map .lif.json .svg .png

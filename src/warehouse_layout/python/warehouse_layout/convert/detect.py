@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tells formats apart by what files hold, for names may say anything."""
+"""Detects the formats of files by their content, since names may be wrong."""
 
 import re
 import zipfile
@@ -26,7 +26,7 @@ _LIF = re.compile(r'"(?:layouts|metaInformation|origins)"\s*:')
 
 
 def module_of(path: Path) -> str:
-    """Returns the module that reads what a file holds; "" if that tells nothing."""
+    """Returns the name of the module that reads a file's content; "" if no format matches."""
     try:
         with open(path, "rb") as file:
             data = file.read(HEAD)

@@ -115,7 +115,7 @@ class _Drawing:
         """Returns the layout, and sentences about what it can't hold."""
         half = self._raster.spacing / 2
         belts = self._covered(self._kinds.get("conveyor_belt", ()), 0.0, half)
-        # Walls of a layout are as wide as leaves robots room beside them; their middles tell.
+        # A layout's walls are drawn narrow enough for robots to pass: only the centres count.
         walls = self._covered(self._kinds.get(WALLS, ()), 0.0, 0.0)
         walls |= self._covered(self._obstacles(), TURNING, half)
         plan = self._plan(belts, walls)
@@ -211,7 +211,7 @@ class _Drawing:
         return plan_reader.of_parts(*raster.origin, raster.spacing, occupancy, marks, at)
 
     def _standing(self, kind: str, allowed: np.ndarray, where: str) -> tuple[Cell, ...]:
-        """Returns the cells in which models of a kind stand; tells of those that are elsewhere."""
+        """Returns the cells in which models of a kind stand; notes those that stand elsewhere."""
         models = sorted(self._kinds.get(kind, ()), key=lambda m: kind_and_number(m.name)[1])
         cells = self._raster.cells(model.pose[:2] for model in models)
         inside = self._raster.has(cells)
@@ -226,7 +226,7 @@ class _Drawing:
         return tuple(out)
 
     def _as_hinted(self, file: LayoutFile, hint: LayoutFile) -> LayoutFile:
-        """Returns the file with what the hint knows and a world doesn't tell."""
+        """Returns the file completed from the hint by what a world does not contain."""
         settings = {s.name: s.settings for s in hint.stations}
         stations = tuple(replace(s, settings=settings.get(s.name, {})) for s in file.stations)
         file = replace(file, stations=stations, name=hint.name, at=hint.at, building=hint.building)
@@ -258,7 +258,7 @@ def _hint(root: ElementTree.Element) -> LayoutFile | None:
 
 
 def _same(hint: LayoutFile, file: LayoutFile, plan: FloorPlan) -> bool:
-    """Tells whether a layout file means the plan that was read, and the file drawn of it."""
+    """Returns whether a layout file means the plan that was read, and the file drawn of it."""
     drawn, now = drawn_floor.areas(hint.floor), drawn_floor.areas(file.floor)
     stations, faults = station_lanes.of_file(hint, drawn)
     if faults or hint.shape != plan.shape:

@@ -216,15 +216,15 @@ def _outward(lane: np.ndarray, service: int) -> np.ndarray:
 
 
 def name_width(name: str, cell: float) -> float:
-    """Returns about how wide a station's name is [in] where cells have so many inches."""
+    """Returns the approximate width of a station's name [in] for cells of `cell` inches."""
     return len(name) * LETTER * name_size(cell) / 72
 
 
 def is_wide(name: str, cell: float) -> bool:
-    """Tells whether a name reaches over the lanes beside its own."""
+    """Returns whether a name reaches over the lanes beside its own."""
     return name_width(name, cell) > LANE * cell
 
 
 def name_size(cell: float) -> float:
-    """Returns the size of stations' names [pt] for cells of so many inches."""
+    """Returns the size of stations' names [pt] for cells of `cell` inches."""
     return max(5.0, min(9.0, cell * 72 * 0.6))

@@ -56,7 +56,7 @@ SYMBOLS: dict[str, tuple[Symbol, str]] = {
 
 
 def counted(subject: Subject) -> dict[str, Any]:
-    """Returns how often each kind is on the plan; True where the number tells nothing."""
+    """Returns how often each kind is on the plan; True where the number means nothing."""
     floor, drawn, layout = subject.file.floor, subject.drawn, subject.layout
     lane = lane_mask(subject.stations, floor.shape)
     picks = sum(station.kind == PICK for station in subject.stations)

@@ -35,7 +35,7 @@ class StockRow:
 
 
 def read(path: str | Path, units: int) -> list[StockRow]:
-    """Reads the stock of a warehouse with so many storage units. Raises StockFileError."""
+    """Reads the stock of a warehouse with `units` storage units. Raises StockFileError."""
     table = CsvTable(path, COLUMNS, error=StockFileError)
     rows: list[StockRow] = []
     bins: Counter[int] = Counter()
@@ -74,6 +74,6 @@ def _number(column: str, text: str, least: int, most: int) -> int:
     if not right:
         expected = f"a whole number from {least} to {most} was expected"
         if column == UNIT:
-            expected = f"{expected}: so many storage units stand in the warehouse"
+            expected = f"{expected}, the storage units of the warehouse"
         raise ValueError(f"column {column} is '{shown(text)}'; {expected}")
     return int(text)

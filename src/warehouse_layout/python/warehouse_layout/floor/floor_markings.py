@@ -51,7 +51,7 @@ Point = Sequence[float]  # x, y [m]
 
 
 def is_name(model: str) -> bool:
-    """Tells whether a model of that name is markings."""
+    """Returns whether a model of that name is markings."""
     return bool(_NAMED.fullmatch(model))
 
 

@@ -63,7 +63,7 @@ def stripes(mask: np.ndarray) -> np.ndarray:
 
 
 def thinned(mask: np.ndarray, tile: int) -> np.ndarray:
-    """Returns cells (n, 2) of a mask, at most one in each square of so many cells along an edge."""
+    """Returns cells (n, 2) of a mask, at most one in each square of `tile` by `tile` cells."""
     rows, columns = np.nonzero(mask)
     across = mask.shape[1] // tile + 1
     _, first = np.unique(rows // tile * across + columns // tile, return_index=True)

@@ -12,7 +12,7 @@ from warehouse_layout.place.layout import Floor
 
 @dataclass(frozen=True)
 class Cells:
-    """`taken[i, j]` tells whether an obstacle is at the grid point (x + i, y + j) [m]."""
+    """`taken[i, j]` is whether an obstacle is at the grid point (x + i, y + j) [m]."""
 
     x: int
     y: int

@@ -37,7 +37,7 @@ def plan(request: Request, seed: int = SEED) -> Layout:
 
 
 def is_regular(request: Request) -> bool:
-    """Tells whether all picking stations have room on one side of the floor."""
+    """Returns whether all picking stations have room on one side of the floor."""
     return request.belts <= MOST_ON_A_SIDE
 
 

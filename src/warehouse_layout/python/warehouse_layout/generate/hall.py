@@ -40,7 +40,7 @@ class Hall:
     bays: list[Bay] = field(default_factory=list)  # those with a belt first
 
     def serves(self, streets: np.ndarray) -> bool:
-        """Tells whether every place and every bay lies beside one of these streets."""
+        """Returns whether every place and every bay lies beside one of these streets."""
         beside = beside_of(streets)
         return bool(beside[self.places].all()) and all(beside[cell] for cell, _ in self.bays)
 
@@ -48,7 +48,7 @@ class Hall:
 def carve(
     free: np.ndarray, picks: int, replenishments: int, patterns: Sequence[np.ndarray]
 ) -> Iterator[Hall]:
-    """Yields Halls with so many bays of either kind on free cells, one for each pattern.
+    """Yields Halls on free cells, one for each pattern, with the given counts of bays.
 
     A pattern (nx, ny) bool marks the cells that should rather be streets. Yields nothing where the
     free cells are too few, or more than MOST_CELLS.

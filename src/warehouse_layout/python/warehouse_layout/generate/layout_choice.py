@@ -16,7 +16,7 @@ EMPTY = "empty"
 
 
 def is_preset(name: str) -> bool:
-    """Tells whether it is the name of a preset, not of a file."""
+    """Returns whether it is the name of a preset, not of a file."""
     return name in PRESETS
 
 

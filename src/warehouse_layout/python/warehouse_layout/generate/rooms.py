@@ -100,8 +100,8 @@ def _inside(free: np.ndarray, gap: int) -> np.ndarray:
 
 
 def _is_room(part: np.ndarray, free: np.ndarray, inside: np.ndarray) -> bool:
-    """Tells whether a part is large enough, with walls along most of its border. Pillars within it
-    are no walls."""
+    """Returns whether a part is large enough, with walls along most of its border. Pillars within
+    it do not count."""
     if part.sum() < LEAST:
         return False
     around = masks.labelled(~np.pad(part, 1))

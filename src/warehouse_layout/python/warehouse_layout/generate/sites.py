@@ -198,6 +198,6 @@ def _room(i: int, j: int) -> tuple[slice, slice]:
 
 
 def _joins(corner: Cell, streets: np.ndarray) -> bool:
-    """Tells whether a lane from that corner begins and ends at streets."""
+    """Returns whether a lane from that corner begins and ends at streets."""
     i, j = corner
     return bool(streets[i, j] and streets[i, j + BLOCK_DEPTH])

@@ -143,7 +143,7 @@ def documents(parts: Iterable[Part]) -> Iterator[str]:
 
 
 def batches(parts: Iterable[Part], most: int = sys.maxsize) -> Iterator[list[Part]]:
-    """Yields all the Parts in lists of so many at most, for documents that the world reads."""
+    """Yields all the Parts in lists of at most `most`, for documents that the world reads."""
     batch: list[Part] = []
     size = 0
     for part in parts:

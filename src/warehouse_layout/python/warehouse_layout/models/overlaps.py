@@ -66,8 +66,8 @@ def first(new: Boxes, standing: Boxes) -> tuple[str, str] | None:
 
 
 def _overlap(a: Boxes, i: int, b: Boxes, k: int) -> bool:
-    """Tells whether two rectangles overlap: no edge's normal separates them (Gottschalk, Lin,
-    Manocha 1996, in the plane)."""
+    """Returns whether two rectangles overlap: no edge's normal separates them (Gottschalk,
+    Lin, Manocha 1996, in the plane)."""
     between = b.centre[k] - a.centre[i]
     for yaw in (a.yaw[i], b.yaw[k]):
         for axis in (

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""RWARE's task as the fleet's own planner does it, EPIBT: it sees the whole warehouse, and tells
-every robot what to do. What learning without that view compares with."""
+"""RWARE's task as the fleet's own planner does it, EPIBT: it sees the whole warehouse, and
+commands every robot: the baseline for policies that learn without that view."""
 
 from collections.abc import Iterable
 

@@ -84,7 +84,7 @@ class Rollouts:
         self._possible = None if mask is None else np.array(mask, bool)
 
     def collect(self, actor: Mlp, steps: int) -> Rollout:
-        """Returns what comes of so many steps, in which actions are drawn by an actor's logits."""
+        """Returns the rollout of `steps` steps with actions sampled from an actor's logits."""
         lead = steps, self._envs.num_envs, self._envs.agents
         size = self._encoder.size
         out = Rollout(

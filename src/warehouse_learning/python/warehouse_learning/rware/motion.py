@@ -41,8 +41,8 @@ class Motion:
     """How actions of `n` warehouses of a Task pass in time; `time` [s] of each, since its episode
     began.
 
-    decision: "action", a step lasts until every robot has ended its action, or so many seconds,
-    in which those that are still at one go on with it and can't begin another.
+    decision: "action", a step lasts until every robot has ended its action; a number is its
+    duration [s], and robots that have not ended an action continue it and begin no other.
     """
 
     def __init__(self, task: Task, warehouses: Rware, n: int, decision: float | str) -> None:
@@ -63,13 +63,13 @@ class Motion:
         self.time[which] = 0
 
     def infos(self) -> dict[str, np.ndarray]:
-        """Returns what infos tell: `time` (n,) [s] and `busy` (n, agents) bool."""
+        """Returns the infos: `time` (n,) [s] and `busy` (n, agents) bool."""
         return {"time": self.time.copy(), "busy": self.busy}
 
     def pass_time(self, which: np.ndarray, actions: np.ndarray) -> np.ndarray:
         """Begins actions, (n, agents) int8, and lets a decision pass in `which`, (n,) bool.
 
-        Returns what ended, (n, agents) int8: to be told to the warehouses, which make it true.
+        Returns what ended, (n, agents) int8: to be passed to the warehouses, which apply it.
         """
         idle = self.current == Action.NOOP
         self._warehouses.begin(which, actions, self._has_bodies, self.current)

@@ -65,7 +65,7 @@ class RwareParallelEnv(ParallelEnv):
         """Does nothing: there is no window."""
 
     def _by_agent(self, values: dict[str, Any]) -> dict[str, dict[str, Any]]:
-        """Infos of all as those of each: what is told of each robot is its own."""
+        """Splits the infos by agent: arrays by their first axis; scalars are shared."""
         return {
             agent: {
                 name: value[i].item() if np.ndim(value) else value for name, value in values.items()

@@ -90,7 +90,7 @@ def _read_edge(fields: Fields) -> Edge:
 
 
 def read_action(fields: Fields, blocking: BlockingType = BlockingType.HARD) -> Action:
-    """Returns an action; `blocking` is its type where none is told. Raises MessageError."""
+    """Returns an action; `blocking` is its type where the message has none. Raises MessageError."""
     action = Action(
         fields.text("actionType"),
         fields.text("actionId"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What vehicles tell, in the JSON of 2.1.0: state, connection, visualization."""
+"""Messages of vehicles in the JSON of 2.1.0: state, connection, visualization."""
 
 from typing import Any
 
@@ -28,7 +28,7 @@ from warehouse_vda5050.validation.fields import Fields
 def state_json(state: VehicleState) -> dict[str, Any]:
     """Returns the object of a state.
 
-    A paused action is told as RUNNING, with `paused` beside it: the published schema of 2.1.0
+    A paused action is reported as RUNNING, with `paused` beside it: the published schema of 2.1.0
     lacks PAUSED, and masters drop what does not fit it.
     """
     return {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""VDA 5050 3.0.0: other names than 2.1.0, and error types that tell more.
+"""VDA 5050 3.0.0: other names than 2.1.0, and more specific error types.
 
 Names are those of the schemas published with the specification. Zones, corridors, shared paths and
 retriable actions are refused (field_rules).
@@ -102,14 +102,14 @@ class CodecV3(CodecV2):
         if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
             for row, error in zip(value["errors"], message.errors):
-                _tell_error(row, error)
+                _write_error(row, error)
         for node in value.get("nodes", ()):
             _give_axes(node.get("nodePosition", {}))
         for edge in value.get("edges", ()):
             edge.pop("startNodeId", None), edge.pop("endNodeId", None)
         if isinstance(message, Factsheet):
-            told_actions = value["protocolFeatures"]["mobileRobotActions"]
-            for row, action in zip(told_actions, message.actions):
+            action_rows = value["protocolFeatures"]["mobileRobotActions"]
+            for row, action in zip(action_rows, message.actions):
                 row["blockingTypes"] = [blocking.value for blocking in action.blocking]
                 row["pauseAllowed"], row["cancelAllowed"] = action.can_pause, action.can_cancel
         return value
@@ -159,7 +159,7 @@ def _give_axes(position: dict[str, Any]) -> None:
         position["allowedDeviationXY"] = {"a": radius, "b": radius, "theta": 0.0}
 
 
-def _tell_error(fields: dict[str, Any], error: Error) -> None:
+def _write_error(fields: dict[str, Any], error: Error) -> None:
     """Gives an error the type and level that 3.0 has for it, and fields their names there."""
     names = NAMES[Kind.ORDER]
     fields["errorType"] = precise_type(error)
@@ -178,7 +178,7 @@ def _former(error: Error) -> Error:
 
 
 def _part_actions(value: dict[str, Any], actions: tuple[ActionState, ...]) -> None:
-    """Parts the states of instant actions from those of the order, and tells what is paused."""
+    """Separates the states of instant actions from the order's, and marks paused ones."""
     reported = value.pop("actionStates")
     for item, action in zip(reported, actions):
         item["actionStatus"] = action.status.value

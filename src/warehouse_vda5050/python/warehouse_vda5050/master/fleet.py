@@ -40,7 +40,7 @@ class RemoteFleet:
             self._vehicles[kiva_id].command(command)
 
     def take(self, identity: Identity, message: VehicleState | Connection, now: float) -> None:
-        """Takes in what a vehicle tells; that of vehicles that are in no file is dropped."""
+        """Takes a vehicle's message; drops those of vehicles that are in no file."""
         vehicle = self._by_identity.get(identity)
         if vehicle is None:
             return
@@ -56,7 +56,7 @@ class RemoteFleet:
                 yield vehicle.robot.identity, message
 
     def shadows(self, now: float) -> list[Shadow]:
-        """Returns what the warehouse is told now, of the vehicles that have told where they are."""
+        """Returns the warehouse's rows of the vehicles that have reported a position."""
         shadows = (shadow_of(vehicle, now) for vehicle in self._vehicles.values())
         return [shadow for shadow in shadows if shadow is not None]
 

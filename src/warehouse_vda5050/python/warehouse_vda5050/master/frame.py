@@ -16,7 +16,7 @@ class Frame:
     theta: float = 0.0
 
     def to_world(self, x: float, y: float, yaw: float = 0.0) -> Pose:
-        """Returns in the frame world what the vehicle tells in its own."""
+        """Returns the vehicle's report, transformed from its own frame to the frame world."""
         c, s = math.cos(self.theta), math.sin(self.theta)
         return self.x + c * x - s * y, self.y + s * x + c * y, yaw + self.theta
 

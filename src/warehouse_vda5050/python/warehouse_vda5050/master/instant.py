@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instant actions that are sent until the vehicle tells what became of them."""
+"""Instant actions, each sent again until the vehicle reports its result."""
 
 from dataclasses import dataclass
 

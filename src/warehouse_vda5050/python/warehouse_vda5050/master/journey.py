@@ -63,7 +63,7 @@ class Journey:
 
     @property
     def awaits_answer(self) -> bool:
-        """Whether the vehicle has not told yet that it has the last order sent."""
+        """Whether the vehicle has yet to confirm the last order that was sent."""
         return self.sent is not None
 
     @property
@@ -73,8 +73,8 @@ class Journey:
         return whole and not self.is_changed and not self.awaits_answer
 
     def confirm(self, update: int) -> bool:
-        """Notes the update of this order that a vehicle tells it has. Returns whether it is the one
-        that was awaited."""
+        """Notes the update of this order that a vehicle confirms. Returns whether it is the awaited
+        one."""
         if not self.sent or update != self.update:
             return False
         self.had = (self.sent.base[-1].sequence // 2) + 1
@@ -88,14 +88,14 @@ class Journey:
         return update == self.had_update and sequence < self.end
 
     def refuse(self) -> None:
-        """Goes back to what the vehicle has: it refused the last order. Its number is not given
-        again, for states may still tell of it."""
+        """Goes back to what the vehicle has: it refused the last order. The number is not used
+        again, since states may still mention it."""
         self.sent, self.is_changed = None, False
         self.released = self.had
 
     def next_order(self, place: PlaceNode) -> VehicleOrder | None:
-        """Returns the order that says what has changed; None as long as there is nothing to say, or
-        the vehicle is yet to tell that it has the last one."""
+        """Returns the order with the changes; None if there are none, or while the vehicle has not
+        confirmed the last one."""
         if self.awaits_answer or not self.is_changed:
             return None
         self.update += 1

@@ -86,8 +86,8 @@ class Happened:
 
 
 class RemoteVehicle:
-    """Drives one vehicle. `run` tells the orders of this run from those of others. There is a
-    journey while a command is UNDER_WAY or CANCELLING."""
+    """Drives one vehicle. `run` distinguishes the orders of this run from those of others. There is
+    a journey while a command is UNDER_WAY or CANCELLING."""
 
     def __init__(self, robot: RemoteRobot, grid: Grid, run: str) -> None:
         self.robot, self._grid, self._run = robot, grid, run
@@ -100,7 +100,7 @@ class RemoteVehicle:
         self._cancel_id = ""
         self._sent_at, self._times = 0.0, 0
         self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
-        self._fatal: frozenset[str] = frozenset()  # what it told last
+        self._fatal: frozenset[str] = frozenset()  # of its last state
         self._events: list[Happened] = []
         self.load = 0  # the number of the unit that it carries
         self.path_id = self.reached = 0
@@ -120,7 +120,7 @@ class RemoteVehicle:
             self._happened(EventKind.REFUSED, str(refusal))
 
     def take_state(self, state: VehicleState, now: float) -> None:
-        """Takes in what the vehicle tells; what is older than what it told before is dropped."""
+        """Takes the vehicle's state; drops one that is older than the last."""
         before, heard_at, was_there = self.view.pose, self.view.heard_at, self.view.is_there
         if not self.view.take_state(state, now):
             return
@@ -138,7 +138,7 @@ class RemoteVehicle:
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Takes in whether the vehicle is there."""
         self.view.take_connection(state, now)
-        if state is ConnectionState.ONLINE:  # what it told meanwhile was not heard
+        if state is ConnectionState.ONLINE:  # states of the meantime are lost
             self._ask_for_state()
 
     # --- out
@@ -298,7 +298,7 @@ class RemoteVehicle:
         return self._grid.node_id(cell), Position(x, y, map_id=self.view.map_id)
 
     def _due_order(self, now: float) -> VehicleOrder | None:
-        """Returns the next order; or the last one again, while the vehicle does not tell it."""
+        """Returns the next order; or the last one again, while the vehicle does not confirm it."""
         way = self._journey
         if way is None or self._phase is not Phase.UNDER_WAY:
             return None
@@ -323,7 +323,7 @@ class RemoteVehicle:
             self._ask_for_state()
         if way.had or self._times < MOST_TIMES:
             return way.sent
-        self._give_up(way, "the vehicle does not tell that it has the order")
+        self._give_up(way, "the vehicle does not confirm the order")
         self._clear()  # it may have it all the same
         return None
 
@@ -410,12 +410,12 @@ class RemoteVehicle:
     # --- what befalls it
 
     def _take_errors(self) -> None:
-        """Tells in the vehicle's own words what a person has to come for."""
+        """Reports in the vehicle's own words what needs a person."""
         fatal = frozenset(self.view.fatal)
         for text in sorted(fatal - self._fatal):
             self._happened(EventKind.FAILED, text)
         if self._fatal and not fatal:
-            self._happened(EventKind.REPAIRED, "the vehicle tells no fatal error any more")
+            self._happened(EventKind.REPAIRED, "the vehicle reports no fatal error any more")
         self._fatal = fatal
 
     def _check_place(self, jump: str) -> None:
@@ -432,8 +432,8 @@ class RemoteVehicle:
     # --- what others did
 
     def _take_load(self, state: VehicleState) -> None:
-        """Believes what the vehicle says of its load; which unit it is, only if no pick told."""
-        if self.lifts or not self.view.tells_loads:
+        """Adopts the load that the vehicle reports; which unit it is, only if no pick named it."""
+        if self.lifts or not self.view.reports_loads:
             return
         if not state.loads:
             self.load = 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse is told of a vehicle: the row of a FleetState."""
+"""A vehicle as the warehouse sees it: the row of a FleetState."""
 
 import math
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ class Shadow:
 
 
 def shadow_of(vehicle: RemoteVehicle, now: float) -> Shadow | None:
-    """Returns what a vehicle is and does now; None as long as it has not told where it is."""
+    """Returns what a vehicle is and does now; None until it has reported a position."""
     view = vehicle.view
     if not view.is_there or view.state is None:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of a vehicle by what it tells."""
+"""What is known of a vehicle from its messages."""
 
 from dataclasses import dataclass, field
 
@@ -7,7 +7,7 @@ from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
 from warehouse_vda5050.model import ConnectionState, OperatingMode, VehicleState
 
-SILENT = 45.0  # [s] without a state: vehicles tell one each 30 s at the latest
+SILENT = 45.0  # [s] without a state: vehicles send one at least each 30 s
 TAKES_ORDERS = (OperatingMode.AUTOMATIC, OperatingMode.SEMIAUTOMATIC)
 
 
@@ -20,7 +20,7 @@ class VehicleView:
     connection: ConnectionState | None = None
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
-    tells_loads: bool = False
+    reports_loads: bool = False
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
     def take_state(self, state: VehicleState, now: float) -> bool:
@@ -34,7 +34,7 @@ class VehicleView:
             return False
         self._stamp = stamp
         self.state, self.heard_at = state, now
-        self.tells_loads |= bool(state.loads)
+        self.reports_loads |= bool(state.loads)
         if state.position:
             at = state.position
             self.pose = self.frame.to_world(at.x, at.y, at.theta)
@@ -49,7 +49,7 @@ class VehicleView:
 
     @property
     def is_there(self) -> bool:
-        """Whether the vehicle has ever told where it is."""
+        """Whether the vehicle has ever reported a position."""
         return self.state is not None and self.state.position is not None
 
     @property
@@ -58,7 +58,7 @@ class VehicleView:
         return self.connection in (None, ConnectionState.ONLINE)
 
     def is_silent(self, now: float) -> bool:
-        """Returns whether the vehicle is not heard: it is not connected, or tells nothing."""
+        """Returns whether the vehicle is not connected, or sends nothing."""
         return not self.hears or now > self.heard_at + SILENT
 
     @property
@@ -101,7 +101,7 @@ class VehicleView:
         if not self.hears:
             return f"its connection is {self.connection.value}" if self.connection else "not there"
         if self.state is None:
-            return "it has told nothing yet"
+            return "it has reported nothing yet"
         if not self.is_localized:
             return "it does not know where it is"
         if not self.takes_orders:

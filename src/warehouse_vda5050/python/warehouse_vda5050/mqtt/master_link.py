@@ -18,7 +18,7 @@ HEARD = (Kind.CONNECTION, Kind.STATE)
 class MasterLink:
     """Carries messages between a master and the vehicles `who`.
 
-    `link` is to be added to an MqttLoop, whose poll() calls take(identity, message); `tell` writes
+    `link` is to be added to an MqttLoop, whose poll() calls take(identity, message); `write` takes
     lines for a person: what a vehicle sent that can't be read.
     """
 
@@ -30,9 +30,9 @@ class MasterLink:
         topics: Topics,
         broker: BrokerSettings,
         take: Callable[[Identity, VehicleState | Connection], None],
-        tell: Callable[[str], None] = lambda _line: None,
+        write: Callable[[str], None] = lambda _line: None,
     ) -> None:
-        self._codec, self._topics, self._take, self._tell = codec, topics, take, tell
+        self._codec, self._topics, self._take, self._write = codec, topics, take, write
         self._headers = {vehicle: Headers(vehicle, codec.version) for vehicle in who}
         subscriptions = [
             (topics.of(vehicle, kind), kind.qos) for vehicle in self._headers for kind in HEARD
@@ -53,6 +53,6 @@ class MasterLink:
                 return  # left by an earlier run: the vehicle may be elsewhere
             message = self._codec.decode(kind, payload).message
         except (MessageError, TopicError) as error:
-            self._tell(f"{topic}: {error}")
+            self._write(f"{topic}: {error}")
             return
         self._take(identity, message)

@@ -27,7 +27,7 @@ class BrokerSettings:
 def read_settings(
     broker: str, tls: str = "", user: str = "", password_file: str = ""
 ) -> BrokerSettings:
-    """Returns the settings that launch arguments tell. Raises BrokerError.
+    """Returns the settings from launch arguments. Raises BrokerError.
 
     broker: host or host:port. tls: '' or false, true, or the file of a certificate authority.
     """

@@ -50,7 +50,7 @@ class VehicleLink:
         return not (self._called or self.vehicle.is_taken or is_due)
 
     def tick(self, now: float) -> None:
-        """Lets the vehicle go on, and sends what it has to tell. now: any clock [s]."""
+        """Updates the vehicle, and sends its messages. now: any clock [s]."""
         self._now, self._called = now, False
         self.vehicle.update(now)
         report = self.vehicle.report

@@ -20,6 +20,7 @@ from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
+from warehouse_vda5050.broker_topic import BrokerTopic, masters_message
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Command
 from warehouse_vda5050.master.fleet import RemoteFleet
@@ -29,7 +30,6 @@ from warehouse_vda5050.master.shadow import Shadow
 from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
-from warehouse_vda5050.telling import BrokerTopic, masters_message
 from warehouse_vda5050.topics import Identity
 
 SET_MODE = "warehouse/set_robot_mode"
@@ -39,10 +39,10 @@ MODES = {True: RobotMode.AUTOMATIC, False: RobotMode.MANUAL}  # by whether the v
 
 
 class Master:
-    """Hosts a RemoteFleet: what vehicles tell comes by take(), `send` carries what they are told.
+    """Hosts a RemoteFleet: take() gets the messages of vehicles, `send` sends those to them.
 
     run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
-    a word that no run before had, `broker` its broker's address as people are told it, `poll` waits
+    a word that no run before had, `broker` its broker's address as shown to people, `poll` waits
     at most some seconds for messages of vehicles.
     """
 
@@ -65,7 +65,7 @@ class Master:
         CommandTopics(numbers, self._post_command, self._timeline)
 
     def take(self, identity: Identity, message: VehicleState | Connection) -> None:
-        """Takes in what a vehicle tells; called by poll()."""
+        """Takes a vehicle's message; called by poll()."""
         if self._fleet is not None:
             self._fleet.take(identity, message, time.monotonic())
 
@@ -82,7 +82,7 @@ class Master:
                 self._follow_floor(fleet)
                 self._show(fleet)
             self._publish_events(fleet.take_events())
-            self._at_broker.tell(lambda: self._told(fleet))
+            self._at_broker.update(lambda: self._message(fleet))
         self._show_silence(fleet)
 
     # --- in
@@ -107,7 +107,7 @@ class Master:
         return grid_of(read_map())
 
     def _follow_floor(self, fleet: RemoteFleet) -> None:
-        """Reads the floor's cells again once another scenery is told."""
+        """Reads the floor's cells again once another scenery is published."""
         scenery = self._warehouse.scenery
         if scenery is self._scenery:
             return
@@ -119,7 +119,7 @@ class Master:
 
     # --- out
 
-    def _told(self, fleet: RemoteFleet) -> Vda5050:
+    def _message(self, fleet: RemoteFleet) -> Vda5050:
         return masters_message(fleet.vehicles, self._broker, time.monotonic())
 
     def _show(self, fleet: RemoteFleet) -> None:

@@ -5,7 +5,7 @@ from warehouse_vda5050.errors import Error, ErrorType, Predefined
 
 
 class MessageError(ValueError):
-    """A message that cannot be acted upon; `error` is what a state tells of it."""
+    """Raised for a message that cannot be acted upon; `error` is its entry in a state."""
 
     def __init__(
         self,

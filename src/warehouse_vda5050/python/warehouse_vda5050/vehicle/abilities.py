@@ -48,7 +48,7 @@ ACTIONS = (
     _instant("stopPause", "goes on with what was paused"),
     _instant(
         "initPosition",
-        "tells the robot where it is",
+        "sets the position of the robot",
         ("x", "NUMBER", False, "m"),
         ("y", "NUMBER", False, "m"),
         ("theta", "NUMBER", False, "rad"),

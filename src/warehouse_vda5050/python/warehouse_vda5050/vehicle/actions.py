@@ -23,7 +23,7 @@ def holds_at(node: Node) -> bool:
 
 
 class ActionQueue:
-    """Actions of one order: told at once, due when their node is passed, begun in that order.
+    """Actions of one order: reported at once, due when their node is passed, begun in that order.
 
     A HARD or SINGLE action waits until those before it are over, and those after it wait for it;
     so does a lift for a lift.
@@ -34,7 +34,7 @@ class ActionQueue:
         self._due: list[Action] = []
         self.running: list[Action] = []
 
-    def tell(self, nodes: Iterable[Node]) -> None:
+    def add(self, nodes: Iterable[Node]) -> None:
         """Lists the actions of new nodes as WAITING."""
         for action in (action for node in nodes for action in node.actions):
             state = ActionState(action.id, action.type, ActionStatus.WAITING)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The errors that a vehicle tells: of messages, of the order under way, of the robot."""
+"""The errors that a vehicle reports: of messages, of the order under way, of the robot."""
 
 from __future__ import annotations
 

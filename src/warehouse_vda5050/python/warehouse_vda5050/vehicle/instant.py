@@ -18,7 +18,7 @@ from warehouse_vda5050.vehicle.progress import OrderProgress
 Begin = Callable[["Commanded", Action, float], "str | None"]
 KEPT = 50  # states of instant actions that are over since COPY
 MOST = 1000  # states of all
-COPY = 5.0  # so long after an action the same actionId is a copy, and not another request [s]
+COPY = 5.0  # after an action, the time within which the same actionId is a copy [s]
 
 
 class ActionError(Exception):
@@ -50,12 +50,12 @@ class Commanded(Protocol):
         ...
 
     def note(self, error: Error) -> None:
-        """Tells an error of a message."""
+        """Reports an error of a message."""
         ...
 
 
 class InstantDesk:
-    """Begins instant actions of one vehicle, and tells how far each has come.
+    """Begins instant actions of one vehicle, and reports how far each has come.
 
     Masters repeat what they don't find in the state, so an actionId that is known is not done
     again; others name all their pauses "pause", so some time later it is.
@@ -160,12 +160,12 @@ def _trigger(vehicle: Commanded, action: Action, now: float) -> str | None:
     return _refuse_if("" if vehicle.hands.trigger() else "no action waits for a trigger")
 
 
-def _tell_state(vehicle: Commanded, action: Action, now: float) -> str | None:
+def _request_state(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_state()
     return ""
 
 
-def _tell_factsheet(vehicle: Commanded, action: Action, now: float) -> str | None:
+def _request_factsheet(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.request_factsheet()
     return ""
 
@@ -202,8 +202,8 @@ ACTIONS: dict[str, Begin] = {
     "startCharging": _charge(True),
     "stopCharging": _charge(False),
     "initPosition": _init_position,
-    "stateRequest": _tell_state,
-    "factsheetRequest": _tell_factsheet,
+    "stateRequest": _request_state,
+    "factsheetRequest": _request_factsheet,
     "logReport": _report_log,
     "trigger": _trigger,
 }

@@ -147,7 +147,7 @@ class Reception:
 def _check_robot(order: VehicleOrder, now: Situation) -> Report:
     report, away = now.report, Predefined.MOBILE_ROBOT_NOT_AVAILABLE
     if report is None:
-        _refuse(order, "the robot has not told where it is", precise=away)
+        _refuse(order, "the robot has not reported its position", precise=away)
         raise AssertionError
     if not report.localized:
         _refuse(order, "the robot does not know where it is", precise=away)

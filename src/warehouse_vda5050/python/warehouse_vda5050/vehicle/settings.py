@@ -7,11 +7,11 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class VehicleSettings:
-    """interval: at the latest so long after the last state comes the next [s]; moving: the same
-    while it drives; visualization: between two positions of a robot that moves [s], 0: none.
-    linger: so long after an order the robot is given back [s]. first_path: the number of its first
-    path. begins_at_zero: whether a new order has to, as in 3.0. logs: where reports that masters
-    ask for are stored, under names that begin with `name`; None: nowhere."""
+    """interval: longest time between two state messages [s]; moving: the same while the vehicle
+    drives. visualization: time between two positions of a moving robot [s], 0: none. linger: time
+    from the end of an order until the robot is given back [s]. first_path: the number of its first
+    path. begins_at_zero: whether the first update of an order has to be 0, as in 3.0. logs: the
+    folder of reports that masters ask for, whose names begin with `name`; None: not stored."""
 
     interval: float = 30.0
     moving: float = 1.0

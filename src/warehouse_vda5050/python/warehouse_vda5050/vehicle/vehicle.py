@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One vehicle: takes orders and instant actions, drives by a Driver, tells its state.
+"""One vehicle: takes orders and instant actions, drives by a Driver, reports its state.
 
 vehicle = Vehicle(driver, grid)
 vehicle.on_order(order, now)       # as they come; now is any clock that goes on [s]
@@ -21,7 +21,7 @@ from warehouse_vda5050.model import (
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.actions import unknown_parameters
-from warehouse_vda5050.vehicle import reception, telling
+from warehouse_vda5050.vehicle import reception
 from warehouse_vda5050.vehicle.abilities import completed
 from warehouse_vda5050.vehicle.actions import ActionQueue
 from warehouse_vda5050.vehicle.complaints import Complaints, of_order
@@ -32,7 +32,7 @@ from warehouse_vda5050.vehicle.phase import FOLLOWS, Phase
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
 from warehouse_vda5050.vehicle.settings import VehicleSettings
-from warehouse_vda5050.vehicle.telling import Teller
+from warehouse_vda5050.vehicle.state_report import Situation, StateReporter
 from warehouse_vda5050.vehicle.wheels import Wheels
 
 
@@ -64,7 +64,7 @@ class Vehicle:
             start=self.start,
             extend=self.extend,
         )
-        self._teller = Teller(self.sheet, self.settings)
+        self._reporter = StateReporter(self.sheet, self.settings)
         self._free_since: float | None = None
 
     # What comes in; a state answers each message.
@@ -105,7 +105,7 @@ class Vehicle:
         self.complaints.note_unknown(Kind.INSTANT_ACTIONS, unknown)
 
     def note(self, error: Error) -> None:
-        """Tells an error of a message, until the next order or update is accepted."""
+        """Reports an error of a message, until the next order or update is accepted."""
         self.request_state()
         self.complaints.note(error)
 
@@ -207,7 +207,7 @@ class Vehicle:
         self.order = progress
         self.actions = self.hands.actions = ActionQueue()
         self.wheels.begin()
-        self.actions.tell(order.nodes)
+        self.actions.add(order.nodes)
         self.actions.make_due(order.nodes[:1])
 
     def extend(self, nodes: tuple[Node, ...]) -> None:
@@ -215,7 +215,7 @@ class Vehicle:
         assert self.order
         if self.is_free:
             self._go_to(Phase.WORKING)
-        self.actions.tell(nodes)
+        self.actions.add(nodes)
         self.actions.keep_only(self.order.nodes)
 
     @property
@@ -258,33 +258,33 @@ class Vehicle:
 
     def request_state(self) -> None:
         """Lets the next take_state() return a state in any case."""
-        self._teller.request()
+        self._reporter.request()
 
     def request_factsheet(self) -> None:
         """Lets the next take_factsheet() return the factsheet."""
-        self._teller.request_factsheet()
+        self._reporter.request_factsheet()
 
     # What goes out.
 
     @property
     def next_state(self) -> float:
         """When the next state is due, if nothing happens before [s, as `now`]."""
-        return self._teller.due
+        return self._reporter.due
 
     def take_state(self, now: float) -> VehicleState | None:
         """Returns the state if something happened or it is time for one."""
-        return self._teller.take(self._situation(), now)
+        return self._reporter.take(self._situation(), now)
 
     def take_visualization(self, now: float) -> Visualization | None:
-        """Returns position and speed if the robot moved and it is time to tell them."""
-        return self._teller.take_visualization(self.report, now)
+        """Returns position and speed if the robot moved and they are due."""
+        return self._reporter.take_visualization(self.report, now)
 
     def state(self) -> VehicleState:
         """Returns the state as it is now."""
-        return self._teller.state(self._situation())
+        return self._reporter.state(self._situation())
 
-    def _situation(self) -> telling.Situation:
-        return telling.Situation(
+    def _situation(self) -> Situation:
+        return Situation(
             self.report,
             self.grid,
             self.order,
@@ -304,4 +304,4 @@ class Vehicle:
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is to be sent: at first, and when it was asked for."""
-        return self._teller.take_factsheet()
+        return self._reporter.take_factsheet()

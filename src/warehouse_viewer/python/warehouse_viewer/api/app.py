@@ -27,8 +27,8 @@ from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
 from warehouse_viewer.replay.live import LiveRecording
+from warehouse_viewer.replay.live_figures import LiveFigures
 from warehouse_viewer.replay.memory import SECONDS
-from warehouse_viewer.replay.told import Told
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed
@@ -62,7 +62,7 @@ class Viewer:
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
         model, shift = Model(), ShiftFeed(ros, self.changes)
         self.history = (
-            LiveRecording(model, self.journal, Told(feed, shift).figures, history)
+            LiveRecording(model, self.journal, LiveFigures(feed, shift).read, history)
             if history
             else None
         )

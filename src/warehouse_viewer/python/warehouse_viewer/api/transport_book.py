@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far each transport is, by what the coordinator has told since this began."""
+"""The progress of each transport, from the coordinator's messages since this program began."""
 
 import threading
 from typing import Any

@@ -27,7 +27,7 @@ COLOURS = {
 
 
 def write(path: Path, figures: dict[str, Any], curve: list[list[float]]) -> None:
-    """Writes the figure of a drive as PNG; `told` and `curve` as drive_report has them."""
+    """Writes the figure of a drive as PNG; `figures` and `curve` as in drive_report."""
     rows = np.array(curve)
     canvas.write_png(path, lambda figure: _draw(figure, figures, rows), *SIZE)
 

@@ -15,12 +15,12 @@ def checked(text: str) -> dict[str, Any]:
     try:
         file = layout_file.parse(text, NAME)
     except LayoutFileError as error:
-        return {"faults": [{"text": told(error), "cells": []}], "lanes": {}}
+        return {"faults": [{"text": text_of(error), "cells": []}], "lanes": {}}
     rows = [{"text": fault.text, "cells": fault.cells} for fault in faults(file)]
     return {"faults": rows, "lanes": _lanes_found(file)}
 
 
-def told(error: LayoutFileError) -> str:
+def text_of(error: LayoutFileError) -> str:
     """Returns what an error says, without the name of a text that has none."""
     return str(error).removeprefix(f"{NAME}:").strip()
 

@@ -135,7 +135,7 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
             fields = _fields(await request.json(), work)
             return JSONResponse(await asyncio.to_thread(work, **fields))
         except (LayoutFileError, RequestError) as error:
-            detail = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
+            detail = checking.text_of(error) if isinstance(error, LayoutFileError) else str(error)
             return JSONResponse({"detail": detail}, 409)
         except (TypeError, ValueError) as error:
             return JSONResponse({"detail": f"the request is wrong: {error}"}, 422)

@@ -22,7 +22,7 @@ from warehouse_operations.runs import layout_site
 from warehouse_viewer.json_text import dumps
 
 SECONDS = 600.0  # that robots work, simulated
-SLICE = 5.0  # after which the progress can be told, simulated [s]
+SLICE = 5.0  # between two reports of progress [s, simulated]
 PERIOD = 0.1  # between two lines, wall [s]
 
 

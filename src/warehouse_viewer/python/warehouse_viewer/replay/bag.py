@@ -15,8 +15,8 @@ from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.replay.blocks import RecordingError
 from warehouse_viewer.replay.file import FileWriter
+from warehouse_viewer.replay.live_figures import shown
 from warehouse_viewer.replay.recorder import Recorder
-from warehouse_viewer.replay.told import shown
 
 if TYPE_CHECKING:
     from genpy import Message

@@ -15,7 +15,7 @@ from warehouse_viewer.replay.chunk import Chunk, unpacked
 
 KEPT = {"cache-control": "private, max-age=3600"}  # what never changes under its address
 FRESH = {"cache-control": "no-store"}
-MOST_MARKS = 400  # in an index: more can't be told apart
+MOST_MARKS = 400  # in an index: more can't be distinguished
 
 
 class Recording(Protocol):

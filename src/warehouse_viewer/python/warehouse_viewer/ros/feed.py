@@ -38,7 +38,7 @@ TOPICS = {
     "performance": ("gazebo/performance_metrics", PerformanceMetrics),
 }
 SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
-KEPT = ("fleet", "coordinator")  # heard all the time: their history is told
+KEPT = ("fleet", "coordinator")  # always subscribed, because pages show their history
 LINGER = 10.0  # for which subscriptions outlast their last use [s, wall]
 
 

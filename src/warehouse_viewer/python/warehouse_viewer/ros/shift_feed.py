@@ -28,8 +28,8 @@ WHOLE = {
 
 
 class ShiftFeed:
-    """The newest message of what is told as a whole, None where no shift runs; all that changes
-    goes into a ChangeBook. `ros` is rospy."""
+    """The newest message of each topic that is sent whole, None where no shift runs; changes go
+    into a ChangeBook. `ros` is rospy."""
 
     def __init__(self, ros: ModuleType, book: ChangeBook) -> None:
         self._book = book

@@ -19,7 +19,7 @@ class Vda5050Feed:
 
     @property
     def messages(self) -> list[Vda5050]:
-        """What is told now."""
+        """The latest message."""
         if not self._subscriber.get_num_connections():
             self._newest.clear()
         return [*self._newest.values()]

@@ -24,7 +24,7 @@ STOP_PATIENCE = 1.0  # for a service call to a world that may be gone already [s
 
 
 class Server(uvicorn.Server):
-    """Stops at once when told to: pages reconnect by themselves.
+    """Stops at once on a signal: pages reconnect by themselves.
 
     As soon as it serves, it calls `on_start` in its asyncio loop and sets `is_serving`.
     """

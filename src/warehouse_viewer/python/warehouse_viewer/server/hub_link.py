@@ -11,7 +11,7 @@ API = "/api/v1/simulations"
 
 
 def is_hub(port: int) -> bool:
-    """Tells whether a hub serves at a port of this machine."""
+    """Returns whether a hub serves at a port of this machine."""
     with suppress(OSError, ValueError, KeyError):
         return isinstance(ask("GET", f"http://localhost:{port}{API}")["simulations"], list)
     return False

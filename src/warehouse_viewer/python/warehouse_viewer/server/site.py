@@ -19,8 +19,8 @@ from warehouse_viewer.shared_files import CHART, THREE, WEB
 class Page(NamedTuple):
     """A page: where it is, what the way to it is called, and its file in the folder web.
 
-    `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
-    Without a file it is served by others, and only the way to it is shown, if it is there.
+    `counted`: a JSON resource whose `total` counts what waits there for a person; may be empty.
+    Without a file another server serves the page, and only the link is shown, if it answers.
     """
 
     path: str

@@ -64,10 +64,10 @@ class Alarm:
     actions: list[Action] = field(default_factory=list)
 
     def is_due(self, now: float) -> bool:
-        """Whether it has lasted long enough to be told."""
+        """Whether it has lasted long enough to be an alarm."""
         return now - self.since >= KINDS[self.trouble.kind].after
 
-    def told(self, remedies: Iterable[Any] = ()) -> dict[str, Any]:
+    def as_json(self, remedies: Iterable[Any] = ()) -> dict[str, Any]:
         """Returns the alarm as JSON has it; `remedies`: named tuples."""
         trouble, about = self.trouble, KINDS[self.trouble.kind]
         return {
@@ -114,13 +114,13 @@ class AlarmBook:
             for alarm in before.values():
                 if alarm.is_due(now):
                     until = {"until": round(now, 1), "duration": round(now - alarm.since, 1)}
-                    self._ended.append(alarm.told() | until)
+                    self._ended.append(alarm.as_json() | until)
 
-    def told(self) -> list[dict[str, Any]]:
+    def as_json(self) -> list[dict[str, Any]]:
         """Returns the alarms as JSON has them, the worst first, of those the oldest first."""
         with self._lock:
             due = [
-                alarm.told(self._remedies(alarm.trouble))
+                alarm.as_json(self._remedies(alarm.trouble))
                 for alarm in self._alarms.values()
                 if alarm.is_due(self._now)
             ]
@@ -144,7 +144,7 @@ class AlarmBook:
             for alarm in self._alarms.values():
                 if alarm.number == number:
                     alarm.seen_by, alarm.seen_at = by, self._now if by else 0.0
-                    return alarm.told(self._remedies(alarm.trouble))
+                    return alarm.as_json(self._remedies(alarm.trouble))
         return None
 
     def note(self, subject: str, by: str, what: str) -> None:

@@ -59,7 +59,7 @@ KINDS = {
     "NO_COORDINATOR": AlarmKind(
         CRITICAL,
         "No coordinator answers",
-        "Robots finish what they were told and stand. Restart the node `coordinator`.",
+        "Robots finish their last commands and stand. Restart the node `coordinator`.",
         after=10.0,
     ),
     "COORDINATOR": AlarmKind(

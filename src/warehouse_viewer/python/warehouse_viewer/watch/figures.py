@@ -47,7 +47,7 @@ class Figures:
         while now - self._samples[0].time > HOUR:
             self._samples.popleft()
 
-    def told(
+    def as_json(
         self, kpis: Kpis, throughput: Throughput, available: float, robots: int
     ) -> dict[str, Any]:
         """Returns the four figures as JSON has them; `throughput` a Throughput, `robots` how many

@@ -102,7 +102,7 @@ class Monitor:
             self._moments.take_event(event)
         pending = self._troubles(fleet, stations)
         self.alarms.update(self.now, causes.by_cause(pending, self.reasons, self.now))
-        self._note("alarms", self.alarms.told())
+        self._note("alarms", self.alarms.as_json())
 
     def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
         pending: list[Trouble] = []
@@ -129,12 +129,12 @@ class Monitor:
     def note(self, subject: str, by: str, what: str) -> None:
         """Notes what a person did about a robot, item or station; see AlarmBook.note."""
         self.alarms.note(subject, by, what)
-        self._note("alarms", self.alarms.told())
+        self._note("alarms", self.alarms.as_json())
 
     def see(self, number: int, by: str) -> dict[str, Any] | None:
         """Notes that a person has seen an alarm; see AlarmBook.see."""
         alarm = self.alarms.see(number, by)
-        self._note("alarms", self.alarms.told())
+        self._note("alarms", self.alarms.as_json())
         return alarm
 
     def _note_figures(self) -> None:
@@ -144,7 +144,7 @@ class Monitor:
         self._read["throughput"] = throughput
         available, robots = self._noted.get("available", (1.0, 0))
         self._figures.update(self.now, kpis, available)
-        self._note("figures", self._figures.told(kpis, throughput, available, robots))
+        self._note("figures", self._figures.as_json(kpis, throughput, available, robots))
 
     def _note(self, topic: str, row: object) -> None:
         """Notes the newest row of a topic, if it differs from the last."""
@@ -153,13 +153,13 @@ class Monitor:
             self._book.note(topic, topic, row)
 
     def figures(self) -> dict[str, Any] | None:
-        """Returns the four figures as JSON has them; None if no shift has told any."""
+        """Returns the four figures as JSON has them; None before the first of a shift."""
         return self._noted.get("figures")
 
     def station(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside its own fields."""
         reason = self.reasons.station(station.name)
-        return self.stations.told(station) | {"why": reason.text if reason else ""}
+        return self.stations.as_json(station) | {"why": reason.text if reason else ""}
 
 
 def _available(does: np.ndarray, coordinator: CoordinatorState | None) -> tuple[float, int]:

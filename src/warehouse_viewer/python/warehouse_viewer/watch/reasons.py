@@ -57,7 +57,7 @@ class Reason:
         parts = (self.errand,) if is_under_way else (self.text, self.errand)
         return f"{self.name} " + "; ".join(part for part in parts if part)
 
-    def told(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """Returns the reason as JSON has it."""
         return {
             "name": self.name,

@@ -16,7 +16,7 @@ from warehouse_viewer.watch.troubles import UNATTENDED
 if TYPE_CHECKING:
     from warehouse_msgs.msg import FleetState, StationState
 
-QUARTER = 900.0  # over which pieces per hour are told [s, simulated]
+QUARTER = 900.0  # over which pieces per hour are averaged [s, simulated]
 SAMPLES = 30.0  # between two counts of pieces [s, simulated]
 UNIT_TOO_LONG = 60.0  # for a station with orders to be without a unit [s, simulated]
 STANDS = 1e-3  # a robot below these speeds stands still [m/s, rad/s]
@@ -95,7 +95,7 @@ class StationWatch:
         """Returns the Activity of each station, (n,) uint8."""
         return np.array([self._past[station.name].state for station in stations], np.uint8)
 
-    def told(self, station: StationState) -> dict[str, Any]:
+    def as_json(self, station: StationState) -> dict[str, Any]:
         """Returns what JSON has of a StationState beside the message's own fields."""
         past = self._past.get(station.name) or _Past(since=self.now)
         since = self.starved.get(station.name, past.since)

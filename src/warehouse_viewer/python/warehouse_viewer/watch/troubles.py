@@ -20,7 +20,7 @@ UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
 HELD_UP = 120.0  # that a robot waits [s, simulated]
 QUEUED = 600.0  # the same in the queue of a station, where waiting is as it should be
-LASTING = 600.0  # for which what happened in a moment is told [s, simulated]
+LASTING = 600.0  # for which a momentary trouble is shown [s, simulated]
 
 BROKEN = "ROBOT_BROKEN"
 
@@ -104,7 +104,7 @@ def of_notices(notices: Iterable[str]) -> Iterator[Trouble]:
 
 
 class Moments:
-    """What happened in a moment, and is told for LASTING seconds after it happened last."""
+    """Momentary troubles, each shown for LASTING seconds after its last occurrence."""
 
     def __init__(self) -> None:
         self._kept: dict[tuple[str, str], tuple[Trouble, float, int]] = {}

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of scenarios: means with 95 % confidence intervals, and how they differ.
 
-What is told by the minute is told after the warm-up (MSER-5), the same minutes for all that are
-compared. A difference is told where it is above chance seed by seed, for the same seed draws by the
-same numbers; all that are told together are corrected together (Holm), and so are their intervals.
-Fewer than three runs have no interval, and differ by nothing that is shown.
+Figures by the minute begin after the warm-up (MSER-5), at the same minute for all scenarios that
+are compared. Runs of the same seed are compared in pairs, since they draw the same random numbers.
+A difference is reported where it is above chance; tests and intervals that are reported together
+are corrected together (Holm). Fewer than three runs have no interval, and no difference is shown.
 """
 
 import math

@@ -230,7 +230,7 @@ def check(scenario: Scenario, path: Path) -> Description:
         )
         _check_floor(description)
         _check_orders(orders)
-        description.config  # noqa: B018 - policies of the layout that don't exist are told
+        description.config  # noqa: B018 - raises for policies of the layout that don't exist
     except (*ERRORS, OSError) as error:
         raise ScenarioError(str(error).replace(f"{path}/", "")) from error
     return description

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 COMMAND = [sys.executable, "-m", "warehouse_viewer.whatif.run"]
 MOST_WAITING = 500
-PATIENCE = 5.0  # with a process that is told to end [s, wall]
+PATIENCE = 5.0  # between the request that a process end and its kill [s, wall]
 KEPT = 12  # lines of what a run said, for the case that it fails
 
 
@@ -44,7 +44,7 @@ class Outcome:
 
 @dataclass
 class Active:
-    """A run that is under way. progress: the last line that it told."""
+    """A run that is under way. progress: the last line that it wrote."""
 
     job: Job
     process: subprocess.Popen[str] | None = None
@@ -117,7 +117,7 @@ class Queue:
             return list(self._active)
 
     def close(self) -> None:
-        """Ends all processes and waits for them. What they did is told as cut off."""
+        """Ends all processes and waits for them. Their runs are marked as interrupted."""
         with self._changed:
             self._is_closed = True
             self._waiting.clear()

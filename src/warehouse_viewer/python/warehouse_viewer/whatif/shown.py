@@ -19,7 +19,7 @@ from warehouse_viewer.whatif.stored import Planned
 CUT = "cut"  # the state of a run whose server ended
 BEGUN = 0.1  # share of a run from which its own pace gives its duration
 
-Told = dict[str, Any]
+Json = dict[str, Any]
 
 
 @functools.lru_cache(1000)
@@ -55,14 +55,14 @@ def changed(path: Path) -> int:
         return 0
 
 
-def site(name: str, robots: int, stations: int) -> Told:
+def site(name: str, robots: int, stations: int) -> Json:
     """Returns the warehouse of a scenario."""
     return {"name": name, "robots": robots, "stations": stations}
 
 
-def run(planned: Planned, run: Run | None, active: Active | None, waits: bool, state: Told) -> Told:
+def run(planned: Planned, run: Run | None, active: Active | None, waits: bool, state: Json) -> Json:
     """Returns a run as the page shows it."""
-    out: Told = {"seed": planned.seed, "state": "none"}
+    out: Json = {"seed": planned.seed, "state": "none"}
     if active:
         progress = active.progress
         share = min(progress.get("time", 0.0) / planned.seconds, 1.0)
@@ -78,7 +78,7 @@ def run(planned: Planned, run: Run | None, active: Active | None, waits: bool, s
     return out | {"state": known or "none", "text": state.get("text", "")}
 
 
-def state(each: Sequence[Told]) -> str:
+def state(each: Sequence[Json]) -> str:
     """Returns the state of a scenario of which these are the runs."""
     states = {row["state"] for row in each}
     for state in ("runs", "waits", "failed", CUT, "cancelled"):
@@ -87,7 +87,7 @@ def state(each: Sequence[Told]) -> str:
     return "done" if states == {"done"} else "part" if "done" in states else "none"
 
 
-def left(row: Told, cost: float, start: float) -> float:
+def left(row: Json, cost: float, start: float) -> float:
     """Returns how long a run still takes [s, wall]: by its own pace once it is well begun.
 
     start: what a process takes besides the shift, half of it for the report in the end.

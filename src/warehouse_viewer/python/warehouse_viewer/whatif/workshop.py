@@ -24,7 +24,7 @@ from warehouse_viewer.whatif.stored import States
 COMPARED = (2, 6)  # scenarios, least and most
 WRONG = (*ERRORS, SweepError, OSError)
 
-Told = dict[str, Any]
+Json = dict[str, Any]
 
 
 class Workshop:
@@ -67,7 +67,7 @@ class Workshop:
                 states.put(cut, shown.CUT)
 
     # --- what is shown
-    def about(self) -> Told:
+    def about(self) -> Json:
         """Returns what there is to choose from."""
         return {
             "folder": str(self.folder.path.resolve()),
@@ -77,7 +77,7 @@ class Workshop:
             "processes": self._queue.processes,
         }
 
-    def scenarios(self) -> Told:
+    def scenarios(self) -> Json:
         """Returns all scenarios with their runs, and how long the queue takes [s, wall]."""
         active = {process.job: process for process in self._queue.active()}
         waiting = set(self._queue.waiting())
@@ -95,9 +95,9 @@ class Workshop:
 
     def _shown(
         self, name: str, active: dict[Job, Active], waiting: set[Job], done: list[Done]
-    ) -> Told:
+    ) -> Json:
         folder = self.folder.path / name
-        out: Told = {"name": name, "state": "wrong", "left": 0.0, "runs": [], "summary": None}
+        out: Json = {"name": name, "state": "wrong", "left": 0.0, "runs": [], "summary": None}
         try:
             scenario = self.folder.read(name)
             plan = shown.planned(folder / FILE, self._version(name, scenario))
@@ -126,7 +126,7 @@ class Workshop:
             "summary": figures.summary(complete) if complete else None,
         }
 
-    def estimate(self, settings: object) -> Told:
+    def estimate(self, settings: object) -> Json:
         """Returns how long a scenario would take on this machine [s, wall]."""
         scenario = Scenario.of_json(settings)
         description = check(scenario, self.folder.path)
@@ -135,7 +135,7 @@ class Workshop:
         rounds = -(-scenario.seeds // self._queue.processes)
         return {"seconds": rounds * each, "robots": robots, "stations": stations}
 
-    def compare(self, names: Sequence[str]) -> Told:
+    def compare(self, names: Sequence[str]) -> Json:
         """Returns scenarios side by side. Raises ScenarioError where there is nothing to show."""
         least, most = COMPARED
         if not least <= len(set(names)) <= most or len(set(names)) != len(names):
@@ -181,12 +181,12 @@ class Workshop:
         return complete
 
     # --- what is asked for
-    def create(self, name: str, settings: object) -> Told:
+    def create(self, name: str, settings: object) -> Json:
         """Makes a scenario."""
         with self._lock:
             return {"name": self.folder.create(name, Scenario.of_json(settings))}
 
-    def change(self, name: str, settings: object) -> Told:
+    def change(self, name: str, settings: object) -> Json:
         """Changes a scenario. Runs that are of another one now are removed."""
         self._check_quiet(name)
         with self._lock:
@@ -203,18 +203,18 @@ class Workshop:
                     shutil.rmtree(old, ignore_errors=True)
         return {"name": name}
 
-    def duplicate(self, name: str) -> Told:
+    def duplicate(self, name: str) -> Json:
         """Copies a scenario, without its runs."""
         with self._lock:
             return {"name": self.folder.duplicate(name)}
 
-    def rename(self, name: str, to: str) -> Told:
+    def rename(self, name: str, to: str) -> Json:
         """Gives a scenario another name."""
         self._check_quiet(name)
         with self._lock:
             return {"name": self.folder.rename(name, to)}
 
-    def delete(self, name: str) -> Told:
+    def delete(self, name: str) -> Json:
         """Deletes a scenario; its runs end."""
         self.folder.of(name)
         self._queue.cancel(name)
@@ -222,7 +222,7 @@ class Workshop:
             self.folder.delete(name)
         return {"name": name}
 
-    def run(self, name: str) -> Told:
+    def run(self, name: str) -> Json:
         """Runs what a scenario lacks. Raises QueueError."""
         folder = self.folder.of(name)
         scenario = self.folder.read(name)
@@ -237,35 +237,35 @@ class Workshop:
             States(folder).put(fresh, "waits")
         return {"runs": len(fresh)}
 
-    def cancel(self, name: str) -> Told:
+    def cancel(self, name: str) -> Json:
         """Ends the runs of a scenario that wait or go on; those that are over stay."""
         self.folder.of(name)
         self._queue.cancel(name)
         return {"name": name}
 
-    def add_layout(self, name: str, text: str) -> Told:
+    def add_layout(self, name: str, text: str) -> Json:
         """Keeps a layout for scenarios."""
         with self._lock:
             return {"name": self.folder.add_layout(name, text)}
 
-    def add_stock(self, name: str, text: str) -> Told:
+    def add_stock(self, name: str, text: str) -> Json:
         """Keeps the stock of a layout."""
         with self._lock:
             return {"name": self.folder.add_stock(name, text)}
 
-    def add_orders(self, name: str, text: str) -> Told:
+    def add_orders(self, name: str, text: str) -> Json:
         """Keeps a file of orders for scenarios."""
         with self._lock:
             return {"name": self.folder.add_orders(name, text)}
 
-    def set_costs(self, name: str, text: str) -> Told:
+    def set_costs(self, name: str, text: str) -> Json:
         """Keeps what things, people, floor and energy cost, for all scenarios. Raises
         PriceError."""
         with self._lock:
             self.folder.set_costs(name, text)
         return {"name": name}
 
-    def drop_costs(self) -> Told:
+    def drop_costs(self) -> Json:
         """Leaves costs out of comparisons again."""
         with self._lock:
             self.folder.costs_file.unlink(missing_ok=True)

@@ -27,7 +27,7 @@ export function make(tag, { click, ...properties } = {}, ...children) {
 }
 
 /** Sets a text; one that is the same already would be painted again. */
-export function tell(element, text) {
+export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 

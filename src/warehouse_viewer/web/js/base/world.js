@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where: the newest the server told, and where robots are drawn between two updates.
+// What stands where: the server's latest update, and poses between two.
 
 const SNAP = 3; // [m]; further, it was put there, it did not drive
 const REACH = 0.3; // from a robot's centre to that of a unit which it may lift [m]
@@ -30,11 +30,11 @@ export class World {
     this.unitOf = new Map(scene.units.map((name, i) => [Number(name.match(/\d+$/)?.[0]), i]));
     this.itemsOf = scene.units.map(() => []);
     scene.item_unit.forEach((unit, item) => unit >= 0 && this.itemsOf[unit].push(item));
-    // x y yaw of each robot: as told, where its drawing began, and as drawn now.
+    // x y yaw of each robot: as received, where its drawing began, and as drawn now.
     this.pose = new Float64Array(3 * robots);
     this.from = new Float64Array(3 * robots);
     this.shown = new Float64Array(3 * robots);
-    this.since = new Float64Array(robots).fill(-1); // when it was told [ms]; -1: never
+    this.since = new Float64Array(robots).fill(-1); // when it was received [ms]; -1: never
     this.shelf = new Int32Array(robots);
     this.activity = new Uint8Array(robots);
     this.state = new Uint8Array(robots);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout editor: one drawing, one tool, one brush; what changes is told to listeners.
+// The layout editor: one drawing, one tool, one brush; listeners are notified of changes.
 
 import { $ } from '../base/dom.js';
 import { clear, copied, mirrored, repeated, replaced, turned } from './blocks.js';
@@ -35,7 +35,7 @@ export class Editor {
     this.listeners[what].push(listener);
   }
 
-  tell(what) {
+  notify(what) {
     for (const listener of this.listeners[what]) listener();
   }
 
@@ -47,7 +47,7 @@ export class Editor {
 
   /** Shows all that is drawn. */
   drawn() {
-    this.tell('draft');
+    this.notify('draft');
     this.redraw();
   }
 
@@ -56,8 +56,8 @@ export class Editor {
     this.bounds = this.drawing.bounds();
     if (station) this.stationKey = station.key;
     if (this.heat) Object.assign(this, { heat: null, notes: null });
-    this.tell('change');
-    this.tell('state');
+    this.notify('change');
+    this.notify('state');
     this.redraw();
   }
 
@@ -104,7 +104,7 @@ export class Editor {
 
   choose(station) {
     this.stationKey = station?.key ?? '';
-    this.tell('state');
+    this.notify('state');
     this.redrawOverlay();
   }
 
@@ -114,7 +114,7 @@ export class Editor {
     this.tool = name === 'paste' ? new Paste(this) : TOOLS[name][3](this);
     this.tool.hover(this.pointer);
     if (name !== 'select' && name !== 'hand') this.selection = null;
-    this.tell('state');
+    this.notify('state');
     this.redrawOverlay();
   }
 
@@ -122,13 +122,13 @@ export class Editor {
     this.brush = char;
     if (['select', 'queue', 'exit', 'hand', 'paste'].includes(this.toolName)) this.take('pen');
     else if (!this.tool.isBusy) this.tool.hover(this.pointer);
-    this.tell('state');
+    this.notify('state');
     this.redrawOverlay();
   }
 
   select(rect) {
     this.selection = rect;
-    this.tell('state');
+    this.notify('state');
     this.redrawOverlay();
   }
 
@@ -180,7 +180,7 @@ export class Editor {
 
   pointAt(cell) {
     this.pointer = cell;
-    this.tell('state');
+    this.notify('state');
     this.redrawOverlay();
   }
 
@@ -190,7 +190,7 @@ export class Editor {
     if (!this.selection) return;
     this.clipboard = copied(this.drawing, this.selection);
     this.say(`Copied ${this.clipboard.width} × ${this.clipboard.height} cells; paste them by Ctrl+V`);
-    this.tell('state');
+    this.notify('state');
   }
 
   cut() {

@@ -53,7 +53,7 @@ export class Files {
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
       const { drawing, told: notes } = await ask('POST', '/read', { files: Object.fromEntries(contents) });
       this.editor.open(drawing);
-      tellLost(notes);
+      showLost(notes);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
     });
   }
@@ -94,7 +94,7 @@ export class Files {
 }
 
 /** Lists what could not be carried over from a file of another format. */
-export function tellLost(notes) {
+export function showLost(notes) {
   if (!notes?.length) return;
   $('lost').replaceChildren(...notes.map((text) => make('li', { textContent: text })));
   $('loser').showModal();

@@ -5,7 +5,7 @@ import { post, reloadIfLockedOut } from '../base/api.js';
 import { $, enable, make, on, onTheme } from '../base/dom.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
-import { build, compare, Files, tellLost } from './files.js';
+import { build, compare, Files, showLost } from './files.js';
 import { Keyboard, KEYS } from './keyboard.js';
 import { Palette } from './palette.js';
 import { Panel } from './panel.js';
@@ -40,7 +40,7 @@ function begin(editor, store, about) {
   const kept = store.kept();
   editor.open(kept?.drawing ?? about.drawing ?? null, true);
   if (about.error) say(about.error, 'refused');
-  if (!kept) tellLost(about.told);
+  if (!kept) showLost(about.told);
   if (!kept || (about.drawing && Store.isSame(kept.drawing, about.drawing))) return;
   const when = new Date(kept.time).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
   $('notice-text').textContent = `Your last drawing is back, from ${when}.`;

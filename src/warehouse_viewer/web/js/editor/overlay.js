@@ -188,7 +188,7 @@ export class Overlay {
   }
 }
 
-/** The lines at a station: its name, and what a trial told of it. */
+/** The lines at a station: its name, and its result in a trial. */
 function labelOf(name, notes, scale) {
   if (!notes) return [name];
   return scale < ROOMY ? [`${name}: ${notes.queue}`] : [name, `queue ${notes.queue}, busy ${notes.busy}`];

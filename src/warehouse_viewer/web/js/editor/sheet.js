@@ -4,7 +4,7 @@
 import { token } from '../base/dom.js';
 import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
 
-const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
+const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs are legible
 const BLANK = new Set(['.', NOTHING, '#', '=']);
 const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
 

@@ -68,7 +68,7 @@ export function textOf(drawing) {
   lines.push(`spacing: ${json.spacing}`);
   if (json.building) lines.push(`building: ${flow(json.building)}`);
   if (json.at) lines.push(`at: ${flow(json.at)}`);
-  // YAML takes the first line's leading spaces for indentation, unless it is told how much.
+  // YAML takes the first line's leading spaces for indentation, unless a number declares it.
   lines.push(json.floor[0].startsWith(NOTHING) ? 'floor: |2' : 'floor: |', ...json.floor.map((line) => `  ${line}`));
   if (json.stations.length) lines.push('stations:', ...json.stations.map((s) => `  ${keyText(s.key)}: ${flow(entryOf(s))}`));
   lines.push(`storage_units: ${unitsOf(json)}`, `robots: ${flow(json.robots)}`);

@@ -6,7 +6,7 @@ import { swatches, topOf } from '../base/heat_scale.js';
 import { send } from './server.js';
 import { textOf } from './text.js';
 
-const TOLD = { traffic: 'loaded robots through a cell', waiting: 'seconds that robots queued in a cell' };
+const LEGEND = { traffic: 'loaded robots through a cell', waiting: 'seconds that robots queued in a cell' };
 
 export class Trial {
   constructor(editor) {
@@ -70,7 +70,7 @@ export class Trial {
     for (const button of $('trial-kinds').children) press(button, button.dataset.heat === kind);
     const values = this.result[kind] ?? [], top = topOf(values);
     this.editor.heat = kind === 'none' ? null : { values, width: this.result.width, origin: this.origin, top };
-    $('trial-legend').textContent = kind === 'none' ? '' : `${TOLD[kind]}: 0 to ${Math.round(top)}`;
+    $('trial-legend').textContent = kind === 'none' ? '' : `${LEGEND[kind]}: 0 to ${Math.round(top)}`;
     $('trial-scale').hidden = kind === 'none';
     this.editor.redrawOverlay();
   }

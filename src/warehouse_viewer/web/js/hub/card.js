@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The card of one simulation in the list.
 
-import { make, tell } from '../base/dom.js';
+import { make, setText } from '../base/dom.js';
 import { look, paint } from './picture.js';
 
 const PERIOD = 1000; // between two pictures [ms]
@@ -28,13 +28,13 @@ export class Card {
   show(row) {
     this.row = row;
     const lives = ['RUNNING', 'PAUSED'].includes(row.state);
-    tell(this.badge, row.state.toLowerCase());
+    setText(this.badge, row.state.toLowerCase());
     this.badge.className = `badge ${COLOURS[row.state]}`;
     this.link.href = this.open.href = row.url;
     this.open.hidden = !lives;
     this.canvas.hidden = !lives;
     this.showFacts(row);
-    tell(this.reason, row.reason);
+    setText(this.reason, row.reason);
     this.reason.hidden = !row.reason;
     for (const [text, button] of Object.entries(this.buttons)) button.hidden = !isOffered(text, row.state);
     if (lives && performance.now() - this.looked > PERIOD) this.picture();

@@ -20,7 +20,7 @@ export class WishForm {
   async open(name) {
     if (!this.fields) await this.build();
     this.form.elements.name.value = name;
-    this.tellWrong('', '');
+    this.showFault('', '');
     this.showKind();
     $('wish').showModal();
   }
@@ -65,7 +65,7 @@ export class WishForm {
   }
 
   async send() {
-    this.tellWrong('', '');
+    this.showFault('', '');
     const answer = await fetch('/api/v1/simulations', {
       method: 'POST', body: JSON.stringify(this.wish()), headers: { 'content-type': 'application/json' },
     }).catch(() => null);
@@ -73,11 +73,11 @@ export class WishForm {
     if (answer?.ok) {
       $('wish').close();
       this.done(body);
-    } else this.tellWrong(body.field, body.reason && this.fields.has(body.field) ? body.reason : body.detail, body.nearest);
+    } else this.showFault(body.field, body.reason && this.fields.has(body.field) ? body.reason : body.detail, body.nearest);
   }
 
   /** Says beside a field what is wrong with it, or below the form. */
-  tellWrong(name, text, nearest = '') {
+  showFault(name, text, nearest = '') {
     for (const { wrong } of this.fields?.values() ?? []) wrong.hidden = true;
     const field = this.fields?.get(name);
     $('wish-answer').hidden = !text || Boolean(field);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of the hub: what runs, and new warehouses.
 
-import { $, make, on, tell } from '../base/dom.js';
+import { $, make, on, setText } from '../base/dom.js';
 import { confirmed } from '../base/question.js';
 import { Card } from './card.js';
 import { WishForm } from './form.js';
@@ -33,7 +33,7 @@ class Page {
   async look() {
     const rows = await server.list().catch(() => null);
     $('link').dataset.state = rows ? 'live' : 'away';
-    tell($('link'), rows ? 'live' : 'the hub does not answer');
+    setText($('link'), rows ? 'live' : 'the hub does not answer');
     if (rows) this.show(rows);
   }
 
@@ -88,7 +88,7 @@ class Page {
 
   openInsert(row) {
     this.target = row.name;
-    tell($('insert-title'), `Insert a world into ${row.name}`);
+    setText($('insert-title'), `Insert a world into ${row.name}`);
     $('insert-answer').hidden = true;
     if (!$('worlds').childElementCount) {
       server.argumentsOf().then(({ worlds }) => $('worlds').replaceChildren(...worlds.map((value) => make('option', { value }))));
@@ -106,17 +106,17 @@ class Page {
       this.say(message);
     } catch (error) {
       $('insert-answer').hidden = false;
-      tell($('insert-answer'), error.message);
+      setText($('insert-answer'), error.message);
     }
   }
 
   showLog(row) {
     this.following = new AbortController();
-    tell($('log-title'), `Log of ${row.name}`);
-    tell($('log-text'), '');
+    setText($('log-title'), `Log of ${row.name}`);
+    setText($('log-text'), '');
     $('log').showModal();
     server.follow(row.name, showLog, this.following.signal).catch((error) => {
-      if (error.name !== 'AbortError') tell($('log-text'), error.message);
+      if (error.name !== 'AbortError') setText($('log-text'), error.message);
     });
   }
 
@@ -133,12 +133,12 @@ class Page {
   say(text, kind = 'done') {
     $('answer').hidden = false;
     $('answer').dataset.kind = kind;
-    tell($('answer'), text);
+    setText($('answer'), text);
   }
 }
 
 function showLog(text) {
-  tell($('log-text'), text);
+  setText($('log-text'), text);
   $('log-text').scrollTop = $('log-text').scrollHeight;
 }
 

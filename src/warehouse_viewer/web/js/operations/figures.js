@@ -10,10 +10,10 @@ const exact = (value) => `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %`;
 
 /** What the server calls each; `most`: less is better. */
 const LEADING = [
-  { name: 'pieces', title: 'Pieces per hour', told: count, aim: ({ target, of }) => `target ${count(target)}: 90 % of what stations can, ${count(of)}` },
-  { name: 'orders', title: 'Orders done per hour', told: count, aim: ({ target }) => (target ? `target ${count(target)}: as many arrive` : 'target: as many as come in') },
-  { name: 'late', title: 'Late orders', told: exact, most: true, aim: ({ target }) => `target ${percent(target)} at most` },
-  { name: 'available', title: 'Robots available', told: percent, aim: ({ target, of, value }) => `${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
+  { name: 'pieces', title: 'Pieces per hour', format: count, aim: ({ target, of }) => `target ${count(target)}: 90 % of what stations can, ${count(of)}` },
+  { name: 'orders', title: 'Orders done per hour', format: count, aim: ({ target }) => (target ? `target ${count(target)}: as many arrive` : 'target: as many as come in') },
+  { name: 'late', title: 'Late orders', format: exact, most: true, aim: ({ target }) => `target ${percent(target)} at most` },
+  { name: 'available', title: 'Robots available', format: percent, aim: ({ target, of, value }) => `${count(of * value)} of ${count(of)}; target ${percent(target)} at least` },
 ];
 const SMALL = [
   ['orders_completed', 'orders completed', count],
@@ -58,13 +58,13 @@ class Card {
   show(figure) {
     const { about } = this, { times, values, target } = figure;
     const [state, word] = verdict(figure, about.most);
-    this.value.textContent = about.told(figure.value);
+    this.value.textContent = about.format(figure.value);
     this.badge.className = `badge ${COLOURS[state]}`;
     Object.assign(this.badge, { textContent: word, hidden: !word });
     this.aim.textContent = about.aim(figure);
     const points = times.map((x, i) => ({ x, y: values[i] }));
     const ends = times.length > 1 && target ? [{ x: times[0], y: target }, { x: times.at(-1), y: target }] : [];
-    if (values.length) this.canvas.ariaLabel = `${about.title}, over the last hour: from ${about.told(Math.min(...values))} to ${about.told(Math.max(...values))}`;
+    if (values.length) this.canvas.ariaLabel = `${about.title}, over the last hour: from ${about.format(Math.min(...values))} to ${about.format(Math.max(...values))}`;
     this.line.show(points, ends);
     if (state !== this.state) {
       this.state = state;

@@ -2,7 +2,7 @@
 // The last hour of robots and stations: a row for each, coloured by what it did. Only rows in sight
 // are drawn, whatever their number.
 
-import { $, make, on, onTheme, tell } from '../base/dom.js';
+import { $, make, on, onTheme, setText } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
@@ -72,7 +72,7 @@ export class Gantt {
   take(buffer) {
     this.spans.take(buffer);
     Object.assign(this.view, { begin: this.spans.begin, now: this.spans.now });
-    tell($('gantt-known'), knownOf(this.spans));
+    setText($('gantt-known'), knownOf(this.spans));
     this.resort();
   }
 
@@ -149,7 +149,7 @@ export class Gantt {
   }
 
   /** A row, and a span of it, in words. */
-  tell(row, span) {
+  describe(row, span) {
     if (!span) return row.name;
     const word = row.kind === 'station' ? STATION_STATES[ACTIVITY_NAMES[span.state]] : ACTIVITY[span.state];
     return `${row.name}: ${word}, ${lasting(span.to - span.from)}, ${clock(span.from)} to ${clock(span.to)}`;
@@ -173,7 +173,7 @@ export class Gantt {
     this.span = { time: (Math.max(span.from, row.times[at]) + span.to) / 2 };
     this.view.reveal(span.from, span.to);
     this.reveal();
-    $('gantt-told').textContent = this.tell(row, this.chosenSpan());
+    $('gantt-told').textContent = this.describe(row, this.chosenSpan());
     this.soon();
   }
 

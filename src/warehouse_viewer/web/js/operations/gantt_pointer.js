@@ -55,7 +55,7 @@ export class GanttPointer {
     if (!found) return;
     const number = gantt.rows.findIndex(({ row }) => row === found.row);
     gantt.choose(number, found.row.indexAt(found.span?.from ?? gantt.spans.now));
-    if (event.pointerType === 'touch') this.tell(event, found);
+    if (event.pointerType === 'touch') this.showTip(event, found);
   }
 
   /** How far two fingers are apart [px]; 0: there are no two. */
@@ -67,7 +67,7 @@ export class GanttPointer {
   move(event) {
     const before = this.pointers.get(event.pointerId), now = this.place(event);
     if (!before) {
-      this.tell(event, this.gantt.at(...now));
+      this.showTip(event, this.gantt.at(...now));
       return;
     }
     this.pointers.set(event.pointerId, now);
@@ -83,11 +83,11 @@ export class GanttPointer {
     this.gantt.soon();
   }
 
-  tell({ clientX, clientY }, row) {
+  showTip({ clientX, clientY }, row) {
     const tip = $('gantt-tip');
     tip.hidden = !row;
     if (!row) return;
-    tip.textContent = this.gantt.tell(row.row, row.span);
+    tip.textContent = this.gantt.describe(row.row, row.span);
     const half = tip.offsetWidth / 2;
     tip.style.left = `${Math.max(half + 4, Math.min(innerWidth - half - 4, clientX))}px`;
     tip.style.top = `${clientY}px`;

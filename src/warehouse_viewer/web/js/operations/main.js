@@ -85,8 +85,7 @@ class Page {
     this.alarms.setAway(state === 'away' ? text : '');
   }
 
-  /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
-   *  the answer was no. */
+  /** Waits for the server's answer and shows it: `textOf(message)`, or the reason of a refusal. */
   async act(sent, textOf = () => '') {
     this.say('');
     try {

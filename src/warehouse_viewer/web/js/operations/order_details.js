@@ -2,7 +2,7 @@
 // One order: its history, station, units on their way and likely end; how urgent it is, and when it is due.
 
 import { get, patch } from '../base/api.js';
-import { $, make, on, press, tell } from '../base/dom.js';
+import { $, make, on, press, setText } from '../base/dom.js';
 import { ROOT } from '../base/root.js';
 import { clock, lasting } from '../base/time.js';
 import { ORDER_STATES } from '../base/words.js';
@@ -14,7 +14,7 @@ const KINDS = { RECEIVED: 'received', ASSIGNED: 'given to', PICKED: 'picked', CO
   UNPICKED: 'put back', REOPENED: 'open again', CHANGED: 'changed to' };
 
 export class OrderDetails {
-  /** `now()`: the simulated time [s]; `done(text)` is told of what was changed. */
+  /** `now()`: the simulated time [s]; `done(text)` is called after a change. */
   constructor(now, done) {
     Object.assign(this, { now, done });
     on($('order-close'), 'click', () => $('order').close());
@@ -44,7 +44,7 @@ export class OrderDetails {
   show(order, isNew = false) {
     this.order = order;
     const { order_id: id, reference, priority, due, state } = order, over = isOver(order);
-    tell($('order-title'), reference ? `${reference}, order ${id}` : `Order ${id}`);
+    setText($('order-title'), reference ? `${reference}, order ${id}` : `Order ${id}`);
     $('order-form').hidden = over;
     press($('order-urgent'), priority === URGENT);
     if (isNew) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order, typed in: SKUs completed from stock, and each field told what is wrong with it.
+// One order, typed in: SKUs are completed from stock, and each field shows its own fault.
 
 import { get, post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
@@ -36,7 +36,7 @@ function find(text) {
 }
 
 export class OrderEntry {
-  /** `now()`: the simulated time [s]; `done(text)` is told of an order that was accepted. */
+  /** `now()`: the simulated time [s]; `done(text)` is called once an order is accepted. */
   constructor(now, done) {
     Object.assign(this, { now, done, lines: [] });
     on($('new-order'), 'click', () => this.open());

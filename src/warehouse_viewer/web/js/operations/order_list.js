@@ -81,7 +81,7 @@ export class OrderList {
     this.timer = setTimeout(() => this.fetchOrders(), delay);
   }
 
-  /** The server is there, perhaps again: what changed meanwhile was not told. */
+  /** Begins, or begins again after a lost connection, during which changes were missed. */
   begin() {
     if (this.rows.length) this.take({ orders: [], missed: true });
     else this.reload(0);

@@ -18,7 +18,7 @@ export function sizeOf({ orders, lines, pieces }) {
 }
 
 export class OrderUpload {
-  /** `done(text)` is told of orders that were accepted. */
+  /** `done(text)` is called once orders are accepted. */
   constructor(done) {
     this.done = done;
     on($('upload'), 'click', () => $('file').click());

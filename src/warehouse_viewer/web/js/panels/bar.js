@@ -2,7 +2,7 @@
 // The bar at the top: which warehouse, its time, and what can be done to the simulation.
 
 import { post } from '../base/api.js';
-import { $, enable, on, setIcon, tell } from '../base/dom.js';
+import { $, enable, on, setIcon, setText } from '../base/dom.js';
 import { confirmed } from '../base/question.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
@@ -71,7 +71,7 @@ export class Bar {
     const reached = this.latest >= UNDO + SAVED_EVERY;
     this.latest = Math.max(this.latest, stamp);
     if (!reached && this.latest >= UNDO + SAVED_EVERY) this.enable();
-    tell($('time'), clock(stamp));
+    setText($('time'), clock(stamp));
   }
 
   showLink(live, reason) {
@@ -82,7 +82,7 @@ export class Bar {
 
   link(state, text) {
     $('link').dataset.state = state;
-    tell($('link'), text);
+    setText($('link'), text);
   }
 
   showStatus(status) {
@@ -93,9 +93,9 @@ export class Bar {
       this.enable();
       return;
     }
-    tell($('warehouse'), status.warehouse || 'Warehouse');
+    setText($('warehouse'), status.warehouse || 'Warehouse');
     this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
-    tell($('factor'), status.paused ? '' : `×${status.factor.toFixed(2)}`);
+    setText($('factor'), status.paused ? '' : `×${status.factor.toFixed(2)}`);
     this.stepSize = status.step_size;
     this.showPaused(status.paused);
     this.showSpeed(status.target_factor);

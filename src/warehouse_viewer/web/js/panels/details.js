@@ -2,7 +2,7 @@
 // The panel of the selection: its facts, and the commands for it.
 
 import { command, post } from '../base/api.js';
-import { $, enable, make, on, press, tell } from '../base/dom.js';
+import { $, enable, make, on, press, setText } from '../base/dom.js';
 import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
 import { vda5050Of } from './vda5050.js';
 import { ROOT } from '../base/root.js';
@@ -81,14 +81,14 @@ export class Details {
     const mode = this.fleet.modeOf(this.world.scene.robots[i]);
     for (const button of $('modes').children) press(button, button.dataset.mode === mode);
     $('mode').hidden = !mode;
-    tell($('mode'), mode ? MODE_WORDS[mode] : '');
-    this.tellWhy();
+    setText($('mode'), mode ? MODE_WORDS[mode] : '');
+    this.showWhy();
   }
 
   /** Says below the buttons why some can't be pressed: a finger reads no title. */
-  tellWhy() {
+  showWhy() {
     const buttons = COMMANDS.map($).filter((button) => button.disabled);
-    tell($('why'), whyNot(buttons.map((button) => [button.textContent.trim(), button.dataset.why])));
+    setText($('why'), whyNot(buttons.map((button) => [button.textContent.trim(), button.dataset.why])));
     $('why').hidden = !buttons.length;
   }
 

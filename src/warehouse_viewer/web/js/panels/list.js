@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of robots, those that need help first, of which only the rows in sight exist; and the search.
 
-import { $, make, on, press, tell } from '../base/dom.js';
+import { $, make, on, press, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { found, rowsOf, wanted } from '../base/search.js';
 import { ACTIVITY, ACTIVITY_CLASS, MODE_WORDS, STATE } from '../base/words.js';
@@ -89,7 +89,7 @@ export class RobotList {
     for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      tell(button.querySelector('b'), isKnown ? String(filter === '' ? activity.length : counts[filter]) : '');
+      setText(button.querySelector('b'), isKnown ? String(filter === '' ? activity.length : counts[filter]) : '');
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found

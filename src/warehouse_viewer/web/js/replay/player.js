@@ -120,12 +120,12 @@ export class Player {
     while (updates[this.update]?.stamp <= this.time + 1e-6) this.state.take(updates[this.update++]);
     const due = [];
     while (texts[this.text]?.stamp <= this.time + 1e-6) due.push(texts[this.text++].message);
-    this.tell(due, isJump);
+    this.emit(due, isJump);
     const next = updates[this.update] ?? await this.following();
     this.show.update({ ...this.state.at(this.time, next), revision: this.shown.revision });
   }
 
-  tell(messages, isJump) {
+  emit(messages, isJump) {
     const past = isJump && messages.find(({ type }) => type === 'past');
     const events = messages.filter(({ type }) => type === 'events').flatMap((message) => message.events);
     if (past) this.show.past([...past.events, ...events]);

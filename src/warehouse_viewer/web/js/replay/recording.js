@@ -82,7 +82,7 @@ export class Recording {
 
 /** Drops what came after the end: the world went back. */
 function until({ updates, texts }, end) {
-  const inTime = ({ stamp }) => stamp <= end + 0.75; // a chunk that goes on is longer than it was told
+  const inTime = ({ stamp }) => stamp <= end + 0.75; // a chunk that still grows is longer than the index says
   return { updates: updates.filter(inTime), texts: texts.filter(inTime) };
 }
 

@@ -29,13 +29,13 @@ export class State {
   /** An update with what has changed since the last one, at a time [s]; `next`: the update after it. */
   at(time, next) {
     const part = next && next.stamp > this.stamp ? (time - this.stamp) / (next.stamp - this.stamp) : 0;
-    const robots = this.robots.told(next && part > 0 ? movedBy(next.robots, Math.min(1, part)) : null);
+    const robots = this.robots.drain(next && part > 0 ? movedBy(next.robots, Math.min(1, part)) : null);
     return { kind: 'update', stamp: time, robots,
-      ...Object.fromEntries(BODIES.map((name) => [name, this[name].told(null)])) };
+      ...Object.fromEntries(BODIES.map((name) => [name, this[name].drain(null)])) };
   }
 }
 
-/** Rows of a table, of which those are told that have changed. */
+/** Rows of a table; drain() returns those that have changed. */
 class Rows {
   constructor(count, words) {
     this.words = words;
@@ -54,9 +54,9 @@ class Rows {
   }
 
   /** A table of the rows that have changed; `move`: {rows: Set of indices, apply(row, index)} of others. */
-  told(move) {
+  drain(move) {
     const rows = [...new Set([...this.changed, ...(move?.rows ?? [])])];
-    this.changed = new Set(move?.rows ?? []); // they are told again, where they are then
+    this.changed = new Set(move?.rows ?? []); // moved rows are sent again, at their final places
     const { words } = this, out = new Float32Array(rows.length * words), i32 = new Int32Array(out.buffer);
     rows.forEach((index, row) => {
       i32.set(this.i32.subarray(index * words, (index + 1) * words), row * words);

@@ -23,7 +23,7 @@ export class Timeline {
     this.recording = new Recording();
     this.player = new Player(this.recording, this.shower(), {
       changed: () => this.draw(), failed: (error) => page.tip.say(error.message, 'refused') });
-    this.track = new Track($('replay-track'), { seek: (time) => this.seek(time), told: (time) => this.told(time) });
+    this.track = new Track($('replay-track'), { seek: (time) => this.seek(time), textOf: (time) => this.textOf(time) });
     this.isLive = true;
     this.stamp = 0; // of the live warehouse [s]
     on($('replay-play'), 'click', () => this.toggle());
@@ -165,7 +165,7 @@ export class Timeline {
     this.drawFigures();
   }
 
-  told(time) {
+  textOf(time) {
     const wall = wallAt(time, this.recording.chunks);
     return wall === null ? hms(time) : `${hms(time)} (${wallClock(wall)})`;
   }
@@ -189,7 +189,7 @@ export class Timeline {
     $('replay-play').title = player.isPlaying ? 'Pause the playback' : isLive ? 'Play the last half minute' : 'Play';
     $('replay-play').setAttribute('aria-label', $('replay-play').title);
     press($('replay-live'), isLive);
-    const text = this.told(time);
+    const text = this.textOf(time);
     if ($('replay-time').textContent !== text) $('replay-time').textContent = text;
     if (!isLive) this.drawFigures();
   }

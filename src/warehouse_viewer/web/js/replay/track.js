@@ -8,9 +8,9 @@ const COARSE = 10; // times a step, with the shift key
 const NEAR = { mouse: 12, touch: 22 }; // of a mark, which the pointer then means [px]
 
 export class Track {
-  /** `seek(time)` is called for a time that a person chose, `told(time)` has it as text. */
-  constructor(box, { seek, told: describe }) {
-    Object.assign(this, { box, seek, told: describe, begin: 0, end: 1, time: 0 });
+  /** `seek(time)` is called for a time that a person chose, `textOf(time)` has it as text. */
+  constructor(box, { seek, textOf }) {
+    Object.assign(this, { box, seek, textOf, begin: 0, end: 1, time: 0 });
     this.played = box.querySelector('.played');
     this.marks = box.querySelector('.marks');
     this.tip = box.querySelector('.at');
@@ -52,7 +52,7 @@ export class Track {
     this.time = time;
     this.played.style.width = this.left(time);
     this.box.setAttribute('aria-valuenow', Math.round(time));
-    this.box.setAttribute('aria-valuetext', this.told(time));
+    this.box.setAttribute('aria-valuetext', this.textOf(time));
   }
 
   part(time) {
@@ -106,6 +106,6 @@ export class Track {
     this.tip.hidden = false;
     this.tip.style.left = this.left(time);
     this.tip.textContent = mark && !this.isHeld
-      ? `${this.told(mark.time)} · ${[mark.kind, mark.model, mark.text].filter(Boolean).join(' · ')}` : this.told(time);
+      ? `${this.textOf(mark.time)} · ${[mark.kind, mark.model, mark.text].filter(Boolean).join(' · ')}` : this.textOf(time);
   }
 }

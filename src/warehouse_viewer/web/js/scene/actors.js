@@ -183,7 +183,7 @@ export class Actors {
       const isThere = this.sceneryBase[at + 15] === 1;
       matrix.toArray(this.sceneryBase, at);
       const { crowd, index } = this.sceneryPlaces[model];
-      crowd.put(index, matrix, isThere); // what is told again is a person, or was pushed
+      crowd.put(index, matrix, isThere); // what is sent again is a person, or was pushed
     }
     if (models.length) this.belts.run(0);
   }

@@ -9,7 +9,7 @@ import { STOPS, swatches, topOf } from '../base/heat_scale.js';
 import { behind } from './paint.js';
 
 const HEIGHT = 0.004; // over the floor, beneath robots [m]
-const TOLD = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };
+const LEGEND = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };
 /** RGBA bytes of each value; nothing at all is transparent. */
 export function coloursOf(values, top) {
   const out = new Uint8Array(4 * values.length);
@@ -72,6 +72,6 @@ export class HeatMap {
     this.object.position.set(x + (width - 1) * spacing / 2, y + (rows - 1) * spacing / 2, HEIGHT);
     this.object.layers.set(STILL);
     this.stage.scene.add(this.object);
-    $('heat-text').textContent = `${TOLD[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;
+    $('heat-text').textContent = `${LEGEND[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;
   }
 }

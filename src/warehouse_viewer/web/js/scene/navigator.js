@@ -84,7 +84,7 @@ export class Navigator {
     this.stage.invalidate();
   }
 
-  /** Goes along with what `place()` says, until told null. */
+  /** Follows what `place()` returns; null ends it. */
   follow(place) {
     this.followed = place;
     if (place) this.visit(place());

@@ -45,7 +45,7 @@ export class Pace {
     this.most = robots < CROWD ? MOST : SHARE;
   }
 
-  /** Speeds are told when they change; the share goes on changing until it is at its end. */
+  /** Moves the share towards its limit; to be called often, for speeds come only when they change. */
   adapt() {
     if (this.clock() < this.adapted + ADAPT) return;
     this.adapted = this.clock();

@@ -75,7 +75,7 @@ export class Pointer {
     this.overlays.point(hit ? null : cell);
     this.picker.stage.canvas.style.cursor = hit || cell ? 'pointer' : '';
     this.hovered = hit ?? null;
-    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && this.page.told(cell), at);
+    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && this.page.textOf(cell), at);
   }
 
   leave() {

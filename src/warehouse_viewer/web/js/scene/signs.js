@@ -7,7 +7,7 @@ import { Changes } from '../base/changes.js';
 import { apart, namedStations } from './labelled.js';
 
 const TALL = 2.4, THICK = 0.06; // of a post [m]
-const SOON = 10, LONG = 60; // of waiting for a person: it is told, and it is too long [s]
+const SOON = 10, LONG = 60; // waiting for a person from which a sign is shown, and is red [s]
 const POST = { dark: 0x6b7889, light: 0x8d99a8 };
 
 export class Signs {

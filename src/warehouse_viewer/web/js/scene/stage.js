@@ -18,11 +18,11 @@ THREE.Object3D.DefaultUp.set(0, 0, 1);
 
 export class Stage {
   /** `beforeDraw(now)` moves things and returns whether it will have to again. Where the processor
-   *  draws, `tellPace(gap)` hears the time from one picture to the next [ms]. */
-  constructor(canvas, beforeDraw, tellPace) {
+   *  draws, `onPace(gap)` hears the time from one picture to the next [ms]. */
+  constructor(canvas, beforeDraw, onPace) {
     this.canvas = canvas;
     this.beforeDraw = beforeDraw;
-    this.pace = new Pace(tellPace);
+    this.pace = new Pace(onPace);
     // Where the processor draws, smooth and finer edges cost more than they are worth.
     this.fenced = drawsInSoftware() ? canvas.getContext('webgl2', { alpha: false, antialias: false }) : null;
     this.renderer = new THREE.WebGLRenderer({ canvas, context: this.fenced ?? undefined, antialias: true });

@@ -25,8 +25,8 @@ export function piecesByUnit(places, sku) {
 }
 
 export class Where {
-  /** `show(sku, units)` is told of the pieces by unit whenever they change, `fail(text)` why nothing
-   *  is known of them; no stage: nothing is lit. */
+  /** `show(sku, units)` gets the pieces by unit whenever they change, `fail(text)` the reason why
+   *  they are unknown; without a stage nothing is lit. */
   constructor(stage, world, show, fail) {
     Object.assign(this, { stage, world, show, fail, sku: '', units: new Map(), places: new Map() });
     if (stage) this.lights = this.make(0);
@@ -35,7 +35,7 @@ export class Where {
   /** Looks for a SKU; '': for none. */
   async ask(sku) {
     if (sku === this.sku) {
-      if (this.isKnown) this.tell();
+      if (this.isKnown) this.emit();
       return;
     }
     Object.assign(this, { sku, isKnown: false });
@@ -54,7 +54,7 @@ export class Where {
       if (answer.places.length) this.follow();
     }
     this.isKnown = true;
-    this.tell();
+    this.emit();
   }
 
   /** Shows from now on what changes, too. */
@@ -68,7 +68,7 @@ export class Where {
       }
       if (!stock.some((place) => place.sku === sku || this.places.has(place.item))) return;
       this.take(stock.filter((place) => place.sku === sku || this.places.has(place.item)));
-      this.tell();
+      this.emit();
     } });
   }
 
@@ -76,7 +76,7 @@ export class Where {
     for (const place of places) this.places.set(place.item, place);
   }
 
-  tell() {
+  emit() {
     this.units = piecesByUnit(this.places, this.sku);
     this.show(this.sku, this.units);
     if (!this.stage) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person at a station has to do: what the server told last, less what was reported since. It
-// goes on without a network, as far as what is to be done with the unit that is there was told.
+// The tasks of a person at a station: the server's last state, less what was reported since. Work
+// continues without a network for the tasks that are known of the present unit.
 
 import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { meaningOf } from './codes.js';
@@ -25,7 +25,7 @@ export class Bench {
     return this.state?.kind === 'PICK';
   }
 
-  /** Reports that the server has not told the results of: {sequence: quantity}. */
+  /** Reports whose results have not come from the server: {sequence: quantity}. */
   get pending() {
     const reports = this.outbox.entries.filter(({ kind }) => kind === 'report');
     const kept = reports.map(({ sequence, body }) => [sequence, body.outcome === PickOutcome.DONE ? body.quantity : 0]);

@@ -58,7 +58,7 @@ class Page {
 
   take(stations) {
     const sound = this.bench.take(stations);
-    if (sound) this.tell({ ok: true, sound, text: `storage unit ${this.bench.state.shelf_id} is here` });
+    if (sound) this.show({ ok: true, sound, text: `storage unit ${this.bench.state.shelf_id} is here` });
     this.view.show();
   }
 
@@ -71,10 +71,10 @@ class Page {
   /** What was kept here can't be booked: a person must know, in plain words. */
   refused({ what, kind }, reason) {
     const text = kind === 'undo' ? `${what} is not taken back: ${reason}` : `${what} is not booked: ${reason}`;
-    this.tell({ ok: false, sound: 'refused', text });
+    this.show({ ok: false, sound: 'refused', text });
   }
 
-  tell(result) {
+  show(result) {
     this.sounds.play(result.sound);
     this.view.say(result);
   }
@@ -88,22 +88,22 @@ class Page {
     const [short, damaged] = [PickOutcome.SHORT, PickOutcome.DAMAGED];
     const acts = { ALL: () => this.confirm(true), UNDO: () => this.undo(), SHORT: () => this.writeOff(short), DAMAGED: () => this.writeOff(damaged) };
     if (acts[name]) return acts[name]();
-    return this.tell({ ok: false, sound: 'refused', text: 'there is no question now that yes or no could answer' });
+    return this.show({ ok: false, sound: 'refused', text: 'there is no question now that yes or no could answer' });
   }
 
   /** A scanned YES or NO answers the question that is open. */
   answer(code) {
     const { name } = meaningOf(code, this.name, this.bench.stations);
     if (name === 'YES' || name === 'NO') $(name === 'YES' ? 'question-yes' : 'question-no').click();
-    else this.tell({ ok: false, sound: 'refused', text: `${code}: answer the question first` });
+    else this.show({ ok: false, sound: 'refused', text: `${code}: answer the question first` });
   }
 
   /** Shows the result of act(), or why this device could not keep it. */
   do(act) {
     try {
-      this.tell(act());
+      this.show(act());
     } catch (error) {
-      this.tell({ ok: false, sound: 'refused', text: `this device can't keep it: ${error.message}` });
+      this.show({ ok: false, sound: 'refused', text: `this device can't keep it: ${error.message}` });
     }
     this.view.show();
   }
@@ -127,7 +127,7 @@ class Page {
     const what = `${booked ?? 'all'} × ${task.sku}`, verb = bench.isPicking ? 'Write off' : 'Leave out';
     const why = outcome === PickOutcome.DAMAGED ? 'Damaged' : isEmpty ? `Bin ${task.item} is empty` : 'Not there';
     if (!await confirmed(`${why}?`, `${verb} ${what}, in bin ${task.item}.`, `${verb} ${what}`, 'Back')) return;
-    if (bench.task?.sequence !== task.sequence) return this.tell({ ok: false, sound: 'refused', text: `${task.sku} is no longer asked for` });
+    if (bench.task?.sequence !== task.sequence) return this.show({ ok: false, sound: 'refused', text: `${task.sku} is no longer asked for` });
     this.do(() => {
       bench.report(task, outcome, isEmpty ? 0 : pieces);
       return { ok: true, sound: 'done', text: `${what} in ${task.item}: written off` };
@@ -141,7 +141,7 @@ class Page {
       await put(`/stations/${encodeURIComponent(this.name)}`, { open: state.open, mode });
       this.view.say({ ok: true, text: '' });
     } catch (error) {
-      this.tell({ ok: false, sound: 'refused', text: error.message });
+      this.show({ ok: false, sound: 'refused', text: error.message });
     }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the stations are, as they change; and whether the server is reached, told soon: a network that
-// is gone closes no socket.
+// The states of stations as they change, and whether the server is reached. A lost network closes
+// no socket: it is noticed by a timeout.
 
 import { Changes } from '../base/changes.js';
 import { at } from '../base/root.js';

@@ -75,10 +75,10 @@ export class Outbox {
     }
   }
 
-  settle(key, tell, entry, answer) {
+  settle(key, report, entry, answer) {
     this.failures = 0;
     this.storage.removeItem(key);
-    tell(entry, answer);
+    report(entry, answer);
     this.handlers.changed();
   }
 

@@ -15,7 +15,7 @@ export class UnitDrawing {
     svg.setAttribute('viewBox', `${-SCALE * SIDE / 2 - 4} ${-SCALE * TOP - 4} ${SCALE * SIDE + 8} ${SCALE * TOP + 8}`);
   }
 
-  /** Lights a bin of a unit, with a number of pieces. Its bins follow when the server has told them. */
+  /** Lights a bin of a unit, with a number of pieces. Its bins follow when the server has sent them. */
   show(unit, lit, quantity) {
     if (unit !== this.unit) {
       Object.assign(this, { unit, bins: [] });

@@ -25,7 +25,7 @@ export class Comparison {
     $('compared').hidden = $('report').hidden = true;
   }
 
-  /** told: the server's comparison; scenarios: those that are compared, in its order. */
+  /** Shows the server's comparison; scenarios: those that are compared, in its order. */
   show(figures, scenarios, defaults) {
     Object.assign(this, { figures, scenarios });
     const left = scenarios.filter(({ state }) => state !== 'done').map(({ name }) => name);

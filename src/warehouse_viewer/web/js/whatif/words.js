@@ -94,6 +94,6 @@ export function differences(scenarios, defaults) {
     Events: ({ settings }) => linesOf(settings.events).join('; ') || 'none',
   };
   for (const [role, name] of Object.entries(ROLES)) texts[name] = ({ settings }) => settings.policies[role] ?? defaults[role];
-  return Object.entries(texts).map(([what, tell]) => [what, scenarios.map(tell)])
+  return Object.entries(texts).map(([what, textOf]) => [what, scenarios.map(textOf)])
     .filter(([, row]) => new Set(row).size > 1);
 }

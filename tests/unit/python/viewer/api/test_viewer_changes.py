@@ -89,7 +89,7 @@ class Shift:
     def told_stations(self, message):
         self.watch.update(60.0, message.stations, None)
         result = operations_json.stations(message)
-        return [row | self.watch.told(item) for row, item in zip(result, message.stations)]
+        return [row | self.watch.as_json(item) for row, item in zip(result, message.stations)]
 
 
 def test_a_follower_gets_what_stands_first_and_then_what_changes():

@@ -17,24 +17,24 @@ NOTICE = Trouble("NOTICE", "order 7 is refused", "order 7 is refused")
 def test_an_alarm_keeps_its_number_and_its_beginning_while_it_lasts():
     book = AlarmBook()
     book.update(10, [BROKEN])
-    (first,) = book.told()
+    (first,) = book.as_json()
     book.update(50, [BROKEN._replace(text="kiva3: drive, lift stuck")])
-    (now,) = book.told()
+    (now,) = book.as_json()
     assert (now["id"], now["since"]) == (first["id"], 10)
     assert now["text"] == "kiva3: drive, lift stuck" and now["to_do"]
     book.update(60, [])
-    assert book.told() == []
+    assert book.as_json() == []
     book.update(70, [BROKEN])
-    assert book.told()[0]["id"] != first["id"]
+    assert book.as_json()[0]["id"] != first["id"]
 
 
 def test_all_see_who_has_seen_it():
     book = AlarmBook()
     book.update(10, [BROKEN])
-    number = book.told()[0]["id"]
+    number = book.as_json()[0]["id"]
     assert book.see(number, "Anna")["seen_by"] == "Anna"
     book.update(30, [BROKEN])
-    assert (book.told()[0]["seen_by"], book.told()[0]["seen_at"]) == ("Anna", 10)
+    assert (book.as_json()[0]["seen_by"], book.as_json()[0]["seen_at"]) == ("Anna", 10)
     assert book.see(number, "")["seen_by"] == ""
     assert book.see(number + 1000, "Anna") is None
 
@@ -44,7 +44,7 @@ def test_the_worst_comes_first_and_of_those_the_oldest():
     book.update(10, [NOTICE])
     book.update(20, [NOTICE, BROKEN])
     book.update(30, [NOTICE, BROKEN, BROKEN._replace(subject="kiva1", since=15.0)])
-    assert [(item["kind"], item["subject"]) for item in book.told()][:2] == [
+    assert [(item["kind"], item["subject"]) for item in book.as_json()][:2] == [
         ("ROBOT_BROKEN", "kiva1"),
         ("ROBOT_BROKEN", "kiva3"),
     ]
@@ -53,9 +53,9 @@ def test_the_worst_comes_first_and_of_those_the_oldest():
 def test_what_ends_by_itself_at_once_is_no_alarm():
     book, blocked = AlarmBook(), Trouble("ROBOT_BLOCKED", "kiva1", "…")
     book.update(10, [blocked])
-    assert book.told() == []
+    assert book.as_json() == []
     book.update(10 + KINDS["ROBOT_BLOCKED"].after, [blocked])
-    assert len(book.told()) == 1
+    assert len(book.as_json()) == 1
 
 
 def test_every_kind_says_what_to_do():

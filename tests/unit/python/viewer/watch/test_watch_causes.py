@@ -120,10 +120,10 @@ def test_remedies_have_the_words_of_their_buttons():
 def test_an_alarm_that_ends_is_history_with_what_people_did():
     book = AlarmBook()
     book.update(10, [Trouble("ROBOT_STALLED", "kiva3", "kiva3 does not move")])
-    number = book.told()[0]["id"]
+    number = book.as_json()[0]["id"]
     book.see(number, "Anna")
     book.update(20, [Trouble("ROBOT_BROKEN", "kiva3", "kiva3 is broken (drive)")])
-    assert (book.told()[0]["id"], book.told()[0]["seen_by"]) == (number, "Anna")
+    assert (book.as_json()[0]["id"], book.as_json()[0]["seen_by"]) == (number, "Anna")
     book.note("kiva3", "Anna", "Repair")
     # Its route is not free at once.
     book.update(70, [Trouble("ROBOT_WAITS", "kiva3", "kiva3 waits until its route is free")])

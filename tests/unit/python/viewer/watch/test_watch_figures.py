@@ -48,18 +48,18 @@ def test_a_queue_tells_how_long_its_robots_have_stood():
     watch, station = StationWatch(), StationState(name="pick1", open=True, inbound=[6, 9])
     for now in (0.0, QUEUED_TOO_LONG + 1):
         watch.update(now, [station], fleet(shelf=(6, 0), vx=(0.0, 1.0)))
-    carried, other = watch.told(station)["queue"]
+    carried, other = watch.as_json(station)["queue"]
     assert (carried["robot"], carried["stands"], carried["is_long"]) == (1, 121.0, True)
     assert (other["robot"], other["is_long"]) == (0, False)
     watch.update(130.0, [station], fleet(shelf=(6, 0), vx=(1.0, 1.0)))
-    assert watch.told(station)["queue"][0]["stands"] == 0
+    assert watch.as_json(station)["queue"][0]["stands"] == 0
 
 
 def test_pieces_an_hour_are_of_the_last_quarter():
     watch = StationWatch()
     for now in range(0, 1800, 30):
         watch.update(float(now), [StationState(name="pick1", pieces=now // 30)], None)
-    result = watch.told(StationState(name="pick1", pieces=1770 // 30))
+    result = watch.as_json(StationState(name="pick1", pieces=1770 // 30))
     assert result["pieces_per_hour"] == 120
 
 
@@ -67,10 +67,10 @@ def test_a_station_tells_since_when_it_has_had_no_unit():
     watch = StationWatch()
     empty = StationState(name="pick1", open=True, orders=[4])
     watch.update(10.0, [StationState(name="pick1", open=True, orders=[4], shelf_id=2)], None)
-    assert watch.told(StationState(name="pick1", shelf_id=2))["since"] == 10.0
+    assert watch.as_json(StationState(name="pick1", shelf_id=2))["since"] == 10.0
     for now in (20.0, 90.0):
         watch.update(now, [empty], None)
-    assert (watch.told(empty)["since"], watch.told(empty)["activity"]) == (20.0, "WAITING")
+    assert (watch.as_json(empty)["since"], watch.as_json(empty)["activity"]) == (20.0, "WAITING")
 
 
 def test_four_figures_have_targets_and_their_last_hour():
@@ -86,7 +86,7 @@ def test_four_figures_have_targets_and_their_last_hour():
     throughput = Throughput(
         interval=60, begin=0, end=630, items_picked=[10] * 10 + [3], orders_completed=[5] * 11
     )
-    four = figures.told(kpis, throughput, 0.9, 20)
+    four = figures.as_json(kpis, throughput, 0.9, 20)
     assert (four["pieces"]["value"], four["pieces"]["target"]) == (600, 900)
     assert len(four["pieces"]["values"]) == 10  # the interval that goes on is none yet
     assert four["orders"]["target"] == pytest.approx(360, abs=1)

@@ -42,7 +42,7 @@ STATIONS = {"stations": "pick", "replenish": "replenish"}
 
 
 def layout_of(path: PathName, drawing: Drawing, spacing: float) -> LayoutFile:
-    """Returns the layout of a drawing; tells in it what was left out.
+    """Returns the layout of a drawing; notes in it what was left out.
 
     `spacing` is the edge of a cell [m]. Raises FormatError.
     """

@@ -75,7 +75,7 @@ class _Floor:
         self._cells: dict[str, Cell] = dict(
             zip(graph.nodes, map(tuple, (cells - low).astype(int).tolist()))
         )
-        self._tell_of_snapped(at)
+        self._note_snapped(at)
         self._exits = np.zeros((height, width), np.uint8)
         self._passable = np.zeros((height, width), bool)
 
@@ -118,7 +118,7 @@ class _Floor:
                 return shortest / (round(shortest) if shortest >= LONG else 1)
         return 1.0
 
-    def _tell_of_snapped(self, at: np.ndarray) -> None:
+    def _note_snapped(self, at: np.ndarray) -> None:
         taken: dict[Cell, str] = {}
         for number, cell in self._cells.items():
             if cell in taken:

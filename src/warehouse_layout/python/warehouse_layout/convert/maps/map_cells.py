@@ -31,7 +31,7 @@ class Picture:
     origin: tuple[float, float] = (0.0, 0.0)
 
     def points(self, mask: np.ndarray, every: int = 1) -> Iterator[np.ndarray]:
-        """Yields x y (n, 2) [m] of the mask's pixels, in parts; `every`: of so many but one."""
+        """Yields x y (n, 2) [m] of the mask's pixels, in parts; only each `every`-th."""
         chosen = np.flatnonzero(mask)[::every]
         for i in range(0, len(chosen), CHUNK):
             rows, columns = np.divmod(chosen[i : i + CHUNK], mask.shape[1])
@@ -101,7 +101,7 @@ class _Cells:
         return np.count_nonzero(self._drawn(corner, every) == lf.FLOOR)
 
     def _drawn(self, corner: np.ndarray, every: int) -> np.ndarray:
-        """Returns the floor of cells from a corner on; `every`: of so many free pixels one."""
+        """Returns the floor of cells from a corner on; counts each `every`-th free pixel."""
         floor = np.full(self._shape, lf.NO_FLOOR, "<U1")
         free = self._counts(self._picture.free, corner, every)
         floor[free * every >= SEEN * self._in_a_cell] = lf.FLOOR

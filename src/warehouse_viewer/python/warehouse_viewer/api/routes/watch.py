@@ -36,7 +36,7 @@ BYTES: dict[int | str, dict[str, Any]] = {
 @router.get("/alarms", response_model=Alarms, responses=problems())
 async def get_alarms(backend: ApiBackend = BACKEND) -> object:
     """The alarms: since when each holds, its cause, what to do, and the person that saw it."""
-    alarms = backend.monitor.alarms.told()
+    alarms = backend.monitor.alarms.as_json()
     kinds = {name: kind._asdict() for name, kind in KINDS.items()}
     return {"total": len(alarms), "alarms": alarms, "kinds": kinds}
 
@@ -70,7 +70,7 @@ async def apply_remedy(
     body: Doer, action: str = ACTION, number: int = ALARM, backend: ApiBackend = BACKEND
 ) -> object:
     """Does what one of an alarm's `remedies` says, and notes who did it."""
-    alarm = next((row for row in backend.monitor.alarms.told() if row["id"] == number), None)
+    alarm = next((row for row in backend.monitor.alarms.as_json() if row["id"] == number), None)
     if alarm is None:
         raise HTTPException(404, f"alarm {number} has ended, or never was")
     remedy = next((row for row in alarm["remedies"] if row["action"] == action), None)
@@ -92,7 +92,7 @@ async def get_why(
     reason = reasons.find(name)
     if reason is None:
         raise HTTPException(404, f"no robot or station {name}")
-    out = reason.told()
+    out = reason.as_json()
     return out | {"sentence": reasons.at(name, time)} if time is not None else out
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse's own programs are told of robots at a broker: /warehouse/vda5050."""
+"""The topic /warehouse/vda5050: robots at a broker, for the warehouse's own programs."""
 
 import time
 from collections.abc import Callable, Iterable
@@ -30,7 +30,7 @@ class BrokerTopic:
         self._next = 0.0
         self._publisher = rospy.Publisher("warehouse/vda5050", Vda5050, latch=True, queue_size=1)
 
-    def tell(self, make_message: Callable[[], Vda5050]) -> None:
+    def update(self, make_message: Callable[[], Vda5050]) -> None:
         """Publishes what has changed; looks each PERIOD, however often it is called."""
         now = time.monotonic()
         if now < self._next:

@@ -26,13 +26,13 @@ def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
     return {name: SHOWN[name](message) for name, message in messages.items() if message is not None}
 
 
-class Told:
+class LiveFigures:
     """The newest of those messages. feed: a ros.feed.Feed; shift: a ros.shift_feed.ShiftFeed."""
 
     def __init__(self, feed: Feed, shift: ShiftFeed) -> None:
         self._feed, self._shift = feed, shift
 
-    def figures(self) -> dict[str, Any] | None:
+    def read(self) -> dict[str, Any] | None:
         """Returns them as JSON has them; None where neither coordinator nor shift runs."""
         messages = {name: self._shift[name] for name in ("kpis", "stations")}
         return shown(messages | {"fleet": self._feed.coordinator}) or None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a vehicle tells of itself, and when: at every event, and now and then without one."""
+"""The states that a vehicle sends: at every event, and periodically without one."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ REACTION = 1.0  # what a master may take to send more [s]
 
 @dataclass(frozen=True)
 class Situation:
-    """What a state tells of a vehicle. `order`: under way, or, of a free vehicle, the last one."""
+    """What a state is made of. `order`: under way, or, of a free vehicle, the last one."""
 
     report: Report | None
     grid: Grid
@@ -39,13 +39,13 @@ class Situation:
     errors: tuple[Error, ...]
 
 
-class Teller:
+class StateReporter:
     """Makes the states of one vehicle."""
 
     def __init__(self, sheet: Factsheet, settings: VehicleSettings) -> None:
         self._sheet, self._settings = sheet, settings
         self._published: VehicleState | None = None  # without what changes all the time
-        self.due = -math.inf  # when the next state is told, if nothing happens before
+        self.due = -math.inf  # when the next state is sent, if nothing happens before
         self._requested = False
         self._factsheet_due = True
         self._shown: Visualization | None = None
@@ -83,7 +83,7 @@ class Teller:
         return state
 
     def take_visualization(self, report: Report | None, now: float) -> Visualization | None:
-        """Returns position and speed if they changed and it is time to tell them."""
+        """Returns position and speed if they changed and are due."""
         interval = self._settings.visualization
         if report is None or not interval or now - self._shown_at < interval:
             return None

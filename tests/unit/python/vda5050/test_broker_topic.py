@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What pages and the API are told of vehicles that this warehouse drives."""
+"""What pages and the API get of vehicles that this warehouse drives."""
 
 from grid_robot import GRID
 
 from warehouse_msgs.msg import Vda5050
+from warehouse_vda5050.broker_topic import masters_message
 from warehouse_vda5050.errors import Error
 from warehouse_vda5050.master.commands import Follow
 from warehouse_vda5050.master.remote_vehicle import RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.vehicle_view import SILENT
 from warehouse_vda5050.model import AgvPosition, ConnectionState, VehicleState
-from warehouse_vda5050.telling import masters_message
 from warehouse_vda5050.topics import Identity
 
 
