@@ -2,7 +2,8 @@
 //
 // The speed of a whole warehouse, in-process: every robot under random commands, lifts included.
 //
-//   bench/physics/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] [--chunks N] huge.sdf
+//   bench/physics/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] [--chunks N]
+//   huge.sdf
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -47,7 +47,7 @@ class FloorReader:
         except self._ros.ServiceException:
             return False  # the world comes or goes; there is another time
         except FloorError as error:
-            self._tell(f"the floor has no stations: {error}")
+            self._warn(f"the floor has no stations: {error}")
             plan = None
         self._scenery = scenery
         self._take(plan)
@@ -58,9 +58,9 @@ class FloorReader:
         self.stations = station_messages(plan) if plan else []
         self.places = plan.point_of(plan.storage.ravel().nonzero()[0]) if plan else ([], [])
         for reason in plan.without_lane if plan else ():
-            self._tell(reason)
+            self._warn(reason)
 
-    def _tell(self, text: str) -> None:
+    def _warn(self, text: str) -> None:
         if text != self._warning:
             self._ros.logwarn(text)
         self._warning = text

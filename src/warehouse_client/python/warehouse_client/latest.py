@@ -50,8 +50,8 @@ class LazyPublisher:
     """A latched topic whose message is made only if it has subscribers.
 
     It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the
-    message, or None as long as there is nothing to tell. Where publish() shall send less than all
-    that a newcomer needs, `news()` returns that.
+    message, or None while there is nothing to publish. `news()` returns the message of publish()
+    where that is shorter than what a new subscriber needs.
     """
 
     def __init__(

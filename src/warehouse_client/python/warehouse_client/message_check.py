@@ -51,7 +51,7 @@ class Gate:
     """Passes the sound messages of a topic on to take(message); warns of others.
 
     What the world, the coordinator or a shift publishes comes from that node alone as long as it
-    does: a sound message of another program would stand for it until it tells something new.
+    does: a valid message of another program would replace its state until it publishes again.
     """
 
     def __init__(self, ros: Any, topic: str, kind: Any, take: Callable[[Any], object]) -> None:
@@ -78,7 +78,7 @@ class Gate:
         sender, source = header.get("callerid"), self._ros.resolve_name(self._source)
         heard = {connection.callerid_pub for connection in subscription.connections}
         is_foreign = sender != source and source in heard
-        return f"it is from {sender}; {source} tells this topic" if is_foreign else ""
+        return f"it is from {sender}; {source} publishes this topic" if is_foreign else ""
 
 
 def fault(message: Any) -> str:
@@ -87,7 +87,7 @@ def fault(message: Any) -> str:
 
 
 def fit(objects: Any, states: Any) -> bool:
-    """Returns whether a WarehouseObjects and a UnitStates, or None, tell of the same things.
+    """Returns whether a WarehouseObjects and a UnitStates are of the same revision; False for None.
 
     Between the two messages of one change they don't; the second is on its way.
     """

@@ -21,7 +21,7 @@ class UndoneError(EngineError):
 
 
 class WarehouseBuilder:
-    """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
+    """`engine` is an engine.Engine; `report(text)` shows the progress to a person."""
 
     def __init__(
         self,

@@ -154,7 +154,7 @@ class RobotActions:
                 act, what = self._inbox.get(timeout=FEEDBACK_GAP)
                 act(what)
             except queue.Empty:
-                self._tell()
+                self._publish_feedback()
                 for server in self._servers:
                     server.publish_status()
 
@@ -245,7 +245,7 @@ class RobotActions:
         i = fleet.kiva_id.index(kiva)
         return Pose2D(fleet.x[i], fleet.y[i], fleet.yaw[i])
 
-    def _tell(self) -> None:
+    def _publish_feedback(self) -> None:
         for work in self._works.values():
             pose = self._pose(work)
             if pose is None:

@@ -60,7 +60,7 @@ _NOUNS = {
 }
 
 
-class Teller:
+class EventLines:
     """Lines of events as they come; of many models that come or go in a row, one line of all.
 
     take() and rest() return the lines to print now; rest() is for when nothing has come

@@ -18,7 +18,7 @@ TAKEN = 100  # in the world's map: by what belongs to no warehouse
 
 
 def is_file(name: str) -> bool:
-    """Tells whether a warehouse's name is that of a layout file."""
+    """Returns whether a warehouse's name is that of a layout file."""
     if layout_choice.is_preset(name):
         return False
     return name.endswith(layout_file.SUFFIX) or os.sep in name
@@ -63,7 +63,8 @@ class LayoutBuilding:
         return bool(self._world)
 
     def takes(self, name: str) -> bool:
-        """Tells whether a warehouse of that name is to be placed here."""
+        """Returns whether place() builds a warehouse of that name: a layout file, or the launched
+        preset with a number of robots of its own."""
         return is_file(name) or bool(name and name == self._launched and self._robots)
 
     def place(self, name: str, engine: Engine) -> tuple[str, str, Layout]:

@@ -29,7 +29,7 @@ COORDINATOR = "coordinator/demand"  # a parameter that a launch with a coordinat
 
 
 class WarehouseService:
-    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
+    """One at a time. `ros` is rospy; `report(text)` reaches the person who started the simulation.
 
     In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
     that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
@@ -39,13 +39,13 @@ class WarehouseService:
     def __init__(
         self,
         ros: ModuleType,
-        tell: Callable[[str], object],
+        report: Callable[[str], object],
         keeps_floor: bool = False,
         seed: int = SEED,
         at: tuple[float, float] | None = None,
         layouts: LayoutBuilding | None = None,
     ) -> None:
-        self._ros, self._tell, self._lock = ros, tell, threading.Lock()
+        self._ros, self._report, self._lock = ros, report, threading.Lock()
         self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
         self._layouts = layouts or LayoutBuilding(seed)
 
@@ -80,7 +80,7 @@ class WarehouseService:
             transaction = BuildTransaction(self._ros, engine)
             transaction.begin(name)
             try:
-                WarehouseBuilder(engine, self._tell).replace(layout)
+                WarehouseBuilder(engine, self._report).replace(layout)
             except UndoneError:
                 self._finish(transaction, "", 0, layout.floor)
                 raise
@@ -117,7 +117,7 @@ class WarehouseService:
         try:
             self._find_or_build("" if size == "none" else size)
         except (RequestError, LayoutFileError) as error:
-            self._tell(f"nothing was built: {error}")
+            self._report(f"nothing was built: {error}")
 
     def _find_or_build(self, size: str) -> None:
         with Engine(self._ros) as engine:
@@ -133,20 +133,20 @@ class WarehouseService:
         transaction = BuildTransaction(self._ros, engine)
         if not transaction.is_unfinished:
             return False
-        self._tell("a warehouse was left half-built; taking it away")
-        WarehouseBuilder(engine, self._tell).clear(floor=False)
+        self._report("a warehouse was left half-built; taking it away")
+        WarehouseBuilder(engine, self._report).clear(floor=False)
         identity.write(self._ros, "", 0)
         transaction.commit()
         return True
 
     def _greet(self, title: str = "") -> None:
-        """Tells what stands there and what to try."""
+        """Reports what stands in the world, with commands to try."""
         with Engine(self._ros) as engine:
             standing = survey.of_engine(engine)
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {standing}"
         to_try = hints.commands(standing, self._ros.has_param(COORDINATOR))
         to_try = hints.within(self._ros.get_namespace(), to_try)
-        self._tell(hints.greeting(title, to_try))
+        self._report(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
 
 

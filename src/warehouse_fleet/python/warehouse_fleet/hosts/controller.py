@@ -25,7 +25,7 @@ from warehouse_fleet.transports.towing import Towing, TowingService, TowOrder
 from warehouse_fleet.transports.transports import LiftOrder, Transports
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 CANCEL_PERIOD = 1.0  # time between two checks of the paths that others gave out [s]
 
@@ -155,13 +155,13 @@ class FleetController:
         robots += self._handover.waiting(time, reports)
         return self.robots.kiva_ids[robots].tolist()
 
-    def set_mode(self, kiva_id: int, mode: Mode) -> list[int]:
+    def set_mode(self, kiva_id: int, mode: RobotMode) -> list[int]:
         """Sets the side that commands a robot; returns the ids of those whose paths are to end at
         once. Raises ValueError if there is no such robot."""
         robot = self._present(kiva_id)
         self._handover.end(robot)
         self.robots.mode[robot] = mode
-        if mode == Mode.AUTOMATIC:
+        if mode == RobotMode.AUTOMATIC:
             return []
         self._handover.begin(robot)
         return [] if self.robots.stands[robot] else [kiva_id]

@@ -22,10 +22,13 @@ from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.plan_reader import is_taken
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import Status
+from warehouse_layout.message_enums import RobotMode, Status
 
-MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
+MANUAL, OUT_OF_SERVICE, IDLE = (
+    int(RobotMode.MANUAL),
+    int(RobotMode.OUT_OF_SERVICE),
+    int(Status.IDLE),
+)
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 MAP_PERIOD = 1.0  # time between two reads of the world's map [s]
 STAYS = 2.5  # an obstacle is assumed to stay this long after it was seen [s]

@@ -28,7 +28,7 @@ BELT = range(2)  # cells behind a service cell
 def filled(
     building: Building, request: Request, replenish: int, pick_kind: str, shift: int
 ) -> LayoutFile | None:
-    """Returns a building that is filled so; None where there is too little room for it.
+    """Returns a building filled in this way; None where it has too little room.
 
     shift: of the pattern of streets, below SHIFTS. pick_kind: of the picking stations.
     """

@@ -57,8 +57,8 @@ class Robot:
     since: float = 0.0  # when the activity began [s]
     there: float = 0.0  # when it reaches its cell, if it drives there [s]
     in_service: bool = True
-    halt: float = 0.0  # for how long it has to stand amid its way [s]
-    able: float = 0.0  # when it can drive again, if it failed while it waited [s]
+    halt: float = 0.0  # time that it has to stand on its way [s]
+    able: float = 0.0  # end of its repair, if it failed while it waited [s]
     plan: int = 0  # the number of times that a failure took its transport from it
     place: int | None = None  # the storage place that is kept for its unit
     approach: Approach | None = None  # its last way, if that led to a charger
@@ -241,7 +241,7 @@ class Trips:
             robot.halt += duration
 
     def set_kinematics(self, kinematics: Kinematics) -> None:
-        """Has robots drive otherwise from their next way on."""
+        """Sets the travel times of robots from their next way on."""
         self.kinematics = kinematics
         self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
 
@@ -288,7 +288,7 @@ class Trips:
     def _schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
-        """Has a robot act after a delay [s], and as much later as it had to stand meanwhile."""
+        """Schedules an act of a robot after a delay [s], later by its halts meanwhile."""
         delay += max(robot.able - self.time, 0.0)
         planned = act, argument, robot, robot.plan
         self.queue.schedule(self.time + delay, self._act, planned)
@@ -336,7 +336,7 @@ class Trips:
             [self.floor.units[transport.shelf] for transport in waiting],
             [cell for cell, _ in starts],
         )
-        # One that drives somewhere must come there first.
+        # A robot that drives somewhere must arrive first.
         seconds += np.array([max(there - self.time, 0.0) for _, there in starts])
         tasks = self._tasks(waiting)
         for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
@@ -439,7 +439,7 @@ class Trips:
         self.arrive(transport)
 
     def turn_back(self, transport: Transport) -> None:
-        """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
+        """Stores a unit on its way to a station: the robot drives on, and turns at the end."""
         self.book.go_on(transport, STORING)
 
     def leave(self, transport: Transport) -> None:
@@ -530,7 +530,7 @@ class Trips:
 
 
 def _wake(_: object) -> None:
-    """Does nothing: after it, robots that may work again are given work."""
+    """Does nothing; as any event, it is followed by an assignment of work."""
 
 
 def _between(start: int, end: int, share: float, width: int) -> int:

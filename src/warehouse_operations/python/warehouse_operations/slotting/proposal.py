@@ -14,7 +14,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 from warehouse_operations.slotting.sku_master import Sku
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 
 UNIT_KG = 390.0  # what a unit may hold: 450 kg is a robot's load, 60 kg the unit's own
 MOST_LINES = 60  # of an order whose pairs are counted: longer ones say little about pairs
@@ -43,7 +43,7 @@ class Pairs:
     together: Mapping[str, Counter[str]]
 
     @classmethod
-    def of(cls, orders: Iterable[Wanted]) -> "Pairs":
+    def of(cls, orders: Iterable[OrderDraft]) -> "Pairs":
         """Returns the pairs of orders."""
         lines: Counter[str] = Counter()
         together: dict[str, Counter[str]] = defaultdict(Counter)

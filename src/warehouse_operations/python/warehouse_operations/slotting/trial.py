@@ -24,7 +24,7 @@ from warehouse_operations.slotting.proposal import Lot, Pairs, Slot, propose
 from warehouse_operations.slotting.sku_master import Sku
 from warehouse_operations.stock.assortment import Assortment, stocked
 from warehouse_operations.stock.demand import DemandError
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 from warehouse_operations.stock.site import Site, Stock
 from warehouse_operations.stock.travel import Travel
 
@@ -37,7 +37,7 @@ class Catalogue:
     """A layout, and the orders and SKUs that it is to serve."""
 
     file: LayoutFile
-    orders: Sequence[Wanted]
+    orders: Sequence[OrderDraft]
     skus: Mapping[str, Sku]
 
     def site(self) -> Site:
@@ -66,7 +66,7 @@ class Catalogue:
         most = self.skus[lot.sku].pieces_a_bin if lot.sku in self.skus else 0
         return min(lot.pieces, most) if most else lot.pieces
 
-    def slots(self, orders: Sequence[Wanted]) -> list[Slot]:
+    def slots(self, orders: Sequence[OrderDraft]) -> list[Slot]:
         """Returns the proposal by some of the orders."""
         site = self.site()
         room = Counter(unit for _, unit in site.items)
@@ -178,7 +178,7 @@ def _figures(change: Mapping[str, float], hours: float) -> dict[str, float]:
     }
 
 
-def _write_orders(path: Path, orders: Sequence[Wanted]) -> None:
+def _write_orders(path: Path, orders: Sequence[OrderDraft]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(("reference", "sku", "quantity", "at", "due"))

@@ -9,7 +9,7 @@ import numpy as np
 from warehouse_operations.stock import demand_file
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand_file import DrawnDays
-from warehouse_operations.stock.order_file import DemandError, Wanted, lines_by_sku, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, lines_by_sku, read_csv
 from warehouse_operations.stock.orders_text import DAY, DayText
 
 HOUR = 3600.0  # [s]
@@ -36,7 +36,9 @@ def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> No
         raise DemandError(f"{file}: the stock has none of {count} of {len(asked)}: {named}{more}")
 
 
-def scaled(orders: Sequence[Wanted], factor: float, rng: np.random.Generator) -> list[Wanted]:
+def scaled(
+    orders: Sequence[OrderDraft], factor: float, rng: np.random.Generator
+) -> list[OrderDraft]:
     """Returns the orders times a factor: whole copies, and a part of them by chance.
 
     A copy comes within NEAR of the order, has as long until it is due, and a reference of its own.
@@ -59,7 +61,7 @@ def orders_of(
     skus: Collection[str] | None,
     rng: np.random.Generator,
     capacity: float,
-) -> list[Wanted]:
+) -> list[OrderDraft]:
     """Returns the orders of a day of a CSV file, those of its first hour first if it is to begin
     at work. skus: in stock; None: any. Raises DemandError."""
     orders = read_csv(day.file, None, capacity)
@@ -86,7 +88,7 @@ def drawn(
     return DrawnDays(demand, rng, day.factor, now, now + 60 * day.run_in)
 
 
-def _before(orders: Sequence[Wanted], seconds: float) -> list[Wanted]:
+def _before(orders: Sequence[OrderDraft], seconds: float) -> list[OrderDraft]:
     """Returns the orders of the first hour in which any come, again and again until the day."""
     begin = HOUR * (min(order.at for order in orders) // HOUR)
     first = [order for order in orders if begin <= order.at < begin + HOUR]
@@ -101,6 +103,6 @@ def _before(orders: Sequence[Wanted], seconds: float) -> list[Wanted]:
     return out
 
 
-def _moved(order: Wanted, seconds: float) -> Wanted:
+def _moved(order: OrderDraft, seconds: float) -> OrderDraft:
     due = max(order.due + seconds, 1.0) if order.due else 0.0
     return replace(order, at=order.at + seconds, due=due)

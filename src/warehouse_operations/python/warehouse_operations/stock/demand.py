@@ -11,7 +11,7 @@ from warehouse_operations.stock import days, order_mix, orders_text
 from warehouse_operations.stock.acceptance import MOST_WAITING
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import ROOMY
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.stock.orders import Backlog
 from warehouse_operations.stock.orders_text import DAY
@@ -31,7 +31,7 @@ AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, unti
 class DrawsOrders(Protocol):
     """Draws orders, one after the other."""
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Returns the order that comes now; None if there is none."""
 
 
@@ -41,7 +41,7 @@ class Customers:
     def __init__(self, assortment: Assortment, rng: np.random.Generator) -> None:
         self.assortment, self._rng = assortment, rng
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
         rng = self._rng
         count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
@@ -57,7 +57,7 @@ class Customers:
         if not lines:
             return None
         due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
-        return Wanted(tuple(lines.items()), now, now + due)
+        return OrderDraft(tuple(lines.items()), now, now + due)
 
     def _draw(self) -> int:
         if not hasattr(self, "_sums"):
@@ -77,7 +77,9 @@ class Fill:
         """Returns inf: orders come when others leave the backlog."""
         return float("inf")
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         for _ in range(self.waiting - len(backlog)):
             draft = self.customers.order(now, in_stock)
@@ -106,7 +108,9 @@ class Poisson:
         """Returns when the next order comes [s]."""
         return self._next
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         while self._next <= now:
             draft = self.customers.order(self._next, in_stock)
@@ -124,7 +128,7 @@ class FromFile:
 
     bundles_per_hour = 0.0
 
-    def __init__(self, drafts: Iterable[Wanted]) -> None:
+    def __init__(self, drafts: Iterable[OrderDraft]) -> None:
         self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
 
@@ -132,7 +136,9 @@ class FromFile:
         """Returns when the next order comes [s]; inf after the last."""
         return max(self._drafts[-1].at, self._more_at) if self._drafts else float("inf")
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         for _ in range(AT_ONCE):
             if self.next_time() > now:

@@ -23,7 +23,7 @@ import yaml
 
 from warehouse_operations.stock.acceptance import MOST_LINES
 from warehouse_operations.stock.lined_yaml import LinedYaml, Place, shown
-from warehouse_operations.stock.order_file import DemandError, Wanted
+from warehouse_operations.stock.order_file import DemandError, OrderDraft
 from warehouse_operations.stock.orders import Backlog
 
 VERSION = 1
@@ -248,7 +248,7 @@ class DrawnDays:
             if order:
                 yield order
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
@@ -262,7 +262,7 @@ class DrawnDays:
                 lines[sku] = pieces
                 if len(lines) == count:
                     break
-        return Wanted(tuple(lines.items()), now, due) if lines else None
+        return OrderDraft(tuple(lines.items()), now, due) if lines else None
 
     def rate(self, time: float) -> float:
         """Returns how many orders come a second at a time [s], on the average."""

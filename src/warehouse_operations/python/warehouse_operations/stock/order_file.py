@@ -52,7 +52,7 @@ class _FieldError(ValueError):
 
 
 @dataclass(frozen=True)
-class Wanted:
+class OrderDraft:
     """An order to be submitted at a time of the shift; times are [s]."""
 
     lines: tuple[tuple[str, int], ...]  # of (sku, pieces)
@@ -66,7 +66,7 @@ def read_csv(
     path: str | os.PathLike[str],
     skus: Collection[str] | None = None,
     capacity: float = float("inf"),
-) -> list[Wanted]:
+) -> list[OrderDraft]:
     """Returns the orders of a file. Raises DemandError, which names the line of each wrong row.
 
     skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
@@ -85,7 +85,7 @@ def lines_by_sku(path: str | os.PathLike[str]) -> Counter[str]:
 
 def parse_csv(
     text: str, skus: Collection[str] | None = None, capacity: float = float("inf")
-) -> tuple[list[Wanted], list[Fault]]:
+) -> tuple[list[OrderDraft], list[Fault]]:
     """Returns the orders of a text in place of a file, and what is wrong with it, of which there
     are MOST_FAULTS at most; see read_csv."""
     try:
@@ -99,7 +99,7 @@ def parse_csv(
 
 def _read(
     table: CsvTable, skus: Collection[str] | None, capacity: float
-) -> tuple[list[Wanted], list[Fault]]:
+) -> tuple[list[OrderDraft], list[Fault]]:
     faults: list[Fault] = []
     orders = _Orders(skus, capacity)
     for row in table:
@@ -111,7 +111,7 @@ def _read(
         faults += [Fault(table.line, getattr(e, "column", ""), str(e)) for e in errors]
         if len(faults) >= MOST_FAULTS:
             break
-    return orders.wanted(), faults[:MOST_FAULTS]
+    return orders.drafts(), faults[:MOST_FAULTS]
 
 
 class _Orders:
@@ -194,10 +194,10 @@ class _Orders:
         self._dated = True
         return date
 
-    def wanted(self) -> list[Wanted]:
+    def drafts(self) -> list[OrderDraft]:
         """Returns the orders, in the order of their first rows."""
         orders = [
-            Wanted(tuple(lines.items()), *rest, reference)
+            OrderDraft(tuple(lines.items()), *rest, reference)
             for reference, (lines, rest) in self._rows.items()
         ]
         if not self._dated or not orders:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from warehouse_operations.stock.assortment import Assortment
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 
 DUE_SOON, DUE_SOON_SHARE, DUE_LATER = 30 * 60.0, 0.2, 2 * 3600.0
 MOST_PER_HOUR = 1e6
@@ -31,7 +31,7 @@ class Mixed:
         self._lines, self._pieces = lines, pieces
         self._seed, self._count = int(rng.integers(2**63)), 0
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
@@ -45,7 +45,7 @@ class Mixed:
                 lines[sku] = pieces
                 if len(lines) == count:
                     break
-        return Wanted(tuple(lines.items()), now, now + due) if lines else None
+        return OrderDraft(tuple(lines.items()), now, now + due) if lines else None
 
     def _draw(self, rng: np.random.Generator) -> str:
         at = np.searchsorted(self._sums, rng.random() * self._sums[-1], side="right")
@@ -55,17 +55,17 @@ class Mixed:
 class Alike:
     """Draws orders among those of a file, each with the time that it had until it was due."""
 
-    def __init__(self, orders: Sequence[Wanted], rng: np.random.Generator) -> None:
+    def __init__(self, orders: Sequence[OrderDraft], rng: np.random.Generator) -> None:
         self._orders = orders
         self._seed, self._count = int(rng.integers(2**63)), 0
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order; it comes whether its SKUs are in stock or not."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
         draft = self._orders[int(rng.integers(len(self._orders)))]
         due = now + draft.due - draft.at if draft.due else 0.0
-        return Wanted(draft.lines, now, due, draft.priority)
+        return OrderDraft(draft.lines, now, due, draft.priority)
 
 
 def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str:

@@ -72,7 +72,7 @@ RULES = (
            <> CASE WHEN o.state = 2 THEN 1 ELSE 0 END""",
     ),
     (
-        "visit {0} tells of {1} pieces; its moves add up to {2}",
+        "visit {0} has {1} pieces; its moves add up to {2}",
         f"""SELECT v.id, v.pieces, {DONE_TO_UNIT} FROM visit v
            LEFT JOIN move m ON m.visit = v.id GROUP BY v.id, v.pieces
            HAVING v.pieces <> {DONE_TO_UNIT}""",

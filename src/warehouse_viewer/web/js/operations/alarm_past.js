@@ -21,6 +21,6 @@ export async function showPast() {
 
 /** Who saw an alarm, and who did what about it. */
 export function didOf(by, actions) {
-  const done = actions.map(({ what, by: who, time }) => `${who || 'somebody'}: ${what} (${clock(time)})`);
+  const done = actions.map(({ what, by: who, time }) => `${who || 'no name'}: ${what} (${clock(time)})`);
   return [by && `seen by ${by}`, ...done].filter(Boolean).join('; ') || 'ended by itself';
 }

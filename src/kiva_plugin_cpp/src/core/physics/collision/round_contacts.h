@@ -7,7 +7,7 @@
 
 namespace kiva {
 
-/// Contacts of a cylinder or a capsule with a plane or the face of a box, computed anew in every
+/// Contacts of a cylinder or a capsule with a plane or the face of a box, computed again in every
 /// step.
 /// Bullet adds one point a step, at whichever end of the contact line is lower by a rounding error,
 /// and keeps the point of the other end while that rolls up and away with the body. So a rolling
