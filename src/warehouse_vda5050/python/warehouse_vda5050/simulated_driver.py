@@ -165,12 +165,12 @@ class SimulatedDriver(Driver):
             localized=not sighting.lost,
             heard=not sighting.failures & 1 << FailureKind.RADIO_LOST,
             battery=Battery(100.0 * sighting.charge, charging),
-            mode=self._mode(self._told_mode(sighting)),
+            mode=self._mode(self._reported_mode(sighting)),
             errors=_errors(sighting),
             silent=self.silence,
         )
 
-    def _told_mode(self, sighting: Sighting) -> int:
+    def _reported_mode(self, sighting: Sighting) -> int:
         """The mode that the world reports, or will report in a moment."""
         if self._gave_back and time.monotonic() < self._gave_back[1]:
             return self._gave_back[0]
@@ -189,7 +189,7 @@ class SimulatedDriver(Driver):
     def take(self) -> str:
         """Makes the robot MANUAL for the coordinator, if there is one."""
         assert self.sighting
-        before = self._told_mode(self.sighting)
+        before = self._reported_mode(self.sighting)
         reason = self._world.set_mode(self.kiva_id, RobotMode.MANUAL)
         if not reason:
             self._taken_from, self._gave_back = before, None

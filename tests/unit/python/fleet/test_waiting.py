@@ -43,7 +43,7 @@ def test_a_station_by_hand_is_named_instead_of_its_queue():
     assert waiting.for_people() == ["pick1 has waited for a person for 20 min"]
 
 
-def test_what_stands_in_the_way_is_told():
+def test_what_stands_in_the_way_is_reported():
     queue = Queue()
     queue.robots.mode[0] = RobotMode.MANUAL
     queue.robots.busy[0] = False

@@ -369,8 +369,8 @@ class RemoteVehicle:
         if failed:
             self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
             return
-        is_told = way.is_whole and all(name in states for name in mine)
-        if is_told and all(act.status.is_over for act in states.values()):
+        is_reported = way.is_whole and all(name in states for name in mine)
+        if is_reported and all(act.status.is_over for act in states.values()):
             self._finish(way)
 
     def _finish(self, way: Journey) -> None:

@@ -179,7 +179,7 @@ def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
     assert process.stdout and process.stdin
     with process.stdout:
         for line in process.stdout:
-            news = _told(line)
+            news = _parsed(line)
             if news is None:
                 said.append(line.rstrip())
             elif "of" in news:
@@ -194,8 +194,8 @@ def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
     return Outcome(text=last.get("error") or f"the run ended early ({_ended(code)}){_tail(said)}")
 
 
-def _told(line: str) -> dict[str, Any] | None:
-    """Returns what a line of JSON says; None of other lines."""
+def _parsed(line: str) -> dict[str, Any] | None:
+    """Returns the object of a line of JSON; None for other lines."""
     try:
         news = json.loads(line) if line.startswith("{") else None
     except ValueError:
