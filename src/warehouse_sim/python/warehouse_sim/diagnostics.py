@@ -36,8 +36,8 @@ def status(
 def of_world(factor: float | None, requested: float, is_paused: bool) -> DiagnosticStatus:
     """Judges the speed of the world.
 
-    `factor`: its real-time factor as last heard, None while nothing is heard of it; `requested`:
-    the one it is to keep, 0 for as fast as possible.
+    `factor`: its last real-time factor, None without messages; `requested`: the configured one, 0:
+    as fast as possible.
     """
     if factor is None:
         return status("world", DiagnosticStatus.STALE, "nothing is heard of the world")
