@@ -21,7 +21,7 @@ from warehouse_learning.options import Options
 
 LONGEST_ACTION = 20.0  # a decision ends then, whatever robots are at [s]
 TOP_SPEED, WHEEL_RADIUS = 1.5, 0.1  # of the Kiva in worlds/models [m/s, m]
-SHOWN_EVERY = 0.1  # to who watches one warehouse [s]
+SHOWN_EVERY = 0.1  # interval at which a viewer of one warehouse is updated [s]
 STANDS = 0.02  # and slower: it can lift [m/s]
 
 
@@ -236,7 +236,7 @@ class Warehouses:
     # --- what came of it
 
     def _see(self, which: np.ndarray) -> None:
-        """Takes in where robots of worlds `which` are and what they carry."""
+        """Updates the robots' cells and loads in the worlds `which`."""
         self.task.update(which, *self._robots)
         self._masks = None
 

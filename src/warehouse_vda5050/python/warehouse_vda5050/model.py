@@ -26,7 +26,7 @@ class BlockingType(StrEnum):
 
 
 class ActionStatus(StrEnum):
-    """How far an action has come."""
+    """The progress of an action."""
 
     WAITING = "WAITING"
     INITIALIZING = "INITIALIZING"
@@ -175,7 +175,7 @@ class EdgeState:
 
 @dataclass(frozen=True)
 class ActionState:
-    """How far an action has come; `instant` marks one that belongs to no order."""
+    """The progress of an action; `instant` marks one that belongs to no order."""
 
     id: str
     type: str

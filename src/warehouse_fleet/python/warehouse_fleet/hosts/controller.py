@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controls a fleet: from what is observed at a time to what is to be done.
+"""Controls a fleet: makes a Decision from each Observation.
 
     controller = FleetController(plan, kiva_ids)
     controller.transports.submit(17, "pick3")
@@ -27,7 +27,7 @@ from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.message_enums import RobotMode
 
-CANCEL_PERIOD = 1.0  # between two looks at paths that others gave out [s]
+CANCEL_PERIOD = 1.0  # time between two checks of the paths that others gave out [s]
 
 
 def _nothing() -> None:
@@ -52,8 +52,8 @@ class Observation:
 
 @dataclass
 class Decision:
-    """What is to be done. Events of transports stay in the book, since requests between two ticks
-    cause some as well: the host takes them by transports.take_events()."""
+    """The commands of one tick. Events of transports stay in the book, since requests between two
+    ticks cause some as well: the host takes them by transports.take_events()."""
 
     releases: Releases
     lifts: list[LiftOrder] = field(default_factory=list)
@@ -120,7 +120,7 @@ class FleetController:
         return self.traffic.is_stale(time)
 
     def tick(self, observation: Observation) -> Decision:
-        """Takes in an Observation and returns the Decision for it."""
+        """Returns the Decision for an Observation."""
         traffic, gone = self.traffic, self.robots.gone
         reports = self.robots.align(observation.robots)
         for model in observation.refused:

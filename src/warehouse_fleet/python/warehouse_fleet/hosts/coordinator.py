@@ -185,8 +185,8 @@ class CoordinatorNode:
     # --- the controller of the warehouse that is there
 
     def _ensure_controller(self, reports: np.ndarray, time: float, timeline: int) -> bool:
-        """Begins a controller where there is none of this warehouse. Returns whether the reports
-        are to be taken in by it."""
+        """Makes a controller for this warehouse if there is none. Returns whether it may use the
+        reports."""
         if not self._watch.is_complete(timeline) or not len(reports):
             return False  # the warehouse is still to be built
         if self.controller is None and not self._watch.is_consistent:

@@ -7,7 +7,7 @@ import numpy as np
 
 from warehouse_fleet.league.plan_driver import Cause, PlanDriver
 
-PERIOD = 5.0  # between two points of the curve [s, simulated]
+PERIOD = 5.0  # time between two points of the curve [s, simulated]
 WORDS = {
     Cause.DRIVING: "driving, as long as at top speed",
     Cause.ACCELERATION: "more for starting and braking",
@@ -21,7 +21,7 @@ WORDS = {
 
 
 class DriveLog:
-    """Notes how a drive goes on, every PERIOD; to be called after each step of the driver.
+    """Records the progress of a drive every PERIOD; to be called after each step of the driver.
 
     `curve`: rows of time [s], the mean tick of the plan that robots have come to, and the number of
     robots for each Cause since the row before.

@@ -88,7 +88,7 @@ class Rollout:
         return ~stopped & (self._committed[:, self.at] == FREE)
 
     def tick(self, score: Any) -> np.ndarray:
-        """Goes on by one tick; returns what each robot does, (robots,) of Action.
+        """Advances by one tick; returns the robots' actions, (robots,) of Action.
 
         score(scene): (robots, 5), of staying and of the neighbours in the directions of headings.
         """
@@ -108,7 +108,7 @@ class Rollout:
         return actions
 
     def perform(self, actions: np.ndarray) -> None:
-        """Goes on to where actions lead, (robots,) of Action."""
+        """Applies the robots' actions, (robots,) of Action."""
         scene = self.scene
         ahead = scene.cell + self.view.step[scene.heading]
         cell = np.where(actions == FORWARD, ahead, scene.cell)

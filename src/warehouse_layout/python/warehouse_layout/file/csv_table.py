@@ -118,6 +118,6 @@ def fields(row: Row) -> dict[str, str]:
 
 
 def shown(text: str, most: int = 80) -> str:
-    """Returns a text from outside as a message can have it."""
+    """Returns a text from outside, made safe for a message."""
     text = text if len(text) <= most else f"{text[:most]}…"
     return text if text.isprintable() else ascii(text)[1:-1]

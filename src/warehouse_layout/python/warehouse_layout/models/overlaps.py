@@ -81,7 +81,7 @@ def _overlap(a: Boxes, i: int, b: Boxes, k: int) -> bool:
 
 
 def _reach(boxes: Boxes, i: int, axis: np.ndarray) -> float:
-    """Returns how far a rectangle reaches along an axis from its centre [m]."""
+    """Returns a rectangle's half extent along an axis [m]."""
     cos, sin = np.cos(boxes.yaw[i]), np.sin(boxes.yaw[i])
     along, across = abs(axis @ (cos, sin)), abs(axis @ (-sin, cos))
     return float(boxes.half[i] @ (along, across))

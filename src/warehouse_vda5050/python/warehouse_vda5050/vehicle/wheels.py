@@ -13,7 +13,7 @@ from warehouse_vda5050.vehicle.actions import holds_at
 from warehouse_vda5050.vehicle.progress import OrderProgress
 
 PATIENCE = 3.0  # until a command that is not heard is sent again [s]
-RETRY = 5.0  # after a refusal [s]
+RETRY = 5.0  # time from a refusal to the next attempt [s]
 
 
 @dataclass

@@ -88,7 +88,7 @@ class Simulation(Protocol):
         """Stops simulated time."""
 
     def resume(self) -> str:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
 
     def step(self, steps: int) -> str:
         """Advances a paused simulation by a number of physics steps."""

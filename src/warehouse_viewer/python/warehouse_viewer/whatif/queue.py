@@ -25,7 +25,7 @@ class QueueError(ValueError):
 
 
 class Job(NamedTuple):
-    """A run: of which scenario, by its name, and of which file."""
+    """A run: the name of its scenario, and its file."""
 
     scenario: str
     seed: int
@@ -63,7 +63,7 @@ OnEnd = Callable[[Job, Outcome], object]
 
 
 def processors() -> int:
-    """Returns how many runs go on at a time: one processor is left to all else."""
+    """Returns the count of runs at a time: one processor is left to all else."""
     return max(1, len(os.sched_getaffinity(0)) - 1)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of orders, of which only the rows in sight exist and were asked for. Rows stand still: a
+// The list of orders: only the rows in sight exist and are fetched. Rows stand still: a
 // row keeps its place until the person asks for another list, whatever comes or goes meanwhile.
 
 import { get } from '../base/api.js';

@@ -12,7 +12,7 @@ export class Scanner {
     Object.assign(this, { take, prefix, text: null, before: -Infinity });
   }
 
-  /** Takes a key in at a time [ms]. Returns whether it belongs to a code, so that it must do nothing
+  /** Handles a key at a time [ms]. Returns whether it belongs to a code, so that it must do nothing
    *  else: its Enter would press the button that has the focus. */
   key(key, now) {
     if (this.prefix && key === this.prefix) return this.begin(now);

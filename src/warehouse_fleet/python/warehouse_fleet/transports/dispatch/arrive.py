@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes in arrivals: beneath a unit, at a destination, at a storage place."""
+"""Handles arrivals: beneath a unit, at a destination, at a storage place."""
 
 from collections.abc import Callable
 
@@ -38,7 +38,7 @@ class Arrival:
         self._lifts, self._on_delivered = lifts, on_delivered
 
     def run(self) -> None:
-        """Goes on with each robot that stands at its goal."""
+        """Begins the next step of each robot that stands at its goal."""
         for robot in self._journeys.take_arrived(DRIVES[self._book.step_of]):
             transport = self._book.of_robot[robot]
             if transport.step == FETCHING:

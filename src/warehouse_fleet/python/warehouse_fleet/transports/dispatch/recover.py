@@ -12,7 +12,7 @@ from warehouse_fleet.transports.unit_map import UnitMap
 from warehouse_layout.message_enums import RobotMode, Status
 
 IDLE = int(Status.IDLE)
-DEAD = 30.0  # after which a robot that does not move loses its transport [s]
+DEAD = 30.0  # a robot that does not move loses its transport after this duration [s]
 URGENT = 255  # the highest priority
 
 
