@@ -71,7 +71,7 @@ class Warehouses:
         now = self.worlds
         self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
         self._counts = now.counts
-        self._masks: np.ndarray | None = None  # of the present state, once it was asked for
+        self._masks: np.ndarray | None = None  # of the present state, computed on demand
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
         self._random: list[Any] = [None] * n
@@ -233,7 +233,7 @@ class Warehouses:
         lift = np.where(wants & standing, Action.LIFT, Action.WAIT)
         return self._begin(lift.astype(np.int8))
 
-    # --- what came of it
+    # --- results
 
     def _see(self, which: np.ndarray) -> None:
         """Updates the robots' cells and loads in the worlds `which`."""

@@ -25,11 +25,11 @@ class Report:
     """A robot's report of its state; the frame is that of the map [m, rad, m/s, rad/s].
 
     busy: it carries out a command, and takes no other. path_id: of the last path that it took, 0
-    for none. reached: how many points of that path its centre has come to; the first is where it
-    began. moving: it drives or turns. refusal: why its last command was refused or broke off, ''
-    if it was not; it holds until the next command. blocked: something is in its way. heard: its
-    radio reaches us; of a robot that is not heard all else is as it was heard last. silent: why
-    nothing is heard of it although its radio works, such as a program that ended, '' if it is.
+    for none. reached: count of that path's points that its centre has reached, with the start.
+    moving: it drives or turns. refusal: why its last command was refused or broke off, '' if it was
+    not; it holds until the next command. blocked: something is in its way. heard: its radio reaches
+    us; otherwise all other fields are of its last report. silent: why nothing is heard of it
+    although its radio works, such as a program that ended; '' if it is heard.
     """
 
     x: float

@@ -105,7 +105,7 @@ class SimulatedDriver(Driver):
         self.refusal = self.silence = ""
         self._world, self._sheet = world, sheet or Factsheet()
         self._taken_from = world.taken_before(kiva_id)  # the mode that it goes back to
-        self._gave_back: tuple[int, float] | None = None  # the mode, and when it counts no more
+        self._gave_back: tuple[int, float] | None = None  # the mode, and when it expires
         self._stopped = False
         self._charged_enough = False  # it was commanded to stop, and still stands there
 

@@ -27,7 +27,7 @@ from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.message_enums import RobotMode
 
-CANCEL_PERIOD = 1.0  # time between two checks of the paths that others gave out [s]
+CANCEL_PERIOD = 1.0  # time between two checks of the paths that others commanded [s]
 
 
 def _nothing() -> None:

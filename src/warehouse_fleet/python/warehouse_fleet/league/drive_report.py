@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a plan that was driven with bodies comes to: figures, and a table of them."""
+"""The results of a plan that was driven with bodies: figures, and a table of them."""
 
 from typing import Any
 
@@ -49,8 +49,8 @@ class DriveLog:
 
 
 def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:
-    """Returns what drive.json has. wall, cpu: what the drive took of the clock and of this
-    process [s]. Of a drive that was interrupted, planned is as much as robots have come to."""
+    """Returns the contents of drive.json. wall, cpu: the drive's duration and its processor time
+    [s]. For an interrupted drive planned_s covers only the ticks that robots reached."""
     order, spacing = driver.order, driver.plan.spacing
     tick_s = spacing / driver.kinematics.speed
     has_arrived = ~np.isnan(driver.arrival)

@@ -83,7 +83,7 @@ class PlanDriver:
 
     @property
     def tick(self) -> NDArray[np.intp]:
-        """The tick of the plan that each robot comes to next, (robots,)."""
+        """The next tick of the plan of each robot, (robots,)."""
         rank = self._execution.next_tick()
         end = len(self.order.rank_of_tick)
         return np.where(rank < 0, end, self.order.tick(rank))

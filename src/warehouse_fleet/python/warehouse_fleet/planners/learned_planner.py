@@ -128,7 +128,7 @@ class Rollout:
     def _can_go(self, cells: np.ndarray, forward: np.ndarray) -> np.ndarray:
         """(robots,) bool: whose next cell is empty, or left in time by one that can go itself.
 
-        A ring never comes to an empty cell, so that none of its robots goes.
+        A ring never reaches an empty cell, so none of its robots moves.
         """
         holder = {int(cell): robot for robot, cell in enumerate(self.scene.cell)}
         goes = np.zeros(len(cells), bool)

@@ -123,7 +123,7 @@ class Waiting:
         return own.station if other.step in (Step.BRINGING, Step.WAITING) else ""
 
     def _fault(self, robot: int) -> str:
-        """Returns what keeps a robot from driving by itself; empty if nothing does."""
+        """Returns why a robot can't drive autonomously; empty if it can."""
         if self._robots.broken[robot]:
             return "broken"
         mode = RobotMode(self._robots.mode[robot])

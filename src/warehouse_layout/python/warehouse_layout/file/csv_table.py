@@ -22,7 +22,7 @@ Row = Mapping[Any, Any]  # texts by column; more fields than columns have the ke
 
 
 class CsvTable:
-    """The rows of a file, as texts by column. Raises `error` with file and line where it is none.
+    """The rows of a file, as texts by column. Raises `error` with the line that is malformed.
 
     needed, optional: names of columns; others may be there too. text: what there is in place of a
     file, which then only has a name. decimal_comma: 1,5 is one and a half.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A network learns what the fleet's planner would do, in states that it comes to itself: DAgger
+"""A network learns what the fleet's planner would do, in states that it reaches itself: DAgger
 (Ross et al., 2011). So a training can begin with robots that deliver, where chance hardly ever
 does."""
 

@@ -35,7 +35,7 @@ class InstantRequests:
         return action.id
 
     def forget(self, *kinds: str) -> None:
-        """Sends actions of these types no more: one that is wanted now must not be undone."""
+        """Stops sending actions of these types, which would undo a newer one."""
         self._pending = {
             name: request
             for name, request in self._pending.items()

@@ -54,7 +54,7 @@ class VehicleView:
 
     @property
     def hears(self) -> bool:
-        """Whether the vehicle is connected, as far as it is known."""
+        """Whether the vehicle is connected, by the last message about it."""
         return self.connection in (None, ConnectionState.ONLINE)
 
     def is_silent(self, now: float) -> bool:

@@ -176,7 +176,7 @@ class MqttLoop:
         return link
 
     def remove(self, link: Link) -> None:
-        """Looks after a link no more."""
+        """Stops serving a link."""
         self.links.remove(link)
 
     def poll(self, timeout: float = 0.0) -> None:

@@ -41,7 +41,7 @@ class ActionQueue:
             self._states.setdefault(action.id, state)
 
     def keep_only(self, nodes: Iterable[Node]) -> None:
-        """Forgets waiting actions of a horizon that was replaced: of nodes that are no more."""
+        """Drops waiting actions of a replaced horizon, whose nodes no longer exist."""
         known = {action.id for node in nodes for action in node.actions}
         known |= {action.id for action in [*self._due, *self.running]}
         waiting = ActionStatus.WAITING

@@ -194,7 +194,7 @@ def _number(action: Action, key: str) -> float:
     return number
 
 
-# Each returns what came of it if it is over at once, else RUNS. Raises ActionError.
+# Each returns its result if it ends at once, else RUNS. Raises ActionError.
 ACTIONS: dict[str, Begin] = {
     "cancelOrder": _cancel,
     "startPause": _pause,

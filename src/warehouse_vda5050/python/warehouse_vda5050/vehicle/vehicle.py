@@ -303,5 +303,5 @@ class Vehicle:
         return self.complaints.all(self.report, of_order(order, fault, self.actions.failed))
 
     def take_factsheet(self) -> Factsheet | None:
-        """Returns the factsheet if it is to be sent: at first, and when it was asked for."""
+        """Returns the factsheet if it is due: at first, and on request."""
         return self._reporter.take_factsheet()

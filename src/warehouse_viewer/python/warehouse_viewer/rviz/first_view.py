@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 FIELD = math.pi / 4  # RViz's vertical field of view [rad]
-ASPECT = 1.0  # of its picture at the least, beside the panels
+ASPECT = 1.0  # least of its picture, beside the panels
 PITCH, YAW = 0.9, -math.pi / 2  # it looks along y, downwards [rad]
 MARGIN = 2.0  # around what stands [m]
 NEAREST = 8.0  # [m]

@@ -164,7 +164,7 @@ class Reasons:
         return min(passed) if ahead else robot
 
     def fault(self, robot: int) -> str:
-        """Returns what keeps a robot from driving by itself, as "broken (drive)"; else empty."""
+        """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""
         return self._faults.get(robot, "")
 
     def waiting(self) -> dict[int, list[int]]:

@@ -180,7 +180,7 @@ class Workshop:
             raise ScenarioError(f"no run of '{name}' has ended yet")
         return complete
 
-    # --- what is asked for
+    # --- queries
     def create(self, name: str, settings: object) -> Json:
         """Makes a scenario."""
         with self._lock:

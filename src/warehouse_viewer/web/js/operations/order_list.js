@@ -8,7 +8,7 @@ import { ROOT } from '../base/root.js';
 import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
-const AROUND = 30; // rows beside those in sight that are asked for too
+const AROUND = 30; // rows beside those in sight that are fetched too
 const TYPING = 200; // after a key [ms]
 
 export class OrderList {
@@ -55,7 +55,7 @@ export class OrderList {
     this.shift = 0; // rows by which the server's list, where new ones come first, is ahead of this one
   }
 
-  /** What is asked for, beside limit and offset. */
+  /** The query, without limit and offset. */
   get query() {
     const query = new URLSearchParams(this.filter);
     if (this.text) query.set('search', this.text);

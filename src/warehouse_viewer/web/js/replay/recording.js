@@ -59,7 +59,7 @@ export class Recording {
   load({ number, end }) {
     if (!this.loaded.has(number)) {
       const coming = this.get(`chunks/${number}`, 'arrayBuffer').then((buffer) => until(read(buffer), end));
-      coming.catch(() => this.loaded.delete(number)); // it is asked for again
+      coming.catch(() => this.loaded.delete(number)); // it is requested again
       this.loaded.set(number, coming);
       while (this.loaded.size > KEPT) this.loaded.delete(this.loaded.keys().next().value);
     }

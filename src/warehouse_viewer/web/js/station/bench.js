@@ -121,7 +121,7 @@ export class Bench {
     return no(`${code} is wrong: ${expected}`);
   }
 
-  /** What is to be scanned next, in words. */
+  /** The next thing to scan, in words. */
   expected({ sku, quantity, tote }) {
     const { hand, placed } = this.counted;
     if (!hand || !tote) return `expected ${sku}`;

@@ -4,7 +4,7 @@
 const GAP = 60; // between two keys of a scanner, at most [ms]; a person takes longer
 const SHORTEST = 2; // characters of a code
 const LONGEST = 200;
-const LOST = 3000; // without its Enter, a code with a prefix is given up [ms]
+const LOST = 3000; // a code with a prefix is dropped if no Enter follows within this [ms]
 
 export class Scanner {
   /** take(code) is called for each; prefix: one key, such as '~' or 'F8', or '' for none. */

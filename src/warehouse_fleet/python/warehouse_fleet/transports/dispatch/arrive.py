@@ -24,7 +24,7 @@ DRIVES = np.isin(np.arange(len(Step) + 1), (FETCHING, BRINGING, STORING))  # by 
 
 class Arrival:
     """Brings transports whose robots have arrived to the next step; `on_delivered` is called with
-    each whose unit has come to its destination."""
+    each whose unit has arrived at its destination."""
 
     def __init__(
         self,

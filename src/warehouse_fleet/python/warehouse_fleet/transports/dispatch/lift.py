@@ -20,7 +20,7 @@ from warehouse_fleet.transports.transport_book import (
 from warehouse_layout.message_enums import Status
 
 IDLE = int(Status.IDLE)
-LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]
+LIFT_PATIENCE = 3.0  # a lift that has not begun within this is commanded again [s]
 LIFT_ATTEMPTS = 8  # of ten messages one may be lost, and thousands of units are lifted
 
 
