@@ -29,11 +29,12 @@ COORDINATOR = "coordinator/demand"  # a parameter that a launch with a coordinat
 
 
 class WarehouseService:
-    """One at a time. `ros` is rospy; `report(text)` reaches the person who started the simulation.
+    """Builds one warehouse at a time. `ros` is rospy; `report(text)` writes to the terminal of the
+    launch.
 
-    In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
-    that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
-    `seed` decides what in a layout is left to chance. `layouts` places those of layout files.
+    keeps_floor: a warehouse stands on the free cells of the world's own floor, in its largest room
+    or in that of the point `at`, (x, y) [m]. seed: draws the random parts of a layout. layouts:
+    places those of layout files.
     """
 
     def __init__(
@@ -50,7 +51,7 @@ class WarehouseService:
         self._layouts = layouts or LayoutBuilding(seed)
 
     def handle(self, request: CreateWarehouseRequest) -> CreateWarehouseResponse:
-        """Answers a CreateWarehouse request; a refused one changes nothing."""
+        """Answers a CreateWarehouse request; a refusal changes nothing."""
         try:
             message = self.create(
                 request.warehouse_name,
@@ -89,7 +90,7 @@ class WarehouseService:
         return f"{title}{request} {_where(layout)}"
 
     def _layout(self, request: Request | None, engine: Engine) -> tuple[Request, Layout]:
-        """(Request, Layout); `wanted` is None where as much is wanted as fits."""
+        """Returns (Request, Layout); request: None for the largest warehouse that fits."""
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
         if cells is None or not cells.taken.size:
             if request is None:
@@ -109,10 +110,9 @@ class WarehouseService:
         transaction.commit()
 
     def start(self, size: str) -> None:
-        """Finds the warehouse as it stands; builds the preset or layout `size`, if any, where none
-        does.
+        """Greets for the warehouse that stands, or builds the preset or layout `size`, if any.
 
-        What a node that died has left half-built is taken away first, and its pause with it.
+        First removes a half-built warehouse of a node that died, and its pause.
         """
         try:
             self._find_or_build("" if size == "none" else size)
@@ -129,7 +129,7 @@ class WarehouseService:
             self._greet()
 
     def _undo(self, engine: Engine) -> bool:
-        """Takes away what a builder left half-built. True if one did."""
+        """Removes a half-built warehouse; returns whether there was one."""
         transaction = BuildTransaction(self._ros, engine)
         if not transaction.is_unfinished:
             return False
@@ -157,7 +157,7 @@ def _counted(layout: Layout) -> Request:
 
 
 def _where(layout: Layout) -> str:
-    """Returns on which floor a layout stands, and how its stations are served if not as usual."""
+    """Returns words for the floor of a layout, and for unusual stations."""
     if layout.has_own_floor:
         width, length = layout.floor.size
         return f"on a {width:g} x {length:g} m floor"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A day of orders as it was, or drawn; its orders multiplied by a factor."""
+"""The orders of a day, recorded or drawn, multiplied by a factor."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -13,12 +13,12 @@ from warehouse_operations.stock.order_file import DemandError, OrderDraft, lines
 from warehouse_operations.stock.orders_text import DAY, DayText
 
 HOUR = 3600.0  # [s]
-NEAR = 300.0  # an order that comes once more does so within [s] of the first
+NEAR = 300.0  # longest time between an order and its copy [s]
 MOST_NAMED = 20  # SKUs in a message
 
 
 def assortment_of(day: DayText) -> Assortment:
-    """Returns the SKUs of a day's file, by how often each is asked for. Raises DemandError."""
+    """Returns the SKUs of a day's file with their popularity. Raises DemandError."""
     lines = lines_by_sku(day.file) if day.kind == DAY else demand_file.read(day.file).skus
     if not lines:
         raise DemandError(f"{day.file}: there is no order in it")
@@ -26,7 +26,7 @@ def assortment_of(day: DayText) -> Assortment:
 
 
 def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> None:
-    """Raises DemandError, which names each SKU once that the stock lacks."""
+    """Raises DemandError, which names each SKU that the stock lacks."""
     has = set(stock)
     lacking = [sku for sku in asked if sku not in has]
     if lacking:
@@ -39,9 +39,9 @@ def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> No
 def scaled(
     orders: Sequence[OrderDraft], factor: float, rng: np.random.Generator
 ) -> list[OrderDraft]:
-    """Returns the orders times a factor: whole copies, and a part of them by chance.
+    """Returns the orders multiplied by a factor: whole copies, and a random part for the rest.
 
-    A copy comes within NEAR of the order, has as long until it is due, and a reference of its own.
+    A copy comes within NEAR of its order, has the same time until it is due, and its own reference.
     """
     whole, part = divmod(factor, 1)
     out = []
@@ -62,8 +62,8 @@ def orders_of(
     rng: np.random.Generator,
     capacity: float,
 ) -> list[OrderDraft]:
-    """Returns the orders of a day of a CSV file, those of its first hour first if it is to begin
-    at work. skus: in stock; None: any. Raises DemandError."""
+    """Returns the orders of a day of a CSV file, with those of its first hour before it for a
+    run-in. skus: in stock; None: any. Raises DemandError."""
     orders = read_csv(day.file, None, capacity)
     if not orders:
         raise DemandError(f"{day.file}: there is no order in it")
@@ -89,7 +89,7 @@ def drawn(
 
 
 def _before(orders: Sequence[OrderDraft], seconds: float) -> list[OrderDraft]:
-    """Returns the orders of the first hour in which any come, again and again until the day."""
+    """Returns the orders of the first hour with orders, repeated until the day begins."""
     begin = HOUR * (min(order.at for order in orders) // HOUR)
     first = [order for order in orders if begin <= order.at < begin + HOUR]
     out, start, number = [], seconds - HOUR, 1

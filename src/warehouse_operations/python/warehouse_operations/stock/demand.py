@@ -16,7 +16,7 @@ from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_S
 from warehouse_operations.stock.orders import Backlog
 from warehouse_operations.stock.orders_text import DAY
 
-FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: at least, and a station
+FILL, FILL_A_STATION = 200, 5  # orders that always wait: the fewest, and those per station
 POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
@@ -25,14 +25,14 @@ LINE_SUMS /= LINE_SUMS[-1]
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
 MOST_FILL = 10_000
-AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, until the next [s]
+AT_ONCE, PAUSE = 1_000, 1.0  # most orders of a file that come together; time until the next [s]
 
 
 class DrawsOrders(Protocol):
-    """Draws orders, one after the other."""
+    """Draws orders one by one."""
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
-        """Returns the order that comes now; None if there is none."""
+        """Returns the order that comes now, or None."""
 
 
 class Customers:
@@ -42,7 +42,8 @@ class Customers:
         self.assortment, self._rng = assortment, rng
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
-        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+        """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
+        SKUs is."""
         rng = self._rng
         count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
         lines = {}
@@ -67,14 +68,14 @@ class Customers:
 
 
 class Fill:
-    """A constant number of orders waits at any time."""
+    """Keeps a constant number of orders waiting."""
 
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
         self.bundles_per_hour = 0.0
 
     def next_time(self) -> float:
-        """Returns inf: orders come when others leave the backlog."""
+        """Returns inf: new orders replace those that leave the backlog."""
         return float("inf")
 
     def due(
@@ -89,7 +90,7 @@ class Fill:
 
 
 class Poisson:
-    """Orders and bundles that come by chance (Poisson), at a mean rate [1/h]."""
+    """Orders and bundles of Poisson processes with mean rates [1/h]."""
 
     def __init__(
         self,
@@ -123,8 +124,8 @@ class Poisson:
 
 
 class FromFile:
-    """The orders of a CSV file: each at its time, or a little later where many come at once or
-    wait already."""
+    """The orders of a CSV file: each at its time, or a little later while many others come or
+    wait."""
 
     bundles_per_hour = 0.0
 
@@ -160,8 +161,8 @@ def make_demand(
     """Returns the demand that an orders text of operations.launch or simulate means; raises
     DemandError.
 
-    assortment: None: any SKU may be asked for. stations: (picking, replenishing), how many. now:
-    when it begins [s]. capacity: pieces that all bins can hold.
+    assortment: None: any SKU may be ordered. stations: numbers of (picking, replenishing) ones.
+    now: begin of the demand [s]. capacity: pieces that all bins can hold.
     """
     customers = Customers(assortment, rng)
     name, _, value = str(text).partition(":")
