@@ -76,7 +76,7 @@ class LazyPublisher:
             self._send(self._news)
 
     def peer_subscribe(self, _topic: str, _publish: Any, _publish_to_newcomer: Any) -> None:
-        """Called by rospy, just before it sends what is latched."""
+        """Called by rospy, just before it sends the latched message."""
         if self._publisher:
             self._send(self._make)
 

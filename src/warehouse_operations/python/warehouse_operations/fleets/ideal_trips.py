@@ -30,11 +30,11 @@ from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Table, Travel
 
 OUT = "out of service"  # beside the ACTIVITIES
-TAKEN = 10.0  # metres by which a charging place counts as farther while a robot stands there
-WAYS = 100_000  # of loaded robots that are remembered for their energy, at most
+TAKEN = 10.0  # penalty on the distance to an occupied charging place [m]
+WAYS = 100_000  # most ways of loaded robots whose energy is cached
 DEAD = 30.0  # after which a broken robot loses its transport [s]; as recover.DEAD
 TOWED = 60.0  # after which people tow a robot that is broken in a lane [s]; as world_fleet's
-RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
+RETRY = 1.0  # pause of a robot between two searches for a free storage place [s]
 
 
 class Approach(NamedTuple):

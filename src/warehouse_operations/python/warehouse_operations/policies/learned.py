@@ -40,7 +40,7 @@ Choose = Callable[[Decision], int]  # returns an index into keys
 
 
 class Units:
-    """Chooses the unit for a station: the nearest ones, and those that complete most lines."""
+    """Chooses the unit for a station among the nearest ones and those that complete most lines."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -52,7 +52,7 @@ class Units:
 
 
 class Orders:
-    """Chooses a station's next order: those that its units on the way serve, and urgent ones."""
+    """Chooses a station's next order among those for its units on the way, and urgent ones."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -66,7 +66,7 @@ class Orders:
 
 
 class Robots:
-    """Chooses a robot for each task, in their order: those that are there first."""
+    """Chooses a robot for each task, in their order, among those that arrive first."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
