@@ -70,8 +70,7 @@ class Gate:
             self._ros.logwarn(f"{self._topic}: a message is dropped: {reason}")
 
     def _foreign(self, message: Any) -> str:
-        """Returns the reason to ignore the publisher of a message in favour of another node; or
-        ""."""
+        """Returns why a message of a foreign publisher is ignored; "" if it is accepted."""
         header = getattr(message, "_connection_header", None)
         subscription = getattr(self.subscriber, "impl", None)  # None before and after it
         if not self._source or not header or subscription is None:

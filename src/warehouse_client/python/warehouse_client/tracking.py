@@ -60,7 +60,8 @@ class Items:
         self._inner = poses.rows(objects.item_pose)
         self._units = [objects.storage_units[u] if u >= 0 else "" for u in self._unit]
         self._pose = self._inner.copy()  # in world, of the items on units
-        self._unit_pose = np.full((len(objects.storage_units), 7), np.nan)  # of that pose
+        # The poses of units by which the last poses of items were computed.
+        self._unit_pose = np.full((len(objects.storage_units), 7), np.nan)
 
     def at(self, states: Any) -> Tracked:
         """Returns the items as Tracked, by a UnitStates message."""
