@@ -28,7 +28,7 @@ from warehouse_operations.stock.stations import WorkStation
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
-# The default weights, without hidden layers, learnt from the default policies by
+# The default weights, of linear scores, learnt from the default policies by
 # examples/operations_train.py --size medium --robots 8 --imitated 4 --generations 0.
 TRAINED = {
     "orders": (7.274, 2.849, -2.778, -0.439, 4.38, -3.059, 17.897, -4.093),
