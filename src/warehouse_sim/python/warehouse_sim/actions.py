@@ -83,7 +83,7 @@ def _go(kiva: int, target: tuple, phase: int = 0) -> Step:
 
 
 class Work:
-    """A goal on which a robot works: `handle` is actionlib's, `steps` are what is left to do."""
+    """A goal on which a robot works: `handle` is actionlib's, `steps` are the remaining ones."""
 
     def __init__(
         self, handle: ServerGoalHandle, steps: list[Step], feedback: Feedback, result: Result

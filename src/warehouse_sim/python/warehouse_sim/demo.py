@@ -203,7 +203,7 @@ class Demo:
         self._plan = self._world.plan()
 
     def _is_ready(self) -> bool:
-        soon = self._ros.Duration(nsecs=1)  # zero would mean without end
+        soon = self._ros.Duration(nsecs=1)  # zero would wait without end
         are_there = all(client.wait_for_server(soon) for client in self._clients.values())
         return are_there and self._world.is_known and self._answers.get_num_connections() > 0
 

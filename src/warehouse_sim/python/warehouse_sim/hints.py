@@ -13,7 +13,7 @@ SYSTEM = Path("/usr/lib")  # Python and ROS search it by default
 NEAREST = 20  # units tried for each robot
 
 Point = tuple[int, int]  # on the grid [m]
-Pairs = list[tuple[str, str]]  # shell command, what it does
+Pairs = list[tuple[str, str]]  # shell command, its effect
 
 _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
 _WITHOUT_ROBOTS = [
@@ -32,7 +32,7 @@ _WITH_A_FLEET = [  # robots of a coordinator are busy, and refuse commands
 
 
 def commands(survey: Survey, has_coordinator: bool = False) -> list[tuple[str, str]]:
-    """Returns three pairs (shell command, what it does) for a Survey."""
+    """Returns three pairs (shell command, its effect) for a Survey."""
     if not survey.kiva:
         return _WITHOUT_ROBOTS
     if has_coordinator:
@@ -90,8 +90,7 @@ def _pub(topic: str, kind: str, **fields: float) -> str:
 
 
 def within(namespace: str, pairs: list[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Returns pairs (shell command, what it does) as they are typed for a warehouse in a namespace,
-    `/` or `/sim1/`."""
+    """Returns pairs (shell command, its effect) for a warehouse in a namespace, `/` or `/sim1/`."""
     return [(_within(namespace, command), meaning) for command, meaning in pairs]
 
 
@@ -104,7 +103,7 @@ def _within(namespace: str, command: str) -> str:
 
 
 def greeting(title: str, pairs: Pairs) -> str:
-    """Returns what the terminal shows once a warehouse is built."""
+    """Returns the text for the terminal once a warehouse is built."""
     wide = max(len(command) for command, _ in pairs)
     lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]
     how = "Try in another terminal, each line once the one before is done:"

@@ -138,7 +138,7 @@ def _new_file(text: str, place: Place) -> str:
     path = place.cwd / text
     if not text or (os.access(path.parent, os.W_OK | os.X_OK) and not path.is_dir()):
         return ""
-    return f"a file that can be written was expected; {path} is none"
+    return f"a file that can be written was expected; {path} can't be"
 
 
 def _realism(text: str, place: Place) -> str:

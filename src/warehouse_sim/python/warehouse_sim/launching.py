@@ -132,8 +132,7 @@ def master_of(caller: Caller, environment: Mapping[str, str]) -> str | None:
 
 
 def openness(caller: Caller, environment: Mapping[str, str]) -> str:
-    """Returns a sentence if master and nodes of a launch are reachable from other machines; else
-    ""."""
+    """Returns a sentence if other machines reach the master and nodes of a launch; else ""."""
     master = master_of(caller, environment)
     host = urlsplit(master or "").hostname or ""
     if {"ROS_HOSTNAME", "ROS_IP"} & {*environment} or not LOCAL.fullmatch(host):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tools: a station's work; opening and closing it; picks that are confirmed."""
+"""Tools: a station's work, its opening and closing, confirmed picks."""
 
 from typing import Annotated, Any, Literal
 

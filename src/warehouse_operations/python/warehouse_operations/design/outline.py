@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Floors that follow the outline of a building, whatever it is: two-way streets over all of it,
-stations with lanes in the middle of the storage, and places nearest to them."""
+"""Floors that follow any outline of a building: two-way streets over all of it, stations with lanes
+in the middle of the storage, and places nearest to them."""
 
 import math
 from collections.abc import Iterator, Sequence

@@ -81,7 +81,7 @@ class Search:
     by_hand: int = 0  # trials dropped without a shift
     importance: dict[str, float] = field(default_factory=dict)
     _known: dict[str, Candidate | None] = field(default_factory=dict)
-    _beaten: dict[str, Bill] = field(default_factory=dict)  # of those that cost more than others
+    _beaten: dict[str, Bill] = field(default_factory=dict)  # of layouts that cost more than others
     _days: dict[str, Candidate] = field(default_factory=dict)  # judged by whole days
     _beside: list[Candidate] = field(default_factory=list)  # to be judged by whole days, too
     _spent: float = 0.0  # of the budget [s]
@@ -366,7 +366,7 @@ class Search:
             return []
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
-        """Returns the Record of each Point, simulating those that are not kept."""
+        """Returns the Record of each Point, simulating those that the store lacks."""
         records = [self.store.get(point) for point in points]
         left = [i for i, record in enumerate(records) if record is None]
         pending = {self.executor.submit(shift.simulate, points[i]): i for i in left}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Maps of where on the floor robots drive and wait, over the last hour."""
+"""Maps of robots' drives and waits on the floor, over the last hour."""
 
 import zlib
 from collections.abc import Iterable, Iterator

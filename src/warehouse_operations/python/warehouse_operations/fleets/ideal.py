@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fleet of ideal robots, which get in each other's way at the stations only.
+"""A fleet of ideal robots, which delay each other only at stations.
 
 The time of a drive is that of its way, turns, starts and stops (travel.py); each lift takes a
 constant time, and a station serves one unit after the other. A shift runs hundreds of times faster
@@ -140,7 +140,7 @@ class IdealFleet(TransportRequests):
         self._trips.hooks = hooks
 
     def close(self) -> None:
-        """Does nothing; a fleet under physics has threads to end."""
+        """Does nothing; a simulated fleet has threads to end."""
 
     # Events of a scenario.
 
@@ -203,11 +203,11 @@ class IdealFleet(TransportRequests):
         return self._floor.units.get(shelf_id)
 
     def activities(self) -> dict[str, float]:
-        """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
+        """Returns the robot-seconds spent on each of ACTIVITIES so far."""
         return self._trips.activities()
 
     def passages(self) -> np.ndarray:
-        """Returns how often a robot with a load drove through each cell, (h, w)."""
+        """Returns the number of passes of loaded robots through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)
         for (station, cell, outbound), times in sorted(self._trips.ways.items()):
             table = self.travel.loaded_from if outbound else self.travel.loaded_to

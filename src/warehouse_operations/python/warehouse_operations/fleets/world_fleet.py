@@ -99,7 +99,7 @@ class WorldFleet(FleetDriver):
         self.world.fail(kiva_id, int(FailureKind.MOTOR), duration)
 
     def passages(self) -> np.ndarray:
-        """Returns how often a loaded robot came through each cell, (h, w)."""
+        """Returns the number of passes of loaded robots through each cell, (h, w)."""
         return self._passages.reshape(self.plan.shape)
 
     def waiting_map(self) -> np.ndarray:

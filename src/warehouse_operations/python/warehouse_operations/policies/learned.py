@@ -28,7 +28,7 @@ from warehouse_operations.stock.stations import WorkStation
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
-# The default weights, without hidden layers, learnt from the default policies by
+# The default weights, of linear scores, learnt from the default policies by
 # examples/operations_train.py --size medium --robots 8 --imitated 4 --generations 0.
 TRAINED = {
     "orders": (7.274, 2.849, -2.778, -0.439, 4.38, -3.059, 17.897, -4.093),
@@ -40,7 +40,7 @@ Choose = Callable[[Decision], int]  # returns an index into keys
 
 
 class Units:
-    """Chooses the unit for a station: the nearest ones, and those that complete most lines."""
+    """Chooses the unit for a station among the nearest ones and those that complete most lines."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -52,7 +52,7 @@ class Units:
 
 
 class Orders:
-    """Chooses a station's next order: those that its units on the way serve, and urgent ones."""
+    """Chooses a station's next order among those for its units on the way, and urgent ones."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -66,7 +66,7 @@ class Orders:
 
 
 class Robots:
-    """Chooses a robot for each task, in their order: those that are there first."""
+    """Chooses a robot for each task, in their order, among those that arrive first."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose

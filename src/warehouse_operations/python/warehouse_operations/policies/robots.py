@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Nearest:
-    """Matches each task, in their order, to the robot that is there first."""
+    """Matches each task, in their order, to the robot that arrives first."""
 
     def match(
         self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"

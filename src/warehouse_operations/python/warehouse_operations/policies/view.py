@@ -116,7 +116,7 @@ class View:
         return self.assortment.skus[min(int(at), len(sums) - 1)]
 
     def shortages(self) -> dict[str, int]:
-        """Returns the pieces that orders want beyond what is in stock or ordered, by SKU."""
+        """Returns the pieces that orders need above stock and ordered pieces, by SKU."""
         demand: dict[str, int] = defaultdict(int, self.backlog.demand)
         for station in self.stations:
             for line in station.missing.values():

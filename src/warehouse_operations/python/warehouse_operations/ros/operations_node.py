@@ -88,7 +88,7 @@ class OperationsNode:
         return self._database.engine
 
     def _begin(self) -> None:
-        """Begins a shift that goes on with what the database has."""
+        """Begins a shift that continues the warehouse of the database."""
         now = rospy.get_time()
         self._timeline = self._warehouse.timeline
         file = self._layout_file()
@@ -190,7 +190,7 @@ class OperationsNode:
         self._begin()
 
     def close(self) -> None:
-        """Writes what is left to the database. Raises DatabaseError."""
+        """Writes pending rows to the database. Raises DatabaseError."""
         with self._lock:
             self._shift.end(self._figures())
             self._database.close()

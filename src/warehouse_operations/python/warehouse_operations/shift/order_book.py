@@ -40,7 +40,7 @@ class OrderBook:
     def register(
         self, on_backlog_change: Callable[[], object], take_away: Callable[[Order], object]
     ) -> None:
-        """Sets who assigns orders to stations.
+        """Sets the part that assigns orders to stations.
 
         on_backlog_change() is called where the backlog has a new order, take_away(order) for one
         that is cancelled while a station has it.
@@ -52,7 +52,7 @@ class OrderBook:
     ) -> tuple[Order | None, str]:
         """Takes a new order of (SKU, pieces), due at a time [s], 0: at any time.
 
-        Returns (order, what it waits for), or (None, the reason of the refusal).
+        Returns (order, the cause of its wait), or (None, the reason of the refusal).
         """
         reason = self._fault_of(lines) or acceptance.fault_of_head(reference, due, priority)
         if reason:

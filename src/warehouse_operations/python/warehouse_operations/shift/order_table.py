@@ -44,7 +44,7 @@ def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer
 
 
 def _faults_of_all(drafts: list[OrderDraft], book: OrderBook) -> list[Fault]:
-    """Returns what is wrong with the orders together."""
+    """Returns the faults of the orders as a whole."""
     if not drafts:
         return [Fault(0, "", "there is no order in it")]
     if len(drafts) > MOST_ORDERS:

@@ -57,7 +57,7 @@ class TakingBack:
         return ""
 
     def _ask_again(self, visit: Visit, pick: Pick, pieces: int) -> None:
-        """Makes pieces the next ones to be picked, with what is left of their pick."""
+        """Makes pieces the next ones to be picked, with the rest of their pick."""
         is_left = pick in visit.picks
         if is_left:
             visit.picks.remove(pick)

@@ -123,7 +123,7 @@ class Study:
         return verdict
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
-        """Returns the Record of each Point, simulating those that are not kept."""
+        """Returns the Record of each Point, simulating those that the store lacks."""
         records = {point.seed: self.store.get(point) for point in points}
         left = [point for point in points if records[point.seed] is None]
         pending = {self.executor.submit(shift.simulate, point): point for point in left}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shifts with stock as proposed and as drawn by chance: the same bins, SKUs, pieces and orders.
+"""Shifts with the proposed and with a random stock: of the same bins, SKUs, pieces and orders.
 
 SKUs are placed by the even orders of a file alone; the shifts draw their orders from the odd ones.
 """
@@ -28,13 +28,13 @@ from warehouse_operations.stock.order_file import OrderDraft
 from warehouse_operations.stock.site import Site, Stock
 from warehouse_operations.stock.travel import Travel
 
-WARM_UP = 0.5  # hours before those that count
+WARM_UP = 0.5  # left out at the begin of a shift [h]
 FIGURES = ("pieces_per_hour", "pieces_a_unit", "units_an_order", "metres_a_piece", "late")
 
 
 @dataclass(frozen=True)
 class Catalogue:
-    """A layout, and the orders and SKUs that it is to serve."""
+    """A layout with its orders and SKUs."""
 
     file: LayoutFile
     orders: Sequence[OrderDraft]
@@ -46,8 +46,8 @@ class Catalogue:
         return replace(layout_site.of_file(Site.of_layout(laid, self.file.title), self.file))
 
     def lots(self, site: Site) -> list[Lot]:
-        """Returns what lies in the bins: the layout's own stock, or one that is drawn of the SKUs
-        that orders ask for, by how often. Raises DemandError where there are too few bins."""
+        """Returns the content of the bins: the layout's own stock, or a random one of the orders'
+        SKUs, by their popularity. Raises DemandError for too few bins."""
         if site.stock:
             lots = [Lot(row.sku, row.pieces) for row in site.stock]
         else:

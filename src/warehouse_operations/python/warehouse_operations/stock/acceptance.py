@@ -17,7 +17,7 @@ def fault_of_lines(lines: Sequence[tuple[str, int]], skus: Any, capacity: float)
     """Returns the reason to refuse an order of these (sku, pieces), a sentence; "" for an
     acceptable one.
 
-    skus: those that the warehouse deals in. capacity: pieces that all of its bins can hold.
+    skus: the assortment of the warehouse. capacity: pieces that all of its bins can hold.
     """
     if not lines:
         return "an order has one line or more"

@@ -165,7 +165,7 @@ class WorkStation:
             start(self)
 
     def take_on(self, order: Order, again: bool = False) -> None:
-        """Adds an order, in a tote of its own; `again`: in the one that it had here."""
+        """Adds an order, in a tote of its own; `again`: in its former tote here."""
         self.orders[order.order_id] = order
         (self.totes.take_again if again else self.totes.take)(order)
 
