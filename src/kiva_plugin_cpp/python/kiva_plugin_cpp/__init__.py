@@ -250,9 +250,9 @@ class World(_core.World):
         y: ArrayLike = (),
         released: ArrayLike | None = None,
     ) -> None:
-        """Gives robots paths to drive as far as they are released, or changes their paths.
+        """Gives robots paths, of which they drive the released part, or changes their paths.
 
-        For one robot: numbers, and arrays x, y of grid points in world [m], of which the first is
+        For one robot: numbers, and arrays x, y of grid points in world [m], the first of which is
         point number `first` of the path; neighbours differ along one axis. Point 0 is where the
         robot stands or, off the grid, a free grid point near it, to which it returns first.
         `released` counts points of the whole path; None releases all. For many robots: arrays of

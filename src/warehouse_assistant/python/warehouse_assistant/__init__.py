@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A server of the Model Context Protocol: digital assistants start, ask and operate warehouses.
 
-It talks HTTP with a hub, and needs neither ROS nor another package of this workspace; what it needs
-of PyPI lies in an environment of its own (scripts/assistant).
+It talks HTTP with a hub, and needs neither ROS nor another package of this workspace; its packages
+of PyPI lie in an environment of its own (scripts/assistant).
 
     python3 -m warehouse_assistant [--hub URL] [--allow commands] [--port PORT]
 

@@ -3,7 +3,7 @@
 
 python3 -m warehouse_assistant [--hub http://localhost:8080] [--allow commands] [--port PORT]
 
-The environment's WAREHOUSE_TOKEN is the hub's token, where it has one.
+The environment variable WAREHOUSE_TOKEN is the hub's token, if it has one.
 """
 
 import argparse
@@ -30,7 +30,7 @@ def _settings() -> argparse.Namespace:
 
 
 def main() -> None:
-    """Serves until its client or the hub goes."""
+    """Serves until its client or the hub ends."""
     settings = _settings()
     # Imported here, so that --help answers where the packages of PyPI are not installed.
     from warehouse_assistant.hub_client import HubClient

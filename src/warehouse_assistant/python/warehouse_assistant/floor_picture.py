@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 MOST_PIXELS = 900  # of the longer side
 LEAST_CELL, MOST_CELL = 3, 32  # pixels of a metre
-MARGIN = 1.0  # around all that stands there [m]
+MARGIN = 1.0  # around all objects [m]
 LEGEND = 22  # pixels
 FLOOR, GRID, UNIT, CARRIED = "#f7f7f5", "#e3e3df", "#b9a27c", "#7d5a1e"
 ACTIVITIES = {
@@ -28,7 +28,7 @@ def png(robots: Rows, units: Rows, stations: Rows) -> bytes:
     """Returns a picture of robots, storage units and stations as the HTTP API has them."""
     places = [(r["x"], r["y"]) for r in robots]
     places += [(u["pose"]["x"], u["pose"]["y"]) for u in units]
-    # What lies far off, thrown or fallen, would leave no room for the rest.
+    # Distant objects, thrown or fallen, would shrink the rest.
     places = [p for p in places if all(math.isfinite(v) and abs(v) < 10_000 for v in p)]
     floor = _Floor(places or [(0.0, 0.0)])
     floor.draw_grid()
@@ -60,7 +60,7 @@ class _Floor:
         return (x - self._left) * self._scale, (self._top - y) * self._scale
 
     def draw_grid(self) -> None:
-        """Draws a line a metre, ten where metres are small."""
+        """Draws a line for each metre, or for ten where these are small."""
         step = 1 if self._scale >= 10 else 10
         for metre in range(math.ceil(self._left), 10**6, step):
             x, _ = self._pixel(metre, 0)
@@ -80,7 +80,7 @@ class _Floor:
         self._draw.rectangle([x - half, y - half, x + half, y + half], colour)
 
     def robot(self, robot: Mapping[str, Any]) -> None:
-        """Draws a robot, its heading and its number, and what it does by its colour."""
+        """Draws a robot, its heading and its number, in the colour of its state."""
         x, y = self._pixel(robot["x"], robot["y"])
         half = max(2.0, 0.32 * self._scale)
         colour = ACTIVITIES.get(robot["activity"], "black")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hub's HTTP API, and the API of each simulation beneath it.
 
-What goes wrong is a Trouble, whose text says what to do next.
+Errors are Troubles, whose texts say what to do next.
 """
 
 import asyncio
@@ -17,7 +17,7 @@ from warehouse_assistant.words import listed, plain, quoted, sentence
 SIMULATIONS = "/api/v1/simulations"
 NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
 PATIENCE = 40.0  # until an answer [s, wall]: commands to robots end within 30
-ATTEMPTS, PAUSE = 4, 1.0  # where the hub asks to slow down; [s, wall]
+ATTEMPTS, PAUSE = 4, 1.0  # where the hub limits requests; [s, wall]
 MOST_ANSWER = 32 << 20  # [bytes]
 ANSWERING = ("RUNNING", "PAUSED", "STARTING")
 
@@ -32,11 +32,11 @@ NEXT = {
 
 
 class Trouble(ToolError):  # noqa: N818 (an answer)
-    """Why a tool could not do what was asked, and what to do next."""
+    """Raised where a tool could not do its task; says why, and what to do next."""
 
 
 class Refused(Trouble):
-    """An answer of the hub or a simulation that is an error; `status` is HTTP's."""
+    """Raised for an error of the hub or of a simulation; `status` is HTTP's."""
 
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
@@ -97,7 +97,7 @@ class HubClient:
         return answer
 
     async def simulation(self, name: str = "") -> "Simulation":
-        """Returns the simulation of a name, "" for the only one that runs. Raises Trouble."""
+        """Returns the simulation of a name; "": the only one that runs. Raises Trouble."""
         if name:
             if not NAME.fullmatch(name):
                 raise Trouble(f"{quoted(name)} is no simulation's name. Ask list_simulations.")
@@ -124,7 +124,7 @@ class Simulation:
         return await self._hub.get(f"{self._prefix}/{path}", **query)
 
     async def get_or_none(self, path: str, **query: Any) -> Any:
-        """Returns the JSON at a path; None where this warehouse has none, as without a shift."""
+        """Returns the JSON at a path; None if the warehouse lacks it, as without a shift."""
         try:
             return await self.get(path, **query)
         except Refused as refusal:
@@ -143,7 +143,7 @@ def segment(text: str) -> str:
 
 
 def _reason(answer: httpx2.Response) -> str:
-    """Returns why an answer is an error, and what to do next."""
+    """Returns the reason of an error, and what to do next."""
     try:
         detail = answer.json()["detail"]
     except (ValueError, KeyError, TypeError):

@@ -13,14 +13,14 @@ from warehouse_assistant.hub_client import HubClient, Trouble
 ROOMS = ("tutorials", "how-to", "explanation", "reference")
 PAGE = re.compile(rf"(?:{'|'.join(ROOMS)})/[\w-]+")
 WORD = re.compile(r"[a-z0-9_]{2,}")
-# Words of questions that say nothing of their subject.
+# Words of questions that name no subject.
 IDLE = frozenset(
     (
         *("how", "what", "why", "when", "which", "where", "who", "do", "does", "is", "are", "can"),
         *("to", "the", "an", "in", "of", "it", "my", "and"),
     )
 )
-AT_ONCE = 4  # pages that are asked for at the same time
+AT_ONCE = 4  # pages requested at the same time
 HEADINGS = ("h1", "h2", "h3")
 BLOCKS = ("p", "li", "pre", "tr", "dt", "dd", "div", *HEADINGS)
 
@@ -35,7 +35,7 @@ class Section:
 
 
 class Library:
-    """All sections; read once, when they are first asked for."""
+    """All sections, read at the first request."""
 
     def __init__(self, hub: HubClient, folder: Path | None = None) -> None:
         self._hub, self._folder = hub, folder or _source_folder()
@@ -43,7 +43,7 @@ class Library:
         self._sections: list[Section] = []
 
     async def sections(self) -> list[Section]:
-        """Returns all sections, in the order of their pages. Raises Trouble if there are none."""
+        """Returns all sections, in the order of their pages. Raises Trouble without any."""
         async with self._lock:
             if not self._sections:
                 self._sections = await self._read()
@@ -81,7 +81,7 @@ class Library:
         return list(dict.fromkeys(section.page for section in await self.sections()))
 
     async def search(self, words: str) -> list[Section]:
-        """Returns sections in which the words stand, the best first. Raises Trouble."""
+        """Returns sections that contain the words, the best first. Raises Trouble."""
         terms = {_stem(word) for word in WORD.findall(words.lower()) if word not in IDLE}
         scored = [(_score(section, terms), section) for section in await self.sections()]
         ranked = sorted((pair for pair in scored if pair[0]), key=lambda pair: -pair[0])
@@ -93,7 +93,8 @@ def _stem(word: str) -> str:
 
 
 def _score(section: Section, terms: set[str]) -> float:
-    """Returns how well a section answers: terms in the heading count most, many different ones."""
+    """Returns the score of a section: by the number of different terms in it, those in the heading
+    most."""
     heading, text = f"{section.page} {section.heading}".lower(), section.text.lower()
     score = 0.0
     for term in terms:

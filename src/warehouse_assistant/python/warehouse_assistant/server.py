@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The server: tools and resources, who may change something, bounded replies, and what was done."""
+"""The server: tools and resources, permissions, bounded replies, and a log of changes."""
 
 import hmac
 import json
@@ -50,7 +50,7 @@ SUBJECTS = (simulations, overview, floor, robots, orders, stations, whatif, read
 
 class AssistantServer(MCPServer):
     """All tools and resources. allows_commands: every client may change something; otherwise those
-    for which the hub says so."""
+    that the hub permits."""
 
     def __init__(self, hub: HubClient, allows_commands: bool, library: Library) -> None:
         super().__init__(
@@ -68,7 +68,7 @@ class AssistantServer(MCPServer):
     async def call_tool(
         self, name: str, arguments: dict[str, Any], context: Context | None = None
     ) -> Any:
-        """Calls a tool: checks arguments and permission, bounds the reply, notes what changed."""
+        """Calls a tool: checks arguments and permission, bounds the reply, logs changes."""
         changes = name in self._box.changing
         try:
             self._check(name, arguments, context)
@@ -106,7 +106,7 @@ class AssistantServer(MCPServer):
 
 
 def _cause(tool: str, error: ToolError) -> str:
-    """Returns what went wrong, in words for the one who called."""
+    """Returns an error in words for the caller."""
     cause = error.__cause__
     if isinstance(cause, Trouble):
         return str(cause)
@@ -127,7 +127,7 @@ def _text(result: CallToolResult) -> str:
 
 
 def _note(context: Context | None, tool: str, arguments: Mapping[str, Any], outcome: str) -> None:
-    """Writes what an assistant did, and who asked, to the log; the hub's, if the hub started it."""
+    """Writes a change and its client to the log, which is the hub's if the hub started it."""
     asked = plain(json.dumps(arguments, default=str), 300)
     now = time.strftime("%Y-%m-%d %H:%M:%S")
     text = f"{now} assistant: {_who(context)}: {tool} {asked}: {quoted(outcome, 200)}"
@@ -135,7 +135,7 @@ def _note(context: Context | None, tool: str, arguments: Mapping[str, Any], outc
 
 
 def _who(context: Context | None) -> str:
-    """Returns who asked: the program's name for itself, and the address that the hub saw."""
+    """Returns the client: its program's name, and its address at the hub."""
     if context is None:
         return "a program"
     headers = context.headers or {}
@@ -147,7 +147,7 @@ def _who(context: Context | None) -> str:
 
 
 class _KeyCheck:
-    """ASGI middleware: only the hub, which knows the key, is answered; it says who may change."""
+    """ASGI middleware: answers the hub alone, which knows the key and sends permissions."""
 
     def __init__(self, app: ASGIApp, key: str) -> None:
         self._app, self._key = app, key.encode()
@@ -172,9 +172,9 @@ class _KeyCheck:
 def serve_http(server: AssistantServer, port: int, key: str = "") -> None:
     """Serves streamable HTTP at /mcp of a port of this machine until it is stopped.
 
-    key: what the hub sends with each request; "": every program of this machine is answered.
+    key: sent by the hub with each request; "": answers every program of this machine.
     """
-    # Nothing is kept of a client between its requests: one that hangs up leaves nothing behind.
+    # Requests are stateless: a client that disconnects leaves nothing behind.
     app = server.streamable_http_app(
         json_response=True, stateless_http=True, max_request_body_size=MOST_BODY
     )

@@ -28,7 +28,7 @@ Priority = Annotated[int, Field(ge=0, le=255, description="higher ones come firs
 
 @dataclass
 class Toolbox:
-    """What tools share: where they are registered, the hub, the documentation, long replies."""
+    """The context of all tools: their registry, the hub, the documentation, long replies."""
 
     server: MCPServer
     hub: HubClient
@@ -45,8 +45,8 @@ class Toolbox:
     ) -> Callable[[Tool], Tool]:
         """Registers a function as a tool that needs permission.
 
-        destroys: what it ends or takes away does not come back. repeatable: a second call of the
-        same arguments changes nothing more.
+        destroys: its effect can't be undone. repeatable: a second call with the same arguments
+        changes nothing more.
         """
         return self._registered(title, False, destroys, repeatable)
 

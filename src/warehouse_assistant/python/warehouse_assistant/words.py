@@ -10,7 +10,7 @@ from collections.abc import Iterable
 MOST_REPLY = 2000  # [bytes]
 MOST_KEPT = 500  # rests of long replies
 MOST_REST = 100_000  # [bytes] of each
-MOST_QUOTED = 120  # characters of a text that stands in data
+MOST_QUOTED = 120  # characters of a text from data
 
 
 def plain(text: object, most: int = MOST_QUOTED) -> str:
@@ -22,12 +22,12 @@ def plain(text: object, most: int = MOST_QUOTED) -> str:
 
 
 def quoted(text: object, most: int = MOST_QUOTED) -> str:
-    """Returns a text that stands in data, in quotation marks and on one line."""
+    """Returns a text from data, in quotation marks and on one line."""
     return json.dumps(plain(text, most), ensure_ascii=False)
 
 
 def sentence(text: str) -> str:
-    """Returns a text that ends as a sentence does."""
+    """Returns a text with a full stop at its end."""
     return text if text.endswith((".", "!", "?", "…")) else f"{text}."
 
 
@@ -37,7 +37,7 @@ def count(number: int, noun: str) -> str:
 
 
 def listed(texts: Iterable[object], most: int = 12) -> str:
-    """Returns texts with commas between, and how many were left out."""
+    """Returns texts with commas between, and the number left out."""
     every = [str(text) for text in texts]
     rest = len(every) - most
     return ", ".join(every[:most]) + (f" and {rest} more" if rest > 0 else "")
@@ -59,7 +59,7 @@ class Replies:
 
     def bounded(self, text: str) -> str:
         """Returns a text of at most `most` bytes: a longer one's beginning, and how to go on."""
-        # What a text may not hold in UTF-8 is a question mark.
+        # Characters that UTF-8 can't encode become question marks.
         data = text.encode("utf-8", "replace")
         if len(data) <= self._most:
             return data.decode("utf-8")
@@ -75,5 +75,5 @@ class Replies:
         return f'{head.rstrip()}\n[{len(rest)} more characters: call more with key "{key}"]'
 
     def rest(self, key: str) -> str | None:
-        """Returns the rest that is kept under a key; None: none is."""
+        """Returns the rest under a key, or None."""
         return self._rests.get(key)

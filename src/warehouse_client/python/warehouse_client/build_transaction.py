@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A change of the whole warehouse, of which no half remains; physics is paused meanwhile."""
+"""Atomic changes of the whole warehouse; physics is paused meanwhile."""
 
 from typing import Any
 
@@ -11,8 +11,8 @@ BUILDING = "warehouse/building"
 class BuildTransaction:
     """`ros` is rospy, `engine` an engine.Engine.
 
-    The parameter BUILDING stays where a builder dies before it commits. Who comes after it learns
-    from there that what stands is half a warehouse, and whether physics shall go on.
+    The parameter BUILDING outlives a builder that dies before it commits. It shows the next builder
+    that the warehouse is half-built, and whether to resume physics.
     """
 
     def __init__(self, ros: Any, engine: Engine) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The coordinator of a running warehouse as its services and topics offer it."""
+"""A client of the coordinator of a running warehouse, by its services and topics."""
 
 import threading
 from types import ModuleType

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The running world as its services offer it: models come and go, physics pauses."""
+"""A client of the running world: adds and deletes models, pauses physics."""
 
 from typing import Any
 
@@ -20,11 +20,12 @@ WAIT = 30.0  # for the world to come up [s, wall]
 
 
 class EngineError(RuntimeError):
-    """The world refused something; the message is its own, with the model's name before it."""
+    """Raised for a refusal of the world, with its message and the model's name."""
 
 
 class Engine:
-    """One client of the world. Its connections persist, so one thread at a time; close it after.
+    """A client of the world with persistent connections: one thread at a time uses it, and closes
+    it.
 
     `ros` is rospy, or what stands in for it in a test.
     """
@@ -65,15 +66,15 @@ class Engine:
         return tuple(poses.planar_of([answer.pose])[0])
 
     def map(self) -> Any:
-        """Returns the nav_msgs/OccupancyGrid of the floor, a cell a grid point: what other models
-        take."""
+        """Returns the nav_msgs/OccupancyGrid of the floor, a cell for each grid point: cells of
+        other models are occupied."""
         return self._call("warehouse/map", GetMap).map
 
     def spawn(self, xml: str, name: str = "") -> None:
         """Adds all models of an SDF text, or none. Raises EngineError.
 
-        They keep the names that the text gives them; one alone goes by `name`, which may be left
-        out where the text is of a world.
+        They keep their names in the text; a single model gets `name`, which may be left out for the
+        text of a world.
         """
         answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", Pose(), "world")
         if not answer.success:

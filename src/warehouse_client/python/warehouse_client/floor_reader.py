@@ -45,22 +45,22 @@ class FloorReader:
             grid = self._ros.ServiceProxy("warehouse/map", GetMap)().map
             plan = plan_reader.of_messages(grid, scenery) if grid.data else None
         except self._ros.ServiceException:
-            return False  # the world comes or goes; there is another time
+            return False  # the world starts or ends; a later call reads it
         except FloorError as error:
-            self._tell(f"the floor has no stations: {error}")
+            self._warn(f"the floor has no stations: {error}")
             plan = None
         self._scenery = scenery
         self._take(plan)
         return True
 
     def _take(self, plan: FloorPlan | None) -> None:
-        """Takes over a FloorPlan; None without a floor."""
+        """Sets stations and places of a FloorPlan; None without a floor."""
         self.stations = station_messages(plan) if plan else []
         self.places = plan.point_of(plan.storage.ravel().nonzero()[0]) if plan else ([], [])
         for reason in plan.without_lane if plan else ():
-            self._tell(reason)
+            self._warn(reason)
 
-    def _tell(self, text: str) -> None:
+    def _warn(self, text: str) -> None:
         if text != self._warning:
             self._ros.logwarn(text)
         self._warning = text

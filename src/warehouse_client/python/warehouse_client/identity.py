@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse is called, and of which layout file it was built: parameters."""
+"""The name, id and layout file of the warehouse, as parameters."""
 
 from typing import Any
 
 NAME, NUMBER = "warehouse/name", "warehouse/id"
-LAYOUT = "warehouse/layout"  # the layout file of the warehouse that stands; "" for another one
+LAYOUT = "warehouse/layout"  # layout file of the present warehouse; "" without one
 INT32 = 2**31
 
 
 def read(ros: Any) -> tuple[str, int]:
     """Returns (name, id) of the warehouse that stands; ("", 0) for one without a name.
 
-    Any node may set parameters: one of another type is warned of once and read as none.
+    Any node may set parameters: a value of another type is ignored with one warning.
     """
     name = ros.get_param(NAME, "")
     number = ros.get_param(NUMBER, 0)

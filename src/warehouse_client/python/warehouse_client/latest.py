@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Between ROS's threads and a node's one worker: what came last, and what is asked for."""
+"""The newest messages for a node's worker thread, and messages made on demand."""
 
 import threading
 from collections.abc import Callable
@@ -9,7 +9,7 @@ from warehouse_client.message_check import fit, subscribe
 
 
 class LatestMessages:
-    """Keeps the newest message of each topic, for a worker that may be slower than they come.
+    """Keeps the newest message of each topic, for a worker that may be slower than the topics.
 
     `ros` is rospy, or what stands in for it in a test.
     """
@@ -40,7 +40,7 @@ class LatestMessages:
     def units_and_objects(self) -> tuple[Any, Any] | None:
         """Returns (WarehouseObjects, UnitStates) of the same revision; None without both.
 
-        Between the two messages of one change they don't; the second is on its way.
+        Between the two messages of a change the revisions differ; the second is on its way.
         """
         objects, states = self["objects"], self["states"]
         return (objects, states) if fit(objects, states) else None
@@ -50,8 +50,8 @@ class LazyPublisher:
     """A latched topic whose message is made only if it has subscribers.
 
     It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the
-    message, or None as long as there is nothing to tell. Where publish() shall send less than all
-    that a newcomer needs, `news()` returns that.
+    message, or None while there is nothing to publish. `news()` returns the message of publish()
+    where that is shorter than what a new subscriber needs.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class LazyPublisher:
         self._publisher = ros.Publisher(
             topic, kind, subscriber_listener=self, latch=True, queue_size=1
         )
-        # A subscriber that connected within the line above found no publisher yet.
+        # A subscriber that connected during the line above has no message yet.
         self.publish()
 
     def publish(self) -> None:
@@ -76,7 +76,7 @@ class LazyPublisher:
             self._send(self._news)
 
     def peer_subscribe(self, _topic: str, _publish: Any, _publish_to_newcomer: Any) -> None:
-        """Called by rospy, just before it sends what is latched."""
+        """Called by rospy, just before it sends the latched message."""
         if self._publisher:
             self._send(self._make)
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a message becomes data: subscribers that check what its fields hold.
+"""Subscribers that check the fields of each message.
 
-Any program may publish on a topic. A message whose arrays do not fit each other, whose kinds no
-message defines or whose numbers are not finite is dropped here, with a warning, so that nothing
-behind a subscriber meets one. Nodes subscribe by subscribe(), and by nothing else.
+Any program may publish on a topic. A message with arrays of different lengths, undefined kinds or
+numbers that are not finite is dropped here with a warning: the code behind a subscriber gets valid
+ones alone. Nodes subscribe by subscribe(), and by nothing else.
 """
 
 import math
@@ -17,13 +17,13 @@ from roslib.message import get_message_class
 
 from warehouse_client.message_contracts import CONTRACTS, Contract, Kinds
 
-MOST = 1e12  # of a number's magnitude: its square is still finite, and what it rounds to an int64
+MOST = 1e12  # largest magnitude of a number: its square is finite, and its rounded value an int64
 AGAIN = 60.0  # between two warnings about a topic [s, wall]
 FLOATS = ("float32", "float64")
 SHOWN = 40  # characters of a value in a warning
 NO_CONTRACT = Contract()
 
-Check = Callable[[Any], str]  # returns what is wrong with a message, or ""
+Check = Callable[[Any], str]  # returns the fault of a message, or ""
 
 
 def subscribe(
@@ -50,8 +50,8 @@ def wait_for(ros: Any, topic: str, kind: Any, timeout: float) -> Any:
 class Gate:
     """Passes the sound messages of a topic on to take(message); warns of others.
 
-    What the world, the coordinator or a shift publishes comes from that node alone as long as it
-    does: a sound message of another program would stand for it until it tells something new.
+    Messages of the world, the coordinator or a shift are accepted from that node alone while it
+    publishes: a valid message of another program would replace its state until the next one.
     """
 
     def __init__(self, ros: Any, topic: str, kind: Any, take: Callable[[Any], object]) -> None:
@@ -70,7 +70,7 @@ class Gate:
             self._ros.logwarn(f"{self._topic}: a message is dropped: {reason}")
 
     def _foreign(self, message: Any) -> str:
-        """Returns why another node than the publisher of a message is heard; or ""."""
+        """Returns why a message of a foreign publisher is ignored; "" if it is accepted."""
         header = getattr(message, "_connection_header", None)
         subscription = getattr(self.subscriber, "impl", None)  # None before and after it
         if not self._source or not header or subscription is None:
@@ -78,18 +78,18 @@ class Gate:
         sender, source = header.get("callerid"), self._ros.resolve_name(self._source)
         heard = {connection.callerid_pub for connection in subscription.connections}
         is_foreign = sender != source and source in heard
-        return f"it is from {sender}; {source} tells this topic" if is_foreign else ""
+        return f"it is from {sender}; {source} publishes this topic" if is_foreign else ""
 
 
 def fault(message: Any) -> str:
-    """Returns what is wrong with a message: field, value, what was expected; "" if nothing is."""
+    """Returns the fault of a message: field, value, what was expected; "" for a valid one."""
     return next(filter(None, (check(message) for check in _checks(message._type))), "")
 
 
 def fit(objects: Any, states: Any) -> bool:
-    """Returns whether a WarehouseObjects and a UnitStates, or None, tell of the same things.
+    """Returns whether a WarehouseObjects and a UnitStates are of the same revision; False for None.
 
-    Between the two messages of one change they don't; the second is on its way.
+    Between the two messages of a change the revisions differ; the second is on its way.
     """
     if objects is None or states is None or objects.revision != states.revision:
         return False
@@ -99,7 +99,7 @@ def fit(objects: Any, states: Any) -> bool:
 
 @cache
 def _checks(message_type: str) -> tuple[Check, ...]:
-    """Returns the checks of a message type; none for one in which anything is sound."""
+    """Returns the checks of a message type; () if any content is valid."""
     kind = get_message_class(message_type)
     contract = CONTRACTS.get(message_type, NO_CONTRACT)
     fields = zip(kind.__slots__, kind._slot_types)
@@ -128,7 +128,7 @@ def _field_checks(name: str, type_: str, contract: Contract) -> Iterator[Check]:
 
 
 def _of_values(name: str, array: str, find: Callable[..., str], *args: Any) -> Check:
-    """Returns the check of a field whose values find(values, *args) looks at."""
+    """Returns the check of a field by find(values, *args)."""
 
     def check(message: Any) -> str:
         value = getattr(message, name)
@@ -152,8 +152,8 @@ def _of_messages(name: str, array: str) -> Check:
 
 
 def _number_fault(values: Sequence[float]) -> str:
-    # The length of all of them as one vector is above the largest magnitude, and not a number if
-    # one is not: a tenth of the time of looking at each.
+    # The norm of all values is at least the largest magnitude, and NaN if any value is: a tenth of
+    # the time of a check of each.
     if isinstance(values, tuple | list) and math.hypot(*values) <= MOST:
         return ""
     array = np.asarray(values, float)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the fields of messages must hold, beyond what their types say.
+"""The contracts of messages: constraints on their fields beyond their types.
 
-A number is finite where no contract says otherwise, in the messages of other packages as well.
+Numbers are finite unless a contract says otherwise, in messages of other packages as well.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,15 +17,15 @@ Kinds = Mapping[Any, str]  # the values that a message defines, and their names
 
 @dataclass(frozen=True)
 class Contract:
-    """What a message of one type must hold.
+    """The contract of a message type.
 
     tables: fields that are columns of one table, "carrier pose:7" for a pose of 7 numbers a row.
-    optional: columns that may also be empty. kinds: the values of fields that have names.
-    ids: fields of numbers above 0, each but once. indices: (lowest, field) that a field's values
-    are indices into. names: what the names in a field begin with, before their number. totals: the
+    optional: columns that may also be empty. kinds: the values of fields with named values. ids:
+    fields of numbers above 0 without repetition. indices: (lowest, field) into which a field's
+    values are indices. names: the prefix of the names in a field, before their number. totals: the
     fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
-    fields that may also be infinite or NaN, which mean something there. source: the node that
-    alone is heard as long as it publishes; "" where any node may.
+    fields in which infinity and NaN have a meaning. source: the only node that is accepted while it
+    publishes; "": any node.
     """
 
     tables: Sequence[str] = ()

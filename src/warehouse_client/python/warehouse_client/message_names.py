@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers in messages as the words that the messages define for them.
+"""The names of numbers in messages, as the messages define them.
 
 The pages show the same words: web/js/base/words.js, which a test compares with these.
 """
@@ -33,7 +33,7 @@ FAILURES = {
     FailRequest.LASER_BLIND: "laser blind",
     FailRequest.RADIO_LOST: "radio lost",
     FailRequest.WHEEL_SLIPS: "wheels slip",
-    6: "out of order",  # of a vehicle of another maker, which says itself why
+    6: "out of order",  # of a vehicle of another maker, which reports the reason itself
 }
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a node begins."""
+"""The start of a node."""
 
 import sys
 from typing import Any
 
 import rospy
 
-# rospy's own names are absolute. In a namespace the clock and the frames are those of its world.
+# rospy's names are absolute; in a namespace, the clock and the frames are those of its world.
 OF_THE_WORLD = ("/clock:=clock", "/tf:=tf", "/tf_static:=tf_static")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where one more robot can stand."""
+"""Free places for another robot."""
 
 import math
 from itertools import count
@@ -11,17 +11,16 @@ from warehouse_layout.generate.cells import Cells
 from warehouse_layout.models import models
 
 NEAR = 0.95  # [m]: another robot that is no further along x and y is on the same cell
-OFF = 1e-3  # as much as a place may be off the grid [m], or a heading off a quarter turn [rad]
+OFF = 1e-3  # largest distance from the grid [m], and angle from a quarter turn [rad]
 
 
 class PlaceError(ValueError):
-    """Why no robot can stand there."""
+    """Raised for a place where no robot can stand; says why."""
 
 
 def add_robot(engine: Engine, x: float, y: float, heading: float) -> int:
-    """Adds a robot on a free grid point (x, y) [m], turned by quarters [rad]; returns its number.
-
-    It gets the lowest free one. Raises PlaceError, EngineError.
+    """Adds a robot on a free grid point (x, y) [m] with a heading in quarter turns [rad]; returns
+    its number, the lowest free one. Raises PlaceError, EngineError.
     """
     standing = survey.of_engine(engine, without=("item", "storage_unit"))
     if len(standing.kiva) >= LIMITS["robots"]:

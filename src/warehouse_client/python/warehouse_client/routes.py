@@ -9,12 +9,12 @@ from typing import Any
 Point = tuple[int, int]
 STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
-# Stopping, a quarter turn and setting off again take about as long as two cells at full speed.
+# A stop, a quarter turn and a start take about the time of two cells at full speed.
 TURN_COST = 2.0
 
 
 class NoRouteError(ValueError):
-    """There is no way from start to goal; the message names both."""
+    """Raised where no way leads from start to goal; names both."""
 
 
 def point(p: Sequence[float]) -> Point:
@@ -38,8 +38,8 @@ def _between(centre: float, reach: float) -> range:
 def route(free: Collection[Point], start: Point, goal: Point) -> list[Point]:
     """Returns the grid points from start to goal, both included: short, with few turns.
 
-    Dijkstra (1959) over the free points and headings. The start may be blocked, for there the
-    robot stands. Raises NoRouteError.
+    Dijkstra (1959) over the free points and headings. The start may be blocked: the robot stands
+    there. Raises NoRouteError.
     """
     queue: list[Any] = [(0.0, start, None, None)]
     came_from: dict[Any, Any] = {}

@@ -5,7 +5,7 @@ from typing import Any
 
 
 def is_offered(ros: Any, name: str) -> bool:
-    """Returns whether a node offers the service. `ros` is rospy, which logs a call of one that is
-    not offered as an error. Raises OSError if the master does not answer."""
+    """Returns whether a node offers a service. `ros` is rospy, which logs an error for a call of a
+    missing one. Raises OSError if the master does not answer."""
     code, *_ = ros.get_master().lookupService(ros.resolve_name(name))
     return bool(code == 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The boxes of all that stands in the running world, from what it publishes for pictures."""
+"""The boxes of all models in the running world, from the messages for its display."""
 
 import time
 from typing import Any
@@ -13,12 +13,12 @@ from warehouse_layout.floor import poses
 from warehouse_layout.models.overlaps import Boxes
 from warehouse_msgs.msg import FleetState, Scenery, UnitStates, WarehouseObjects
 
-PATIENCE = 10.0  # for the messages that a newcomer gets [s, wall]
+PATIENCE = 10.0  # for latched messages [s, wall]
 FLAT = 0.01  # height below which a shape is paint or floor [m]
 
 
 class StandingError(RuntimeError):
-    """The world does not publish what stands in it."""
+    """Raised where the world does not publish its models."""
 
 
 def boxes(ros: Any) -> Boxes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands in the world, by the names and poses of its models."""
+"""The models of the world, by kind, with their poses."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ class Survey:
     layout_walls: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
     spacing: float = 1.0  # of the grid [m]
-    taken: set | None = None  # grid points in the way of which others are; None: not known
+    taken: set | None = None  # grid points blocked by others; None: unknown
 
     def __str__(self) -> str:
         nouns = {"kiva": "robot", "storage_unit": "storage unit", "item": "item"}
@@ -35,14 +35,13 @@ class Survey:
         return ", ".join(parts) or "an empty floor"
 
     def obstacles(self) -> set[routes.Point]:
-        """Returns the grid points that no robot may pass, loaded or not, apart from those of
-        robots."""
+        """Returns the grid points that no robot may pass, loaded or not; robots' own ones are not
+        included."""
         belts = [p for pose in self.conveyor_belt.values() for p in routes.covered(*pose, *BELT)]
         return {*belts, *(self._guessed() if self.taken is None else self.taken)}
 
     def _guessed(self) -> list[routes.Point]:
-        """Returns the grid points near the others, whose size is not known: a person's and a
-        wall's."""
+        """Returns the grid points near others of unknown size: people and walls."""
         return [p for x, y, _ in self.others.values() for p in routes.covered(x, y, 0, 1, 1)]
 
 

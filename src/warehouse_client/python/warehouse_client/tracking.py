@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where storage units and items are, from what the world publishes about them.
+"""The places of storage units and items, from the world's messages.
 
 `objects` is a WarehouseObjects message, `states` a UnitStates message of the same revision.
 """
@@ -21,7 +21,7 @@ class Tracked:
     names: list = field(default_factory=list)
     pose: np.ndarray = field(default_factory=lambda: np.zeros((0, 7)))  # in world
     carrier: np.ndarray = field(default_factory=lambda: np.zeros(0, int))  # kiva id, 0 = none
-    unit: list = field(default_factory=list)  # name of the unit it lies on, or ""
+    unit: list = field(default_factory=list)  # name of the unit beneath it, or ""
 
     def message(self, i: int) -> TrackedObject:
         """Returns the message of object i."""
@@ -50,7 +50,7 @@ class StorageUnits:
 class Items:
     """The items of one WarehouseObjects message: those on a unit go where it goes.
 
-    Asked again, it computes only what lies on units that have moved.
+    Later calls compute the items on moved units alone.
     """
 
     def __init__(self, objects: Any) -> None:
@@ -59,8 +59,9 @@ class Items:
         self._lies = np.flatnonzero(self._unit >= 0)
         self._inner = poses.rows(objects.item_pose)
         self._units = [objects.storage_units[u] if u >= 0 else "" for u in self._unit]
-        self._pose = self._inner.copy()  # in world, of those on units
-        self._unit_pose = np.full((len(objects.storage_units), 7), np.nan)  # by which they are
+        self._pose = self._inner.copy()  # in world, of the items on units
+        # The poses of units by which the last poses of items were computed.
+        self._unit_pose = np.full((len(objects.storage_units), 7), np.nan)
 
     def at(self, states: Any) -> Tracked:
         """Returns the items as Tracked, by a UnitStates message."""
@@ -86,7 +87,7 @@ def items(objects: Any, states: Any) -> Tracked:
 
 
 def moved(old: Tracked, new: Tracked) -> np.ndarray:
-    """Returns which of the new objects stand elsewhere than before, or are new: (n,) bool."""
+    """Returns which objects are new or have moved: (n,) bool."""
     if old.names == new.names:
         return (old.pose != new.pose).any(axis=1)
     row = {name: i for i, name in enumerate(old.names)}
@@ -98,7 +99,7 @@ def moved(old: Tracked, new: Tracked) -> np.ndarray:
 
 
 def changed(old: Tracked, new: Tracked) -> np.ndarray:
-    """Returns the same, with a new carrier as a move; all True if other objects are there."""
+    """Returns the same, with a new carrier as a move; all True after a change of objects."""
     if old.names != new.names or old.unit != new.unit:
         return np.ones(len(new.names), bool)
     return (old.pose != new.pose).any(axis=1) | (old.carrier != new.carrier)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What WarehouseObjects and UnitStates tell of storage units."""
+"""Numbers and poses of storage units, read from WarehouseObjects and UnitStates."""
 
 from typing import Any
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A running warehouse as its topics show it: robots, units, items, people and scenery."""
+"""A running warehouse by its topics: robots, units, items, people and scenery."""
 
 from collections.abc import Callable, Iterator
 from types import ModuleType
@@ -53,23 +53,22 @@ class WarehouseClient:
 
     @property
     def is_known(self) -> bool:
-        """Whether there is a message of each kind, and they fit each other."""
+        """Whether there is a message of each kind, of fitting revisions."""
         fleet, objects, units = self.fleet, self.objects, self.units
         if fleet is None or objects is None or units is None or self.scenery is None:
             return False
         return fit(objects, units) and fleet.timeline == units.timeline
 
     def is_known_at(self, now: float) -> bool:
-        """Returns whether it is known by messages not later than `now` [s].
-
-        Later ones are from before time went back.
+        """Returns whether it is known, by messages not later than `now` [s]: later ones precede a
+        jump back in time.
         """
         fleet = self.fleet
         return self.is_known and fleet is not None and fleet.stamp.to_sec() <= now
 
     @property
     def timeline(self) -> int:
-        """The number of the world's timeline; another one after a jump in time."""
+        """The number of the world's timeline, which changes at a jump in time."""
         return _known(self.fleet).timeline
 
     def plan(self) -> FloorPlan:

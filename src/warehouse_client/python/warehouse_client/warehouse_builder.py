@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Puts a warehouse in place of the one that stands."""
+"""Replaces the warehouse in the world by another one."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -11,17 +11,17 @@ from warehouse_layout.place.layout import Layout
 
 PROGRESS_EVERY = 3.0  # [s, wall]
 
-# Models in one document. A call for each takes forty times as long; one for all leaves the world
-# no time for other clients.
+# Models in a document. A call for each model takes forty times the time; a call for all of them
+# blocks other clients.
 BATCH = 500
 
 
 class UndoneError(EngineError):
-    """The world refused a part of a warehouse; what was built so far was taken away again."""
+    """Raised where the world refused a part of a warehouse, after its other parts were removed."""
 
 
 class WarehouseBuilder:
-    """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
+    """`engine` is an engine.Engine; `report(text)` shows the progress to a person."""
 
     def __init__(
         self,
@@ -35,8 +35,8 @@ class WarehouseBuilder:
     def replace(self, layout: Layout) -> None:
         """Replaces the warehouse by all of the layout, or by its floor alone if that fails.
 
-        Raises UndoneError, and EngineError where the world does not answer any more.
-        Best while physics is paused: what is half-built shall not begin to move.
+        Raises UndoneError, and EngineError where the world does not answer any more. Call it while
+        physics is paused: a half-built warehouse must not move.
         """
         self.clear(floor=layout.has_own_floor)
         try:
@@ -47,9 +47,9 @@ class WarehouseBuilder:
             raise UndoneError(f"{error}; the half-made warehouse was taken away") from error
 
     def clear(self, floor: bool = True) -> None:
-        """Deletes the models of any warehouse; those with other names stay."""
+        """Deletes the models of a warehouse, by their names; keeps all others."""
         for kind in models.PLACED:
-            # Asked for again each time: items go with the storage unit on which they lie.
+            # Read again for each model: items are deleted with their storage unit.
             names = self._engine.names()
             self._delete([name for name in names if models.kind_and_number(name)[0] == kind])
         if floor and models.FLOOR in self._engine.names():

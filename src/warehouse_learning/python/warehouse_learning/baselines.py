@@ -17,7 +17,7 @@ from warehouse_learning.warehouses import Action, Warehouses
 
 Policy = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
-IMPATIENCE = 0.2  # of robots that can't go on: how often they try something else
+IMPATIENCE = 0.2  # probability that a blocked robot tries another action
 
 
 def random_policy(seed: int = 0) -> Policy:

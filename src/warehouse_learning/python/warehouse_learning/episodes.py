@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Episodes as files: what was asked for, the seed and every action, as JSON. Played again they are
+"""Episodes as files: the options, the seed and every action, as JSON. Played again they are
 the same, bit by bit.
 
     python3 -m warehouse_learning.watch episode.json

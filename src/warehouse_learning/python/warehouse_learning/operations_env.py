@@ -96,7 +96,7 @@ class KivaOperationsEnv(gymnasium.Env):
         return simulation.Description(**self._options, seed=seed)
 
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Takes a candidate, and lets the shift go on to the next decision.
+        """Takes a candidate, and runs the shift to the next decision.
 
         Raises ActionError for what is not a candidate.
         """
@@ -122,7 +122,7 @@ class KivaOperationsEnv(gymnasium.Env):
 
     @property
     def decision(self) -> Decision | None:
-        """What is to be decided now; None when the shift is over."""
+        """The present decision; None when the shift is over."""
         return self._decision
 
     def close(self) -> None:
@@ -149,7 +149,7 @@ class KivaOperationsEnv(gymnasium.Env):
 
 
 class _StoppedError(Exception):
-    """Ends the thread of a shift whose environment goes on without it."""
+    """Ends the thread of a shift that its environment no longer needs."""
 
 
 class _Shift:

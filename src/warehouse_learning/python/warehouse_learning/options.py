@@ -49,7 +49,7 @@ class Options:
 
     size: of SIZES, or robots and shelves (storage units) as counts, or layout: a layout file,
     NAME.layout.yaml, with its own shelves, and its own robots unless `robots` says how many.
-    requests: units that are asked for at any time; by default as many as robots.
+    requests: count of units requested at any time; by default that of robots.
     max_cycles: decisions an episode.
 
     decision: "action", a decision lasts until every robot has ended its action; a number is its

@@ -55,7 +55,7 @@ class Page:
         self._feed.request(int(unit) for unit in units)
 
     def moved(self) -> None:
-        """Shows the world if a browser has the page open, and waits until time may go on."""
+        """Shows the world if a browser has the page open, and waits until time may advance."""
         if self.watchers:
             self.show()
         self._pace.wait(self._world.time)

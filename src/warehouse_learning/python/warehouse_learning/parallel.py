@@ -68,7 +68,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
         """Takes {agent: action}, one for each agent, and makes one decision.
 
         Returns observations, rewards, terminations, truncations and infos by agent. Raises
-        ActionError that names the agent whose action is none.
+        ActionError that names the agent with an invalid action.
         """
         if not self.agents:
             return {}, {}, {}, {}, {}

@@ -50,8 +50,8 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
     def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Makes one decision for every robot.
 
-        Returns (observation, reward, terminated, truncated, info). Raises ActionError if the action
-        is none.
+        Returns (observation, reward, terminated, truncated, info). Raises ActionError for an
+        invalid action.
         """
         if self._seed is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
@@ -127,8 +127,8 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
     def step(self, actions: ArrayLike) -> tuple[Any, ...]:
         """Makes one decision in every environment.
 
-        Returns observations, rewards, terminated, truncated and infos. Raises ActionError if an
-        action is none.
+        Returns observations, rewards, terminated, truncated and infos. Raises ActionError for an
+        invalid action.
         """
         if not self._begun:
             raise gymnasium.error.ResetNeeded("reset() begins the first episodes")

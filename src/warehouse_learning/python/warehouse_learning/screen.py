@@ -16,8 +16,8 @@ FRAMES = 4  # a second, of a film
 class Screen:
     """Shows an environment: pictures from `make_picture()`, a page from `make_page()`.
 
-    Each is made when it is first needed. requested() returns the numbers of the storage units
-    that are asked for, which the page marks. Raises ValueError for an unknown mode.
+    Each is made when it is first needed. requested() returns the numbers of the requested
+    storage units, which the page marks. Raises ValueError for an unknown mode.
     """
 
     def __init__(

@@ -21,7 +21,7 @@ from warehouse_learning.options import Options
 
 LONGEST_ACTION = 20.0  # a decision ends then, whatever robots are at [s]
 TOP_SPEED, WHEEL_RADIUS = 1.5, 0.1  # of the Kiva in worlds/models [m/s, m]
-SHOWN_EVERY = 0.1  # to who watches one warehouse [s]
+SHOWN_EVERY = 0.1  # interval at which a viewer of one warehouse is updated [s]
 STANDS = 0.02  # and slower: it can lift [m/s]
 
 
@@ -71,7 +71,7 @@ class Warehouses:
         now = self.worlds
         self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
         self._counts = now.counts
-        self._masks: np.ndarray | None = None  # of the present state, once it was asked for
+        self._masks: np.ndarray | None = None  # of the present state, computed on demand
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
         self._random: list[Any] = [None] * n
@@ -233,10 +233,10 @@ class Warehouses:
         lift = np.where(wants & standing, Action.LIFT, Action.WAIT)
         return self._begin(lift.astype(np.int8))
 
-    # --- what came of it
+    # --- results
 
     def _see(self, which: np.ndarray) -> None:
-        """Takes in where robots of worlds `which` are and what they carry."""
+        """Updates the robots' cells and loads in the worlds `which`."""
         self.task.update(which, *self._robots)
         self._masks = None
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions Move and Carry of warehouse_msgs, made of the commands that robots know.
+"""The actions Move and Carry of warehouse_msgs, composed of robots' commands.
 
-A robot works on one goal at a time. Who cancels a goal gets the robot back once the command that it
-executes has ended: no further one is sent.
+A robot works on one goal at a time. A cancelled goal sends no further command: the robot is free
+once its present command ends.
 """
 
 import queue
@@ -44,7 +44,7 @@ Feedback: TypeAlias = "MoveFeedback | CarryFeedback"
 Result: TypeAlias = "MoveResult | CarryResult"
 
 FEEDBACK_GAP = 0.2  # [s, wall]
-PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
+PATIENCE = 3.0  # wait for the place of a new storage unit [s, wall]
 
 
 @dataclass(frozen=True)
@@ -83,22 +83,22 @@ def _go(kiva: int, target: tuple, phase: int = 0) -> Step:
 
 
 class Work:
-    """A goal on which a robot works: `handle` is actionlib's, `steps` are what is left to do."""
+    """A goal on which a robot works: `handle` is actionlib's, `steps` are the remaining ones."""
 
     def __init__(
         self, handle: ServerGoalHandle, steps: list[Step], feedback: Feedback, result: Result
     ) -> None:
         self.handle, self.steps = handle, steps
         self.feedback, self.result = feedback, result
-        self.command = None  # the number of the first step's, once it was accepted
+        self.command = None  # number of the first step's command, once accepted
 
     @property
     def robot(self) -> str:
-        """The name of the robot that does it."""
+        """The name of its robot."""
         return f"kiva{self.handle.get_goal().kiva_id}"
 
     def hears(self, event: Event) -> bool:
-        """Takes an event of its robot in; returns whether it ends the command that was sent."""
+        """Handles an event of its robot; returns whether it ends the present command."""
         if self.command is None:
             if event.kind == Event.ACCEPTED:
                 self.command = event.command
@@ -136,7 +136,7 @@ class RobotActions:
         for server in self._servers:
             server.start()
 
-    # --- ROS's threads only put down what came; one worker does it
+    # --- ROS's threads queue messages; one worker handles them
     def _on_goal(self, begin: Callable[[Any], None]) -> Callable[[Any], None]:
         return lambda handle: self._inbox.put((begin, handle))
 
@@ -154,7 +154,7 @@ class RobotActions:
                 act, what = self._inbox.get(timeout=FEEDBACK_GAP)
                 act(what)
             except queue.Empty:
-                self._tell()
+                self._publish_feedback()
                 for server in self._servers:
                     server.publish_status()
 
@@ -227,9 +227,9 @@ class RobotActions:
         else:
             work.handle.set_aborted(work.result, event.text)
 
-    # --- feedback, and what goes on between two events
+    # --- feedback between two events
     def _hear_fleet(self) -> None:
-        """The fleet is heard while anybody works."""
+        """Subscribes to the fleet while any robot works on a goal."""
         if self._works and not self._hearing:
             self._hearing = subscribe(
                 self._ros, "warehouse/fleet", FleetState, self._on_fleet, queue_size=1
@@ -245,7 +245,7 @@ class RobotActions:
         i = fleet.kiva_id.index(kiva)
         return Pose2D(fleet.x[i], fleet.y[i], fleet.yaw[i])
 
-    def _tell(self) -> None:
+    def _publish_feedback(self) -> None:
         for work in self._works.values():
             pose = self._pose(work)
             if pose is None:

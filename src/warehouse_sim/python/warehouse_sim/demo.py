@@ -36,10 +36,10 @@ from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim import event_text
 from warehouse_sim.errands import Chart, Errand, meeting, two_errands
 
-TOLERANCE = 0.05  # between where something shall be and where it is [m]
+TOLERANCE = 0.05  # largest distance from an expected place [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
 DELAY = 10.0  # longest time between a robot's end of work and the messages about it [s, wall]
-PERIOD = 0.02  # between two looks at what has come [s, wall]
+PERIOD = 0.02  # between two looks at incoming messages [s, wall]
 ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
 FLEET = "medium"  # the warehouse that a coordinator drives
 EXCHANGE = 20  # from one unit to the next at a station [s]
@@ -56,7 +56,7 @@ COLUMNS = {
 
 
 class DemoError(RuntimeError):
-    """Something expected did not come true; the message says what."""
+    """Raised where an expectation fails; names it."""
 
 
 class Demo:
@@ -123,7 +123,7 @@ class Demo:
 
     def _row(self, robot: int) -> list[str]:
         name = f"kiva{robot}"
-        # The other body of a collision took part in it as well.
+        # A collision involves the other body, too.
         kinds = [
             e.kind for e in self._events if name in (e.model, e.kind == Event.COLLISION and e.other)
         ]
@@ -155,7 +155,7 @@ class Demo:
         moves = (MoveGoal(robot, *self._point(cell)) for robot, cell in ends.items())
         self._act(*moves, may_be_blocked=True)
         self._expect("meeting head on, one of them was blocked at least", self._is_blocked)
-        # A robot that was blocked at once still stands where the other goes.
+        # A robot that was blocked at once still stands at the other's goal.
         taken = set(self._chart().robots.values())
         for robot, cell in sorted(ends.items(), key=lambda pair: pair[1] in taken):
             self._drive(robot, cell)
@@ -203,7 +203,7 @@ class Demo:
         self._plan = self._world.plan()
 
     def _is_ready(self) -> bool:
-        soon = self._ros.Duration(nsecs=1)  # zero would be for ever
+        soon = self._ros.Duration(nsecs=1)  # zero would wait without end
         are_there = all(client.wait_for_server(soon) for client in self._clients.values())
         return are_there and self._world.is_known and self._answers.get_num_connections() > 0
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The health of a running warehouse, /diagnostics: its world, robots, viewer and vehicles.
 
-Functions whose names begin with `of_` judge one part from what was last heard of it.
+Functions `of_…` judge one part by its last messages.
 """
 
 import time
@@ -20,7 +20,7 @@ from warehouse_client.message_names import STATUS, failures_of
 from warehouse_msgs.msg import FleetState, KivaStatus, Vda5050
 
 PERIOD = 1.0  # between two messages [s, wall]
-SILENCE = 5.0  # after which what was heard counts no longer [s, wall]
+SILENCE = 5.0  # age at which a message is stale [s, wall]
 SLOW = 0.9  # share of the requested real-time factor below which the world is slow
 MOST_NAMED = 5  # robots in a sentence
 
@@ -36,8 +36,8 @@ def status(
 def of_world(factor: float | None, requested: float, is_paused: bool) -> DiagnosticStatus:
     """Judges the speed of the world.
 
-    `factor`: its real-time factor as last heard, None while nothing is heard of it; `requested`:
-    the one it is to keep, 0 for as fast as possible.
+    `factor`: its last real-time factor, None without messages; `requested`: the configured one, 0:
+    as fast as possible.
     """
     if factor is None:
         return status("world", DiagnosticStatus.STALE, "nothing is heard of the world")
@@ -78,7 +78,7 @@ def of_robots(fleet: FleetState | None) -> DiagnosticStatus:
 
 
 def of_viewer(address: str, fault: str) -> DiagnosticStatus:
-    """Judges the pages and the HTTP API. `fault`: why they do not answer, empty if they do."""
+    """Judges the pages and the HTTP API. `fault`: why they do not answer; "" if they do."""
     values = {"address": address}
     if fault:
         return status("viewer", DiagnosticStatus.ERROR, f"does not answer: {fault}", values)
@@ -120,7 +120,7 @@ class Heard:
 
 
 class Watch:
-    """Hears what the statuses are judged by. `ros` is rospy."""
+    """Subscribes to the messages behind the statuses. `ros` is rospy."""
 
     def __init__(self, ros: Any) -> None:
         self._ros = ros
@@ -173,6 +173,6 @@ def follow(ros: Any) -> None:
     while not ros.is_shutdown():
         time.sleep(PERIOD)
         if publisher.get_num_connections():
-            # Health is a matter of wall time: a paused or ended world has no other.
+            # By wall time: the simulated time of a paused or ended world stands still.
             stamp = ros.Time.from_sec(time.time())
             publisher.publish(DiagnosticArray(Header(stamp=stamp), list(watch.statuses())))

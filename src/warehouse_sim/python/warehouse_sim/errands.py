@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plans for two robots: who brings which storage unit to which belt, and where the two can meet.
+"""Plans for two robots: their storage units, their belts, and an aisle in which they meet.
 
 A cell is (column, row). Robots go as the actions of warehouse_msgs do: along x first, then along y.
 """
@@ -11,7 +11,7 @@ from itertools import combinations, product
 
 from warehouse_client.routes import STEPS, NoRouteError, Point, elbow
 
-MAX_ROBOTS = 6  # of which two are chosen; the optimum is not needed
+MAX_ROBOTS = 6  # candidates of which two are chosen; more are not worth their time
 MAX_ERRANDS = 400
 AISLE = 5  # cells that two robots need to meet head on and see each other in time
 
@@ -51,10 +51,10 @@ class Chart:
 
 
 def two_errands(chart: Chart, belts: Mapping[str, Point]) -> list[Errand]:
-    """Returns the two shortest errands that can be done at once; `belts`: where units are put down.
+    """Returns the two shortest errands that can be done at once; `belts`: the cells for units.
 
-    Their ways are two cells apart at least: neighbours that turn at once would touch.
-    Raises NoRouteError if there is no such pair.
+    Their ways are at least two cells apart: neighbours that turn at once would touch. Raises
+    NoRouteError if there is no such pair.
     """
     errands = sorted(_all_errands(chart, belts), key=lambda e: len(e.way))[:MAX_ERRANDS]
     pairs = [pair for pair in combinations(errands, 2) if _are_apart(*pair)]

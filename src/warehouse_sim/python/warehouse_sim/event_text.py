@@ -26,7 +26,7 @@ COLOURS = {
     Event.FELL: _RED,
     Event.PICKED_UP: _GREEN,
 }
-# What a terminal would obey rather than show; models have the names that their files give them.
+# Control characters of terminals; names of models come from any file.
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
 
 
@@ -60,11 +60,11 @@ _NOUNS = {
 }
 
 
-class Teller:
-    """Lines of events as they come; of many models that come or go in a row, one line of all.
+class EventLines:
+    """The lines of events; many models that come or go in a row share a line.
 
-    take() and rest() return the lines to print now; rest() is for when nothing has come
-    for a while. `each`: every event has a line.
+    take() and rest() return the lines to print now; call rest() after a while without events.
+    `each`: every event has a line.
     """
 
     def __init__(self, coloured: bool = False, each: bool = False) -> None:
@@ -72,7 +72,7 @@ class Teller:
         self._row: list[Event] = []
 
     def take(self, event: Event) -> list[str]:
-        """Takes an Event in; returns the lines of what is over now."""
+        """Adds an Event; returns the lines that are complete."""
         if self._each or event.kind not in SUMMED:
             return [*self.rest(), line(event, self._coloured)]
         lines = self.rest() if self._row and self._row[0].kind != event.kind else []
@@ -80,7 +80,7 @@ class Teller:
         return lines
 
     def rest(self) -> list[str]:
-        """Returns the lines of what has been kept."""
+        """Returns the lines of pending events."""
         row, self._row = self._row, []
         if len(row) <= FEW:
             return [line(event, self._coloured) for event in row]

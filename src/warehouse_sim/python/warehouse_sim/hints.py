@@ -9,11 +9,11 @@ from typing import Any
 from warehouse_client.routes import elbow, point
 from warehouse_client.survey import Survey
 
-SYSTEM = Path("/usr/lib")  # Python and ROS find what is in it by themselves
+SYSTEM = Path("/usr/lib")  # Python and ROS search it by default
 NEAREST = 20  # units tried for each robot
 
 Point = tuple[int, int]  # on the grid [m]
-Pairs = list[tuple[str, str]]  # shell command, what it does
+Pairs = list[tuple[str, str]]  # shell command, its effect
 
 _CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
 _WITHOUT_ROBOTS = [
@@ -24,7 +24,7 @@ _WITHOUT_ROBOTS = [
 _OF_THE_ENGINE = [
     ("rosservice call /gazebo/get_world_properties", "the same as the engine sees it"),
 ]
-_WITH_A_FLEET = [  # a coordinator has the robots busy, and they would refuse commands
+_WITH_A_FLEET = [  # robots of a coordinator are busy, and refuse commands
     ("rostopic echo -n 1 /warehouse/coordinator", "what each robot does"),
     ("rostopic echo -n 1 /warehouse/state", "what stands in the warehouse"),
     ("rosrun warehouse_sim events", "what happens, until Ctrl-C"),
@@ -32,23 +32,23 @@ _WITH_A_FLEET = [  # a coordinator has the robots busy, and they would refuse co
 
 
 def commands(survey: Survey, has_coordinator: bool = False) -> list[tuple[str, str]]:
-    """Returns three pairs (shell command, what it does) for a Survey."""
+    """Returns three pairs (shell command, its effect) for a Survey."""
     if not survey.kiva:
         return _WITHOUT_ROBOTS
     if has_coordinator:
         return _WITH_A_FLEET
     if abs(survey.spacing - 1) > 1e-6:
-        return [*_WITHOUT_ROBOTS[1:2], *_OF_THE_ENGINE]  # ways are looked for on whole metres
+        return [*_WITHOUT_ROBOTS[1:2], *_OF_THE_ENGINE]  # ways are searched on whole metres
     return _fetch(survey) or _stroll(survey)
 
 
 def _fetch(survey: Survey) -> Pairs | None:
-    """Take up a unit that some robot reaches with one command; None if there is no such pair."""
+    """Returns the commands to fetch a unit that a robot reaches with one command, or None."""
     units = {number: point(pose) for number, pose in survey.storage_unit.items()}
     fixed = survey.obstacles() | {point(pose) for pose in survey.kiva.values()}
     for kiva, unit in _nearest(survey.kiva, units):
         way = elbow(survey.kiva[kiva], units[unit])
-        # The load must get out the way the robot came in, where it came past no other unit.
+        # The load must leave by the robot's way in, which passes no other unit.
         if len(way) > 1 and fixed.isdisjoint(way[1:]) and way[-2] not in units.values():
             return _carry(kiva, unit, way[-1], way[-2])
     return None
@@ -72,7 +72,7 @@ def _carry(kiva: int, unit: int, at: Point, back: Point) -> Pairs:
 
 
 def _stroll(survey: Survey) -> Pairs:
-    """A step ahead, where a parked robot has a street; a turn; and back."""
+    """Returns commands for a parked robot at a street: a step ahead, a turn, and back."""
     kiva, (x, y, yaw) = min(survey.kiva.items())
     dx, dy = round(math.cos(yaw)), round(math.sin(yaw))
     axis, distance = ("x", dx) if dx else ("y", dy)
@@ -90,8 +90,7 @@ def _pub(topic: str, kind: str, **fields: float) -> str:
 
 
 def within(namespace: str, pairs: list[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Returns pairs (shell command, what it does) as they are typed for a warehouse in a namespace,
-    `/` or `/sim1/`."""
+    """Returns pairs (shell command, its effect) for a warehouse in a namespace, `/` or `/sim1/`."""
     return [(_within(namespace, command), meaning) for command, meaning in pairs]
 
 
@@ -104,7 +103,7 @@ def _within(namespace: str, command: str) -> str:
 
 
 def greeting(title: str, pairs: Pairs) -> str:
-    """Returns what the terminal shows once a warehouse is built."""
+    """Returns the text for the terminal once a warehouse is built."""
     wide = max(len(command) for command, _ in pairs)
     lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]
     how = "Try in another terminal, each line once the one before is done:"
@@ -112,5 +111,6 @@ def greeting(title: str, pairs: Pairs) -> str:
 
 
 def _to_source() -> list[str]:
-    """The line that another terminal needs first; none where Debian's packages are installed."""
+    """Returns the line that another terminal needs first; [] where Debian's packages are
+    installed."""
     return [] if SYSTEM in Path(__file__).parents else ["    source devel/setup.bash"]

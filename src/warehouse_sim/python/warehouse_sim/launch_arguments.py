@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the launch files' arguments may be: a table from argument to check.
+"""The valid values of the launch files' arguments: a table from argument to check.
 
-A Check takes the text that was given, and the Place from which; it returns what was expected
-instead, or "" where the text is right.
+A Check takes a text and the Place where it was typed; it returns what was expected instead, or ""
+for a valid text.
 """
 
 import math
@@ -26,7 +26,8 @@ MOST_WHOLE = 2**31 - 1  # of a parameter of ROS
 
 @dataclass(frozen=True)
 class Place:
-    """Where a person typed: relative paths start at `cwd`, worlds go by their name in `worlds`."""
+    """The place of a person who types: relative paths start at `cwd`, `worlds` has worlds by
+    name."""
 
     cwd: Path
     worlds: Path
@@ -36,13 +37,13 @@ Check = Callable[[str, Place], str]
 
 
 def faults(values: Mapping[str, str], place: Place) -> list[str]:
-    """Returns a sentence for each of the arguments {name: text} that is wrong."""
+    """Returns a sentence for each invalid argument of {name: text}."""
     checked = ((name, text, ARGUMENTS[name](text, place)) for name, text in values.items())
     return [f"{name}:={_without_password(text)}: {wrong}" for name, text, wrong in checked if wrong]
 
 
 def conflicts(values: Mapping[str, str], place: Place) -> list[str]:
-    """Returns sentences about arguments {name: text} that are right, but contradict each other."""
+    """Returns sentences about valid arguments {name: text} that contradict each other."""
     return layout_argument.conflicts(values, place.worlds, place.cwd)
 
 
@@ -61,7 +62,7 @@ def unknown(names: Iterable[str], known: Collection[str]) -> list[str]:
 
 
 def near(text: str, known: Iterable[str]) -> str:
-    """Returns the question whether the nearest known word was meant; "" if none is near."""
+    """Returns the question whether the nearest known word was meant; "" without a near one."""
     matches = get_close_matches(text, known, 1)
     return f" (did you mean '{matches[0]}'?)" if matches else ""
 
@@ -112,7 +113,7 @@ def _world(text: str, place: Place) -> str:
 
 
 def _file(what: str) -> Check:
-    """Accepts a file that can be read, and ""."""
+    """Accepts a readable file, and ""."""
 
     def check(text: str, place: Place) -> str:
         path = place.cwd / text
@@ -133,11 +134,11 @@ def _count(text: str, place: Place) -> str:
 
 
 def _new_file(text: str, place: Place) -> str:
-    """Accepts a file that can be written, and ""."""
+    """Accepts a writable file, and ""."""
     path = place.cwd / text
     if not text or (os.access(path.parent, os.W_OK | os.X_OK) and not path.is_dir()):
         return ""
-    return f"a file that can be written was expected; {path} is none"
+    return f"a file that can be written was expected; {path} can't be"
 
 
 def _realism(text: str, place: Place) -> str:
@@ -186,7 +187,7 @@ def point(text: str) -> tuple[float, float] | None:
 
 
 def _shift_takes(name: str) -> Check:
-    """Accepts what a shift takes for its argument of that name."""
+    """Accepts valid values of a shift's argument of that name."""
 
     def check(text: str, place: Place) -> str:
         from warehouse_operations.runs.simulation import ERRORS
@@ -201,7 +202,7 @@ def _shift_takes(name: str) -> Check:
 
 
 def _of_the_shift(name: str, text: str, place: Place) -> str:
-    # Most launches pass one of these.
+    # Most launches have one of these values.
     if text in ("", "fill", "none"):
         return text
     from warehouse_operations.ros import arguments
@@ -214,7 +215,7 @@ def _without_password(text: str) -> str:
     return re.sub(r"(://[^:/@]*:)[^@]*@", r"\1***@", text)
 
 
-# What an argument with few values may be; the hub's form offers the same.
+# The values of arguments with few choices; the hub's form offers the same.
 CHOICES = {
     "size": ("none", *PRESETS, FIT),
     "drive": ("", "traction", "jointed"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is checked before a launch file starts anything: arguments, and that the master is free."""
+"""The checks before a launch file starts anything: valid arguments, and a free master."""
 
 import os
 import re
@@ -16,7 +16,7 @@ from warehouse_layout.file import files
 from warehouse_sim import launch_arguments
 from warehouse_sim.launch_arguments import Place
 
-TIMEOUT = 3.0  # for a world to say that it is there [s, wall]
+TIMEOUT = 3.0  # for the answer of a world [s, wall]
 SHARE = files.share(__file__)  # the folder with launch/
 ENGINE = "gazebo"  # in the namespace of its launch
 LOCAL = re.compile(r"localhost|127\..*")  # names of this machine
@@ -24,7 +24,7 @@ OURS = "$(find warehouse_sim)/"  # how a launch file names files of this package
 
 
 class LaunchError(ValueError):
-    """Why nothing was started, and what helps."""
+    """Raised where nothing was started; says why, and what helps."""
 
 
 class Caller:
@@ -51,7 +51,7 @@ class Caller:
         return {pair[1]: pair[2] for pair in pairs if pair}
 
     def launch_file(self) -> Path | None:
-        """Returns the launch file that was called; None if that can't be known."""
+        """Returns the launch file that was called; None if it is unknown."""
         files = [word for word in self.words if word.endswith((".launch", ".xml"))]
         if len(files) != 1:
             return None
@@ -61,8 +61,8 @@ class Caller:
         return path if path.is_file() else None
 
     def namespace(self, environment: Mapping[str, str]) -> str:
-        """Returns the namespace of all that the launch starts, as `/` or `/sim1/`. That of a group
-        in a launch file of one's own is not known."""
+        """Returns the namespace of the launch's nodes, as `/` or `/sim1/`. The groups of a user's
+        own launch file are not examined."""
         return rosgraph.names.get_ros_namespace({**environment}, [*self.words])
 
     @property
@@ -72,7 +72,7 @@ class Caller:
         return path.name if path else "warehouse.launch"
 
     def known(self) -> set[str] | None:
-        """Returns the arguments that the launch file takes; None if that can't be known."""
+        """Returns the arguments that the launch file takes; None if they are unknown."""
         path = self.launch_file()
         return known_arguments(path, self._share) if path else None
 
@@ -102,7 +102,7 @@ def check_arguments(arguments: Mapping[str, str], caller: Caller, place: Place) 
     Raises LaunchError with a sentence for each that is wrong."""
     known = caller.known()
     texts = launch_arguments.unknown(caller.typed, known) if known is not None else []
-    # A launch file of one's own may have arguments of the same names.
+    # A user's own launch file may have arguments of the same names.
     path = caller.launch_file()
     launch = (place.worlds.parent / "launch").resolve()
     is_ours = path is not None and path.resolve().is_relative_to(launch)
@@ -132,7 +132,7 @@ def master_of(caller: Caller, environment: Mapping[str, str]) -> str | None:
 
 
 def openness(caller: Caller, environment: Mapping[str, str]) -> str:
-    """Returns a sentence if master and nodes of a launch listen to other machines, too; else ""."""
+    """Returns a sentence if other machines reach the master and nodes of a launch; else ""."""
     master = master_of(caller, environment)
     host = urlsplit(master or "").hostname or ""
     if {"ROS_HOSTNAME", "ROS_IP"} & {*environment} or not LOCAL.fullmatch(host):

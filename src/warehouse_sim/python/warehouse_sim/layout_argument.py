@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The argument layout:= of the launch files, and what it says beside others."""
+"""The argument layout:= of the launch files, and its conflicts with others."""
 
 import os
 from collections.abc import Mapping
@@ -13,7 +13,8 @@ NONE = "none"
 
 
 def fault(text: str, cwd: Path) -> str:
-    """Returns why no warehouse can stand there, one sentence a line; "" if one can."""
+    """Returns the reasons why no warehouse can be built of it, a sentence a line; "" without
+    any."""
     if not text or layout_choice.is_preset(text):
         return ""
     try:
@@ -33,7 +34,7 @@ def _fault_of_shift(file: LayoutFile) -> str:
 
 
 def conflicts(values: Mapping[str, str], worlds: Path, cwd: Path) -> list[str]:
-    """Returns sentences about arguments {name: text}, right alone, that contradict layout:=."""
+    """Returns sentences about valid arguments {name: text} that contradict layout:=."""
     layout, robots = values.get("layout", ""), values.get("robots", "")
     if not layout:
         return [f"robots:={robots}: it is for layout:="] if robots else []
@@ -72,9 +73,10 @@ def _check_hall(file: LayoutFile, robots: int) -> None:
 
 
 def world_of(layout: str, world: str, cwd: Path, home: Path) -> str:
-    """Returns the world in which a layout is to be built, as the world's node takes it.
+    """Returns the world for a layout, in the form of the world node's argument.
 
-    One with another grid than 1 m is written into a folder below `home`. Raises LayoutFileError.
+    A world with another grid than 1 m is written into a folder below `home`. Raises
+    LayoutFileError.
     """
     if world or layout_choice.is_preset(layout):
         return world

@@ -14,11 +14,11 @@ from warehouse_layout.models import models
 from warehouse_layout.place import placement
 from warehouse_layout.place.layout import SEED, Layout
 
-TAKEN = 100  # in the world's map: by what belongs to no warehouse
+TAKEN = 100  # in the world's map: a cell of an object outside warehouses
 
 
 def is_file(name: str) -> bool:
-    """Tells whether a warehouse's name is that of a layout file."""
+    """Returns whether a warehouse's name is that of a layout file."""
     if layout_choice.is_preset(name):
         return False
     return name.endswith(layout_file.SUFFIX) or os.sep in name
@@ -30,10 +30,11 @@ def _whole(name: str) -> str:
 
 
 class LayoutBuilding:
-    """`world` is the world's file, if one was named; `seed` decides what is left to chance.
+    """Places layouts. `world` is the world's file, if it was named; `seed` draws parking and
+    contents.
 
-    `launched`: the layout with which the launch began, a file or a preset. It has `robots` robots,
-    if that is a number. Raises LayoutFileError for a layout that can't be read.
+    `launched`: the layout with which the launch began, a file or a preset. `robots` overrides its
+    number of robots, if not empty. Raises LayoutFileError for a layout that can't be read.
     """
 
     def __init__(
@@ -59,11 +60,12 @@ class LayoutBuilding:
 
     @property
     def has_hall(self) -> bool:
-        """Whether the world is one of others, on whose floor warehouses stand."""
+        """Whether warehouses stand on the floor of a world with its own file."""
         return bool(self._world)
 
     def takes(self, name: str) -> bool:
-        """Tells whether a warehouse of that name is to be placed here."""
+        """Returns whether place() builds a warehouse of that name: a layout file, or the launched
+        preset with a number of robots of its own."""
         return is_file(name) or bool(name and name == self._launched and self._robots)
 
     def place(self, name: str, engine: Engine) -> tuple[str, str, Layout]:
@@ -80,13 +82,13 @@ class LayoutBuilding:
         return file.title, name if is_file(name) else "", laid
 
     def check_grid(self, engine: Engine) -> None:
-        """Raises LayoutFileError where the world began with another grid than that of presets."""
+        """Raises LayoutFileError where the world's grid is not that of presets."""
         if self._launched:
             grid = engine.map().info.resolution
             layout_world.check_grid(LayoutFile(np.zeros((1, 1)), name="a preset"), grid)
 
     def _in_hall(self, file: LayoutFile) -> LayoutFile:
-        """Returns the file as it stands in the hall of this world, if there is one."""
+        """Returns the file as it stands in the hall of this world, or unchanged without a hall."""
         hall = layout_choice.world_named(self._world) if self._world else None
         own = layout_choice.building_of(file, files.worlds())
         if own and not (hall and own.samefile(hall)):
@@ -99,7 +101,7 @@ class LayoutBuilding:
         grid = engine.map()
         info, corner = grid.info, grid.info.origin.position
         occupancy = occupancy_of(grid)
-        # Belts and units go with their warehouse; its walls can't be distinguished from the hall's.
+        # Belts and units are replaced with their warehouse; its walls look like the hall's.
         occupancy[occupancy < TAKEN] = UNIT
         if f"{models.WALLS}1" in engine.names():
             occupancy[:] = UNIT

@@ -29,28 +29,29 @@ COORDINATOR = "coordinator/demand"  # a parameter that a launch with a coordinat
 
 
 class WarehouseService:
-    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
+    """Builds one warehouse at a time. `ros` is rospy; `report(text)` writes to the terminal of the
+    launch.
 
-    In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
-    that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
-    `seed` decides what in a layout is left to chance. `layouts` places those of layout files.
+    keeps_floor: a warehouse stands on the free cells of the world's own floor, in its largest room
+    or in that of the point `at`, (x, y) [m]. seed: draws the random parts of a layout. layouts:
+    places those of layout files.
     """
 
     def __init__(
         self,
         ros: ModuleType,
-        tell: Callable[[str], object],
+        report: Callable[[str], object],
         keeps_floor: bool = False,
         seed: int = SEED,
         at: tuple[float, float] | None = None,
         layouts: LayoutBuilding | None = None,
     ) -> None:
-        self._ros, self._tell, self._lock = ros, tell, threading.Lock()
+        self._ros, self._report, self._lock = ros, report, threading.Lock()
         self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
         self._layouts = layouts or LayoutBuilding(seed)
 
     def handle(self, request: CreateWarehouseRequest) -> CreateWarehouseResponse:
-        """Answers a CreateWarehouse request; a refused one changes nothing."""
+        """Answers a CreateWarehouse request; a refusal changes nothing."""
         try:
             message = self.create(
                 request.warehouse_name,
@@ -80,7 +81,7 @@ class WarehouseService:
             transaction = BuildTransaction(self._ros, engine)
             transaction.begin(name)
             try:
-                WarehouseBuilder(engine, self._tell).replace(layout)
+                WarehouseBuilder(engine, self._report).replace(layout)
             except UndoneError:
                 self._finish(transaction, "", 0, layout.floor)
                 raise
@@ -89,7 +90,7 @@ class WarehouseService:
         return f"{title}{request} {_where(layout)}"
 
     def _layout(self, request: Request | None, engine: Engine) -> tuple[Request, Layout]:
-        """(Request, Layout); `wanted` is None where as much is wanted as fits."""
+        """Returns (Request, Layout); request: None for the largest warehouse that fits."""
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
         if cells is None or not cells.taken.size:
             if request is None:
@@ -109,15 +110,14 @@ class WarehouseService:
         transaction.commit()
 
     def start(self, size: str) -> None:
-        """Finds the warehouse as it stands; builds the preset or layout `size`, if any, where none
-        does.
+        """Greets for the warehouse that stands, or builds the preset or layout `size`, if any.
 
-        What a node that died has left half-built is taken away first, and its pause with it.
+        First removes a half-built warehouse of a node that died, and its pause.
         """
         try:
             self._find_or_build("" if size == "none" else size)
         except (RequestError, LayoutFileError) as error:
-            self._tell(f"nothing was built: {error}")
+            self._report(f"nothing was built: {error}")
 
     def _find_or_build(self, size: str) -> None:
         with Engine(self._ros) as engine:
@@ -129,24 +129,24 @@ class WarehouseService:
             self._greet()
 
     def _undo(self, engine: Engine) -> bool:
-        """Takes away what a builder left half-built. True if one did."""
+        """Removes a half-built warehouse; returns whether there was one."""
         transaction = BuildTransaction(self._ros, engine)
         if not transaction.is_unfinished:
             return False
-        self._tell("a warehouse was left half-built; taking it away")
-        WarehouseBuilder(engine, self._tell).clear(floor=False)
+        self._report("a warehouse was left half-built; taking it away")
+        WarehouseBuilder(engine, self._report).clear(floor=False)
         identity.write(self._ros, "", 0)
         transaction.commit()
         return True
 
     def _greet(self, title: str = "") -> None:
-        """Tells what stands there and what to try."""
+        """Reports what stands in the world, with commands to try."""
         with Engine(self._ros) as engine:
             standing = survey.of_engine(engine)
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {standing}"
         to_try = hints.commands(standing, self._ros.has_param(COORDINATOR))
         to_try = hints.within(self._ros.get_namespace(), to_try)
-        self._tell(hints.greeting(title, to_try))
+        self._report(hints.greeting(title, to_try))
         self._ros.set_param(GREETED, True)
 
 
@@ -157,7 +157,7 @@ def _counted(layout: Layout) -> Request:
 
 
 def _where(layout: Layout) -> str:
-    """Returns on which floor a layout stands, and how its stations are served if not as usual."""
+    """Returns words for the floor of a layout, and for unusual stations."""
     if layout.has_own_floor:
         width, length = layout.floor.size
         return f"on a {width:g} x {length:g} m floor"

@@ -57,7 +57,7 @@ class StatePublisher:
         self._shown: tuple[int, tuple[str, int]] | None = (
             None  # (revision, (name, id)) of the last message
         )
-        self._next: float | None = None  # when to publish again [s, simulated]
+        self._next: float | None = None  # next time to publish [s, simulated]
         self._newest = LatestMessages(
             ros,
             fleet=("warehouse/fleet", FleetState),
@@ -69,7 +69,7 @@ class StatePublisher:
         self._topic = LazyPublisher(ros, "warehouse/state", WarehouseState, self.message)
 
     def message(self) -> WarehouseState | None:
-        """Returns the newest WarehouseState, or None if nothing is known yet."""
+        """Returns the newest WarehouseState; None before the first messages."""
         if not self._newest.units_and_objects:
             return None
         out = glance(self._newest["fleet"], *self._newest.units_and_objects)
@@ -79,13 +79,14 @@ class StatePublisher:
         return out
 
     def turn(self, patience: float = 1.0) -> None:
-        """Waits at most `patience` [s, wall] for new messages, and publishes them if it is time."""
+        """Waits at most `patience` [s, wall] for new messages, and publishes the state when
+        it has changed, and once a PERIOD."""
         news = self._newest.wait(patience)
         now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
         if not fit:
             return
         new_floor = self._floor.take(self._newest["scenery"])
-        # The name is asked for when little happens; it comes last when a warehouse is built.
+        # The name is read in quiet moments; it is the last step of building a warehouse.
         shown = (fit[0].revision, None if news else identity.read(self._ros))
         due = self._next is None or not self._next - PERIOD <= now < self._next
         if due or new_floor or self._differs(shown):

@@ -20,9 +20,10 @@ from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 
 Kind = type[tracking.Items] | type[tracking.StorageUnits]
 
-# Topics that come or go between two looks at what moved; each costs the master half a millisecond.
+# Topics that change between two updates of poses; each costs the master half a millisecond.
 BATCH = 200
-# How long topics outlive their objects [s, wall]: a warehouse that is created again has the same.
+# Time that topics outlive their objects [s, wall]: a warehouse that is built again has the same
+# ones.
 LINGER = 15.0
 SPARE_FILES = 500
 
@@ -70,7 +71,7 @@ class PoseTopics:
         return bool(self._new or (are_gone and self._gone))
 
     def _plan(self, names: Sequence[str]) -> None:
-        """Other objects are there: whose topics are to go, and whose to come?"""
+        """Determines the topics to remove and to add for other objects."""
         self._names = names
         self._rows = {name: i for i, name in enumerate(names[: self._limit])}
         self._gone = [name for name in self._topics if name not in self._rows]
@@ -88,7 +89,7 @@ class ObjectList:
         self._stale = np.zeros(0, bool)
 
     def update(self, objects: tracking.Tracked, changed: np.ndarray, stamp: Time) -> None:
-        """Takes over the objects that `changed` marks."""
+        """Updates the objects that `changed` marks."""
         with self._lock:
             if len(changed) != len(self._stale):
                 self._messages = [None] * len(changed)
@@ -122,11 +123,12 @@ class Tracker:
 
     @property
     def count(self) -> int:
-        """How many objects the last update had."""
+        """The number of objects of the last update."""
         return len(self._last.names) if self._last else 0
 
     def update(self, objects: WarehouseObjects, states: UnitStates) -> tuple[bool, bool]:
-        """Takes over the newest messages. Returns whether the list changed, and if work is left."""
+        """Updates from the newest messages. Returns whether the list changed, and whether work is
+        left."""
         if self._places is None or objects is not self._objects:
             self._objects, self._places = objects, self._kind(objects)
         new, old = self._places.at(states), self._last or tracking.Tracked()
@@ -138,7 +140,7 @@ class Tracker:
         return bool(differs), self._pose_topics.update(new, moved, self._stamp)
 
     def go_on(self) -> bool:
-        """Does more of the work that update left. Returns whether there is still some left."""
+        """Continues the work of update(). Returns whether any is left."""
         if self._last is None:
             return False
         nothing = np.zeros(self.count, bool)
@@ -161,7 +163,8 @@ class PoseTopic:
 
 
 def topics_allowed(count: int) -> int:
-    """How many topics a process can have: rospy opens a file for each, beside those of sockets."""
+    """Returns the most topics of a process: rospy opens a file for each, beside those of
+    sockets."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     needed = count + SPARE_FILES
     if soft < needed:

@@ -25,11 +25,11 @@ class Report:
     """A robot's report of its state; the frame is that of the map [m, rad, m/s, rad/s].
 
     busy: it carries out a command, and takes no other. path_id: of the last path that it took, 0
-    for none. reached: how many points of that path its centre has come to; the first is where it
-    began. moving: it drives or turns. refusal: why its last command was refused or broke off, ''
-    if it was not; it holds until the next command. blocked: something is in its way. heard: its
-    radio reaches us; of a robot that is not heard all else is as it was heard last. silent: why
-    nothing is heard of it although its radio works, such as a program that ended, '' if it is.
+    for none. reached: count of that path's points that its centre has reached, with the start.
+    moving: it drives or turns. refusal: why its last command was refused or broke off, '' if it was
+    not; it holds until the next command. blocked: something is in its way. heard: its radio reaches
+    us; otherwise all other fields are of its last report. silent: why nothing is heard of it
+    although its radio works, such as a program that ended; '' if it is heard.
     """
 
     x: float
@@ -69,7 +69,7 @@ class Driver(abc.ABC):
 
     @abc.abstractmethod
     def follow(self, path_id: int, first: int, points: Sequence[Point], released: int) -> None:
-        """Drives a path, or goes on with the one under way.
+        """Drives a path, or extends the one under way.
 
         A new `path_id` with `first` 0 begins where the robot stands, points[0]. The path_id of the
         path under way appends points[0 …] as points number `first` and on. `released` counts the
@@ -78,7 +78,7 @@ class Driver(abc.ABC):
 
     @abc.abstractmethod
     def lift(self, unit: str, up: bool) -> None:
-        """Lifts the unit that stands here (`unit` is its id, '' for whichever), or puts it down."""
+        """Lifts the unit that stands here (`unit` is its id, '' for any), or puts it down."""
 
     @abc.abstractmethod
     def cancel(self) -> None:
@@ -86,7 +86,7 @@ class Driver(abc.ABC):
 
     @abc.abstractmethod
     def stop(self, stopped: bool) -> None:
-        """Stops the robot as it stands and goes, or lets it go on with what it did."""
+        """Pauses the robot at once, or resumes what it did."""
 
     @abc.abstractmethod
     def report(self) -> Report | None:

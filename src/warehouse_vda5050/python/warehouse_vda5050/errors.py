@@ -8,7 +8,7 @@ from enum import StrEnum
 
 
 class ErrorLevel(StrEnum):
-    """WARNING: the vehicle goes on. FATAL: a person has to come."""
+    """WARNING: the vehicle continues. FATAL: a person has to come."""
 
     WARNING = "WARNING"
     FATAL = "FATAL"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from warehouse_vda5050.model import Node, Position
 
 ID = re.compile(r"c?(\d{1,9})_(\d{1,9})")
-TOLERANCE = 0.1  # how far from the middle of a cell a position may be [m]
+TOLERANCE = 0.1  # largest distance of a position from a cell's centre [m]
 
 Cell = tuple[int, int]  # column, row
 
@@ -59,7 +59,7 @@ class Grid:
         """Returns the cell of an order's node: by its position, else by its id. Raises GridError.
 
         An id of the form c<column>_<row> and a position that disagree are refused; other ids are
-        the master's own business as long as there is a position.
+        not checked if there is a position.
         """
         named = self.cell_of_id(node.id)
         if node.position is None:

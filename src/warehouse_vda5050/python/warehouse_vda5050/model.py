@@ -26,7 +26,7 @@ class BlockingType(StrEnum):
 
 
 class ActionStatus(StrEnum):
-    """How far an action has come."""
+    """The progress of an action."""
 
     WAITING = "WAITING"
     INITIALIZING = "INITIALIZING"
@@ -37,7 +37,7 @@ class ActionStatus(StrEnum):
 
     @property
     def is_over(self) -> bool:
-        """Whether it changes no more."""
+        """Whether it is final."""
         return self in (ActionStatus.FINISHED, ActionStatus.FAILED)
 
 
@@ -156,7 +156,7 @@ class InstantActions:
 
 @dataclass(frozen=True)
 class NodeState:
-    """A node that is yet to be passed."""
+    """A node that the vehicle has not passed yet."""
 
     id: str
     sequence: int
@@ -166,7 +166,7 @@ class NodeState:
 
 @dataclass(frozen=True)
 class EdgeState:
-    """An edge that is yet to be driven."""
+    """An edge that the vehicle has not driven yet."""
 
     id: str
     sequence: int
@@ -175,7 +175,7 @@ class EdgeState:
 
 @dataclass(frozen=True)
 class ActionState:
-    """How far an action has come; `instant` marks one that belongs to no order."""
+    """The progress of an action; `instant` marks one that belongs to no order."""
 
     id: str
     type: str

@@ -6,16 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from warehouse_layout.message_enums import FailureKind, State, Status
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import FailureKind, RobotMode, State, Status
 from warehouse_vda5050.driver import Driver, Point, Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType
 from warehouse_vda5050.model import Battery, Factsheet, OperatingMode
 
 MODES = {
-    Mode.AUTOMATIC: OperatingMode.AUTOMATIC,
-    Mode.MANUAL: OperatingMode.MANUAL,
-    Mode.OUT_OF_SERVICE: OperatingMode.SERVICE,
+    RobotMode.AUTOMATIC: OperatingMode.AUTOMATIC,
+    RobotMode.MANUAL: OperatingMode.MANUAL,
+    RobotMode.OUT_OF_SERVICE: OperatingMode.SERVICE,
 }
 MOVING = (State.MOVING_X, State.MOVING_Y, State.ROTATING)
 FAILURES = {
@@ -106,7 +105,7 @@ class SimulatedDriver(Driver):
         self.refusal = self.silence = ""
         self._world, self._sheet = world, sheet or Factsheet()
         self._taken_from = world.taken_before(kiva_id)  # the mode that it goes back to
-        self._gave_back: tuple[int, float] | None = None  # the mode, and when it counts no more
+        self._gave_back: tuple[int, float] | None = None  # the mode, and when it expires
         self._stopped = False
         self._charged_enough = False  # it was commanded to stop, and still stands there
 
@@ -166,12 +165,12 @@ class SimulatedDriver(Driver):
             localized=not sighting.lost,
             heard=not sighting.failures & 1 << FailureKind.RADIO_LOST,
             battery=Battery(100.0 * sighting.charge, charging),
-            mode=self._mode(self._told_mode(sighting)),
+            mode=self._mode(self._reported_mode(sighting)),
             errors=_errors(sighting),
             silent=self.silence,
         )
 
-    def _told_mode(self, sighting: Sighting) -> int:
+    def _reported_mode(self, sighting: Sighting) -> int:
         """The mode that the world reports, or will report in a moment."""
         if self._gave_back and time.monotonic() < self._gave_back[1]:
             return self._gave_back[0]
@@ -179,9 +178,9 @@ class SimulatedDriver(Driver):
 
     def _mode(self, mode: int) -> OperatingMode:
         # MANUAL by an order from here is AUTOMATIC to whom the order came from.
-        if self._taken_from is not None and mode == Mode.MANUAL:
-            return MODES[Mode.AUTOMATIC]
-        return MODES.get(Mode(mode), OperatingMode.MANUAL)
+        if self._taken_from is not None and mode == RobotMode.MANUAL:
+            return MODES[RobotMode.AUTOMATIC]
+        return MODES.get(RobotMode(mode), OperatingMode.MANUAL)
 
     def factsheet(self) -> Factsheet:
         """Returns what all Kivas are."""
@@ -190,8 +189,8 @@ class SimulatedDriver(Driver):
     def take(self) -> str:
         """Makes the robot MANUAL for the coordinator, if there is one."""
         assert self.sighting
-        before = self._told_mode(self.sighting)
-        reason = self._world.set_mode(self.kiva_id, Mode.MANUAL)
+        before = self._reported_mode(self.sighting)
+        reason = self._world.set_mode(self.kiva_id, RobotMode.MANUAL)
         if not reason:
             self._taken_from, self._gave_back = before, None
             self._world.note_taken(self.kiva_id, before)
@@ -207,7 +206,7 @@ class SimulatedDriver(Driver):
         sighting = self.sighting
         if before is None:
             return
-        if sighting and sighting.mode == Mode.MANUAL:
+        if sighting and sighting.mode == RobotMode.MANUAL:
             self._world.set_mode(self.kiva_id, before)
             self._gave_back = before, time.monotonic() + SETTLING
         self._world.note_taken(self.kiva_id, None)

@@ -75,7 +75,7 @@ class Topics:
         rest = topic.removeprefix(self.prefix + "/")
         parts = rest.split("/")
         if rest == topic or len(parts) != 3 or parts[2] not in {kind.value for kind in Kind}:
-            raise TopicError(f"{topic!r} is none of {self.prefix}/<manufacturer>/<serial>/<kind>")
+            raise TopicError(f"{topic!r} is not {self.prefix}/<manufacturer>/<serial>/<kind>")
         return Identity(parts[0], parts[1]), Kind(parts[2])
 
 

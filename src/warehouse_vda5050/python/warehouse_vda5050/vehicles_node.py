@@ -10,7 +10,7 @@ from warehouse_vda5050.broker_topic import BrokerTopic, vehicles_message
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
 
-PERIOD = 0.05  # between two updates [s, wall]
+PERIOD = 0.05  # time between two updates [s, wall]
 
 
 class VehiclesNode:
@@ -40,7 +40,7 @@ class VehiclesNode:
         self._stopping = True
 
     def run(self) -> None:
-        """Goes on until stop(), or until the node is shut down; then gives all robots back."""
+        """Runs until stop(), or until the node is shut down; then gives all robots back."""
         with self._stack:
             self._stack.callback(self._vehicles.close)
             while not (self._stopping or rospy.is_shutdown()):

@@ -34,7 +34,7 @@ from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.simulated_driver import Sighting
 
 SET_MODE = "warehouse/set_robot_mode"
-WAIT = 10.0  # for the scenery of the floor [s]
+WAIT = 10.0  # timeout for the scenery of the floor [s]
 SILENT = 3.0  # silence after which the world counts as ended or paused [s, wall]
 TOWED = 0.02  # an idle lost robot that moves farther was moved by others [m]
 

@@ -33,7 +33,7 @@ import { World } from './base/world.js';
 
 const PANELS_EVERY = 250; // [ms]
 const NOTABLE = 60; // between two pictures; a person sees it [ms]
-const STATION = 0.5; // how far the mark around a station reaches [m]
+const STATION = 0.5; // half side of the mark around a station [m]
 const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
@@ -443,7 +443,7 @@ function toggle(id, then) {
   });
 }
 
-/** How far a thing reaches along the floor, of its bounds [m]. */
+/** Extent of a thing along the floor, from its bounds [m]. */
 function halfOf({ min, max }) {
   return Math.max(...[...min.slice(0, 2), ...max.slice(0, 2)].map(Math.abs));
 }

@@ -158,7 +158,7 @@ def test_another_program_is_not_heard_while_the_world_tells(ros):
     tell("/stranger")
     tell("/gazebo")
     assert [event.text for event in taken] == ["/gazebo"]
-    assert "it is from /stranger; /gazebo tells this topic" in ros.warnings[0]
+    assert "it is from /stranger; /gazebo publishes this topic" in ros.warnings[0]
     del connections[0]  # as where a recording is played
     tell("/stranger")
     assert [event.text for event in taken] == ["/gazebo", "/stranger"]

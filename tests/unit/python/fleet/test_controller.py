@@ -10,8 +10,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
-from warehouse_layout.message_enums import FailureKind, Status
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import FailureKind, RobotMode, Status
 
 STATION = "pick1"
 WHERE = site(robots=2)
@@ -146,11 +145,11 @@ def test_paths_that_others_gave_out_are_cancelled(begin):
 def test_a_robot_that_is_set_manual_on_its_way_is_to_stop(begin):
     fleet = begin()
     fleet.tick()
-    assert fleet.controller.set_mode(2, Mode.MANUAL) == []  # stands
+    assert fleet.controller.set_mode(2, RobotMode.MANUAL) == []  # stands
     fleet.controller.robots.stands[0] = False
-    assert fleet.controller.set_mode(1, Mode.OUT_OF_SERVICE) == [1]
+    assert fleet.controller.set_mode(1, RobotMode.OUT_OF_SERVICE) == [1]
     with pytest.raises(ValueError, match="there is no kiva3"):
-        fleet.controller.set_mode(3, Mode.MANUAL)
+        fleet.controller.set_mode(3, RobotMode.MANUAL)
 
 
 def test_a_robot_that_is_broken_in_a_street_is_towed_aside(begin):

@@ -27,8 +27,7 @@ from warehouse_fleet.transports.transport_book import STAY, Kind, Leave, Step, T
 from warehouse_fleet.transports.unit_map import UnitMap
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, Station
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import Status
+from warehouse_layout.message_enums import RobotMode, Status
 
 WIDTH = 10  # cells: row 0 is a street, row 1 has storage places, row 2 is the lane of a station
 PICK1, SERVICE = "pick1", 22
@@ -151,7 +150,7 @@ def test_a_transport_is_open_again_when_its_robot_breaks_before_the_lift(desk, r
 @pytest.mark.parametrize(
     ("column", "value", "text"),
     [
-        ("mode", Mode.MANUAL, "its robot is MANUAL now"),
+        ("mode", RobotMode.MANUAL, "its robot is MANUAL now"),
         ("gone", True, "its robot was removed from the world"),
         ("stalled_since", 100.0 - DEAD - 0.1, "its robot does not move"),
     ],
@@ -162,7 +161,7 @@ def test_a_transport_fails_with_the_robot_that_carries_its_unit(
     desk.transport(*BRINGING)
     getattr(desk.robots, column)[0] = value
     if column == "gone":
-        desk.robots.mode[0] = Mode.OUT_OF_SERVICE
+        desk.robots.mode[0] = RobotMode.OUT_OF_SERVICE
     recovery.run(desk.reports())
     (event,) = desk.book.take_events()
     assert (event.kind, event.text) == (Kind.FAILED, text)
@@ -172,7 +171,7 @@ def test_a_transport_fails_with_the_robot_that_carries_its_unit(
 
 def test_a_unit_that_a_lost_robot_left_in_a_street_is_fetched_at_once(desk, recovery):
     desk.transport(*BRINGING)
-    desk.robots.mode[0] = Mode.MANUAL
+    desk.robots.mode[0] = RobotMode.MANUAL
     recovery.run(desk.reports())
     desk.units.update({UNIT: STREET}, 101.0, [])
     recovery.store_abandoned()

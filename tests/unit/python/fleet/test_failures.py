@@ -16,7 +16,7 @@ from warehouse_fleet.hosts.fleet_driver import FleetDriver
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.failures import EMPTY, FailureLog
 from warehouse_fleet.transports.transports import Kind, Step
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 LONG = float(os.environ.get("FAILURE_MINUTES", "0"))
 DENSE = 1 if LONG else 10  # failures an hour, for each of those in a warehouse
@@ -144,9 +144,9 @@ def test_who_is_lost_beneath_a_unit_is_towed_from_there():
         beneath = lambda: plan.storage.flat[traffic.robots.cell] & ~traffic.robots.loaded  # noqa: E731
         robot = fleet.until(lambda: np.flatnonzero(beneath()).tolist())[0]
         at = traffic.robots.cell[robot]
-        traffic.robots.lost[robot], traffic.robots.mode[robot] = True, Mode.OUT_OF_SERVICE
+        traffic.robots.lost[robot], traffic.robots.mode[robot] = True, RobotMode.OUT_OF_SERVICE
         fleet.until(lambda: traffic.robots.cell[robot] != at, 30)
-        assert traffic.robots.mode[robot] == Mode.AUTOMATIC
+        assert traffic.robots.mode[robot] == RobotMode.AUTOMATIC
 
 
 def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():

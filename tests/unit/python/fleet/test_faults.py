@@ -15,7 +15,7 @@ from faults import BadConnection, Stops
 
 from warehouse_fleet.transports.transports import Kind
 from warehouse_layout.floor.stations import PICK
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 PILLAR = BOX.replace("0.5 0.5 0.6", "0.1 0.1 0.6")
 # Of pillars that leave no room on any grid point between them [m].
@@ -138,14 +138,14 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
                 site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
             site.until(partial(site.traffic_says, "lost", robot))
             asked = refusals_of(site, robot)
-            assert site.traffic.robots.mode[robot] == Mode.OUT_OF_SERVICE
+            assert site.traffic.robots.mode[robot] == RobotMode.OUT_OF_SERVICE
             assert site.until(partial(failed, site)) == ["its robot is OUT_OF_SERVICE now"]
             for number in range(len(AROUND)):
                 site.world.delete(f"pillar{number}")
             during.append(site.run(WINDOW))
             assert refusals_of(site, robot) <= asked + 1  # the last one was on its way
             assert site.traffic.robots.lost[robot]
-            site.traffic.robots.mode[robot] = Mode.AUTOMATIC
+            site.traffic.robots.mode[robot] = RobotMode.AUTOMATIC
             site.until(partial(site.traffic_says, "astray", robot))
             site.until(lambda: not site.traffic.robots.astray.any())
             assert not site.traffic.robots.lost[robot]

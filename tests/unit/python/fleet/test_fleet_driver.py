@@ -13,7 +13,7 @@ from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT, RobotTable
 from warehouse_fleet.transports.transports import STAY, Kind, Step
 from warehouse_layout.floor import plan_reader
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 
@@ -225,6 +225,6 @@ def test_who_is_gone_is_another_array_once_it_has_changed():
     for _ in range(2):
         robots.align(reports(1, 3))
         assert robots.gone.tolist() == [False, True, False]
-        assert robots.mode[1] == Mode.OUT_OF_SERVICE
+        assert robots.mode[1] == RobotMode.OUT_OF_SERVICE
     robots.align(reports(1, 2, 3))
-    assert not robots.gone.any() and robots.mode[1] == Mode.AUTOMATIC
+    assert not robots.gone.any() and robots.mode[1] == RobotMode.AUTOMATIC

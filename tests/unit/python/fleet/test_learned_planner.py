@@ -92,7 +92,7 @@ def test_lanes_are_no_short_cuts():
         ({"deep": 1}, "deep"),
     ],
 )
-def test_wrong_options_are_told(options, said):
+def test_wrong_options_are_reported(options, said):
     floor = Floor(np.ones((2, 2)))
     with pytest.raises(
         PlannerError, match="planner 'warehouse_fleet.planners.learned_planner:Learned'"

@@ -80,7 +80,7 @@ def test_what_makes_no_sense_is_refused_by_file_and_key(tmp_path, text, complain
         World(realism=file)
 
 
-def test_an_unknown_preset_is_told_with_those_there_are():
+def test_an_unknown_preset_is_reported_with_those_there_are():
     with pytest.raises(FileNotFoundError, match="'sunny'.*bad_day, ideal, typical"):
         World(realism="sunny")
 

@@ -6,7 +6,7 @@ import numpy as np
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.transports.transport_book import Step, Transport
 from warehouse_fleet.transports.waiting import Waiting
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 NOW = 1200.0  # [s]
 
@@ -43,9 +43,9 @@ def test_a_station_by_hand_is_named_instead_of_its_queue():
     assert waiting.for_people() == ["pick1 has waited for a person for 20 min"]
 
 
-def test_what_stands_in_the_way_is_told():
+def test_what_stands_in_the_way_is_reported():
     queue = Queue()
-    queue.robots.mode[0] = Mode.MANUAL
+    queue.robots.mode[0] = RobotMode.MANUAL
     queue.robots.busy[0] = False
     waits = dict(Waiting(queue, []).long())
     assert waits[1] == "behind kiva1, which is manual"
@@ -79,6 +79,6 @@ def test_robots_of_different_stations_share_no_queue():
 
 def test_each_robot_does_one_thing_and_one_that_is_gone_none():
     queue = Queue()
-    queue.robots.mode[1], queue.robots.gone[2] = Mode.OUT_OF_SERVICE, True
+    queue.robots.mode[1], queue.robots.gone[2] = RobotMode.OUT_OF_SERVICE, True
     doing = Waiting(queue, [served(0, "pick1")]).doing()
     assert doing == {1: "waiting", 2: "out_of_service", 4: "idle"}

@@ -93,26 +93,26 @@ def test_a_warehouse_stands_in_its_building():
         (IN_HALL, {"building": "nowhere"}, "building: there is no world 'nowhere'; tried"),
     ],
 )
-def test_what_is_wrong_is_told(path, values, sentence, tmp_path):
+def test_what_is_wrong_is_reported(path, values, sentence, tmp_path):
     with pytest.raises(ValueError) as error:
         World.layout(changed(path, tmp_path, **values))
     assert sentence in str(error.value)
     assert str(error.value).startswith(str(tmp_path / "changed.layout.yaml"))
 
 
-def test_another_grid_than_that_of_the_building_is_told(tmp_path):
+def test_another_grid_than_that_of_the_building_is_reported(tmp_path):
     path = changed(IN_HALL, tmp_path, at="[-6, -6]\nspacing: 1.2")
     with pytest.raises(ValueError, match=r"spacing is 1\.2 m, but the grid of the world is 1 m"):
         World.layout(path)
 
 
-def test_a_name_of_nothing_is_told_with_the_presets():
+def test_a_name_of_nothing_is_reported_with_the_presets():
     with pytest.raises(ValueError, match="not a preset; known are empty, small, medium"):
         World.layout("smal")
     with pytest.raises(ValueError, match="can't pass each other"):
         World.layout(LAYOUTS / "blocked.layout.yaml")
 
 
-def test_a_floor_that_lanes_divide_is_told():
+def test_a_floor_that_lanes_divide_is_reported():
     with pytest.raises(ValueError, match="loaded robots can't get from the streets at"):
         World.layout(LAYOUTS / "cut_by_lanes.layout.yaml")

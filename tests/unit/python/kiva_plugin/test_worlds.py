@@ -86,7 +86,7 @@ def test_wheels_that_are_driven_turn_the_robot_and_a_command_takes_over():
     assert not worlds.drive(left, right)[0, 0]
 
 
-def test_wrong_arguments_are_told():
+def test_wrong_arguments_are_reported():
     worlds = Worlds(2, "small")
     with pytest.raises(IndexError, match="world is 2"):
         worlds.post(2, turns(1))

@@ -128,7 +128,7 @@ def test_a_thousand_cells_square_take_seconds(write, tmp_path):
         (b"\xff\xfe\x00", "byte 0 is not text in UTF-8"),
     ],
 )
-def test_a_wrong_map_is_told(write, text, message):
+def test_a_wrong_map_is_reported(write, text, message):
     path = write(text)
     with pytest.raises(FormatError, match=message) as error:
         formats.read(path)

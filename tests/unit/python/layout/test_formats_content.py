@@ -85,14 +85,14 @@ def test_a_grid_in_a_workbook(tmp_path):
         (",,\n", "a table of 0 x 0 cells"),
     ],
 )
-def test_a_wrong_grid_is_told_with_its_address(tmp_path, text, message):
+def test_a_wrong_grid_is_reported_with_its_address(tmp_path, text, message):
     path = tmp_path / "hall.csv"
     path.write_text(text)
     with pytest.raises(FormatError, match=message):
         formats.read(path)
 
 
-def test_a_broken_workbook_is_told(tmp_path):
+def test_a_broken_workbook_is_reported(tmp_path):
     path = tmp_path / "hall.xlsx"
     path.write_bytes(b"PK\x03\x04 and nothing more")
     with pytest.raises(FormatError, match="hall.xlsx: the workbook can't be read"):
@@ -169,7 +169,7 @@ def test_a_plant_model(tmp_path, axis):
         ("<", r"plant.xml:\d+: "),
     ],
 )
-def test_a_wrong_plant_model_is_told(tmp_path, more, message):
+def test_a_wrong_plant_model_is_reported(tmp_path, more, message):
     path = tmp_path / "plant.xml"
     path.write_text(plant(more=more))
     with pytest.raises(FormatError, match=message):

@@ -157,7 +157,7 @@ def test_walls_with_gaps(path):
     assert lines_of(file.floor)[-1] == "#######" and file.floor[2, 3] == "s"
 
 
-def test_what_is_wrong_is_told(path):
+def test_what_is_wrong_is_reported(path):
     document = drawing()
     path.write_text("0\nSECTION\nthis is not a drawing")
     with pytest.raises(FormatError, match="hall.dxf: "):

@@ -197,7 +197,7 @@ def changed(**at):
         ),
     ],
 )
-def test_what_is_wrong_is_told(write, values, message):
+def test_what_is_wrong_is_reported(write, values, message):
     path = write(values)
     with pytest.raises(FormatError, match=message) as error:
         formats.read(path)
@@ -224,7 +224,7 @@ def test_nodes_that_lie_on_no_grid(write):
     assert any("is neither along x nor along y: it got a corner" in text for text in notes)
 
 
-def test_stations_one_above_the_other_are_told(write):
+def test_stations_one_above_the_other_are_reported(write):
     values = lif()
     values["layouts"][0]["stations"] += [
         {

@@ -55,12 +55,12 @@ def test_an_instance(tmp_path, write, notes):
     assert file.items == 5 * len(instance.units)
 
 
-def test_a_short_cut_in_a_queue_is_told(tmp_path):
+def test_a_short_cut_in_a_queue_is_reported(tmp_path):
     notes = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
     assert any("a lane has one way in and one out; others end at [" in text for text in notes)
 
 
-def test_a_station_without_a_queue_is_told(tmp_path):
+def test_a_station_without_a_queue_is_reported(tmp_path):
     path = write_instance(tmp_path / "a.xinst")
     text = re.sub(r"<Queues>\d+/\d+</Queues>", "", path.read_text())
     path.write_text(text.replace('IsQueueWaypoint="true"', 'IsQueueWaypoint="false"'))
@@ -166,7 +166,7 @@ def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
         ({"PodAmount": "nan"}, "PodAmount is 'nan'"),
     ],
 )
-def test_a_wrong_configuration_is_told(write, values, message):
+def test_a_wrong_configuration_is_reported(write, values, message):
     path = write(**values)
     with pytest.raises(FormatError, match=message) as error:
         formats.read(path)

@@ -168,7 +168,7 @@ def test_a_thousand_cells_square(tmp_path):
         ({"resolution": 9.9}, "1 to 4000000 cells were expected"),
     ],
 )
-def test_a_wrong_map_is_told(tmp_path, fields, message):
+def test_a_wrong_map_is_reported(tmp_path, fields, message):
     grey = np.full((900, 900), 254, np.uint8)
     with pytest.raises(FormatError, match=message):
         formats.read(write_map(tmp_path, grey, **fields))
@@ -185,7 +185,7 @@ def test_a_wrong_map_is_told(tmp_path, fields, message):
         (b"\x89PNG\r\n\x1a\nabc", "the PNG can't be read"),
     ],
 )
-def test_a_broken_picture_is_told(tmp_path, data, message):
+def test_a_broken_picture_is_reported(tmp_path, data, message):
     path = write_map(tmp_path, picture())
     (tmp_path / "m.pgm").write_bytes(data)
     with pytest.raises(FormatError, match=message) as error:
@@ -193,7 +193,7 @@ def test_a_broken_picture_is_told(tmp_path, data, message):
     assert str(tmp_path / "m.pgm") in str(error.value)
 
 
-def test_a_missing_file_is_told(tmp_path):
+def test_a_missing_file_is_reported(tmp_path):
     with pytest.raises(FormatError) as error:
         formats.read(tmp_path / "none.yaml")
     assert str(error.value) == f"{tmp_path}/none.yaml: No such file or directory"

@@ -184,7 +184,7 @@ def test_parking_may_be_several_deep_for_no_loaded_robot_goes_there():
     assert file_check.faults(lf.parse(PARKING)) == []
 
 
-def test_parking_that_no_robot_reaches_is_told():
+def test_parking_that_no_robot_reaches_is_reported():
     lines = PARKING.replace("  .pppp.", "  #pppp#").splitlines()
     lines[2] = lines[6] = "  ######.........."
     (fault,) = file_check.faults(lf.parse("\n".join(lines)))

@@ -166,13 +166,13 @@ def test_a_picture_is_as_large_as_its_floor_is(run, good, tmp_path):
     assert width > height > 500
 
 
-def test_what_does_not_fit_is_drawn_and_told(run, good, tmp_path):
+def test_what_does_not_fit_is_drawn_and_reported(run, good, tmp_path):
     good.write_text(GOOD.replace("robots: 2", "robots: 200"))
     assert run("draw", good, "--out", "north.svg").returncode == 0
     assert "200 robots, but there is room for" in (tmp_path / "north.svg").read_text()
 
 
-def test_a_folder_that_is_none_is_told(run, good):
+def test_a_folder_that_is_none_is_reported(run, good):
     for command, out in (("draw", "no/a.svg"), ("world", "no/a.sdf")):
         done = run(command, good, "--out", out)
         assert done.returncode == 1

@@ -322,7 +322,7 @@ def test_a_layout_file_is_learned_in(name, units):
         assert getattr(warehouses.worlds, name)[0] == pytest.approx(at, abs=0.01)
 
 
-def test_a_layout_that_is_none_is_told():
+def test_a_layout_that_is_none_is_reported():
     for options, message in (
         ({"layout": "nix.layout.yaml"}, "layout: .*nix.layout.yaml: No such file"),
         ({"layout": str(LAYOUTS / "blocked.layout.yaml")}, "can't pass each other"),

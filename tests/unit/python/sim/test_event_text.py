@@ -71,28 +71,28 @@ def test_colours_are_for_terminals():
 
 
 def test_many_models_that_come_or_go_are_one_line():
-    teller = event_text.Teller()
+    lines = event_text.EventLines()
     gone = [f"kiva{i}" for i in range(1, 5)] + [f"item{i}" for i in range(1, 97)]
     come = [*gone, "conveyor_belt1", "floor_markings1"]
-    assert [teller.take(event(Event.DELETED, name)) for name in gone] == [[]] * 100
-    first = teller.take(event(Event.SPAWNED, come[0]))
+    assert [lines.take(event(Event.DELETED, name)) for name in gone] == [[]] * 100
+    first = lines.take(event(Event.SPAWNED, come[0]))
     assert first == ["    12.500 s  100 models     DELETED          4 robots, 96 items"]
-    assert not any(teller.take(event(Event.SPAWNED, name)) for name in come[1:])
-    summed, done = teller.take(event())
+    assert not any(lines.take(event(Event.SPAWNED, name)) for name in come[1:])
+    summed, done = lines.take(event())
     assert summed.endswith(
         "102 models     SPAWNED          4 robots, 96 items, 1 conveyor belt, 1 other model"
     )
     assert done.endswith("DONE")
-    assert teller.rest() == []
+    assert lines.rest() == []
 
 
 def test_few_are_told_one_by_one():
-    teller = event_text.Teller()
+    lines = event_text.EventLines()
     for name in ("box1", "box2", "box3"):
-        assert teller.take(event(Event.SPAWNED, name)) == []
-    assert [line.split()[2] for line in teller.rest()] == ["box1", "box2", "box3"]
+        assert lines.take(event(Event.SPAWNED, name)) == []
+    assert [line.split()[2] for line in lines.rest()] == ["box1", "box2", "box3"]
 
 
 def test_each_is_told_where_that_is_asked_for():
-    teller = event_text.Teller(each=True)
-    assert [len(teller.take(event(Event.DELETED, f"item{i}"))) for i in range(9)] == [1] * 9
+    lines = event_text.EventLines(each=True)
+    assert [len(lines.take(event(Event.DELETED, f"item{i}"))) for i in range(9)] == [1] * 9

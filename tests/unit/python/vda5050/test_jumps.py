@@ -19,8 +19,7 @@ from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor import plan_reader
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import State, Status
+from warehouse_layout.message_enums import RobotMode, State, Status
 from warehouse_vda5050 import model
 from warehouse_vda5050.errors import Error
 from warehouse_vda5050.grid import Grid
@@ -290,7 +289,7 @@ class Floor:
         if self.now - self.lost_since > 2.0:
             if self.chance.random() < 0.5:
                 self.vehicle.yaw = 0.0
-            self.controller.set_mode(self.number, Mode.AUTOMATIC)
+            self.controller.set_mode(self.number, RobotMode.AUTOMATIC)
             self.lost_since = None
 
     def jump(self):

@@ -6,13 +6,12 @@ from dataclasses import replace
 import pytest
 from grid_robot import GRID, order, row
 
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import Status
+from warehouse_layout.message_enums import RobotMode, Status
 from warehouse_vda5050.model import Action, BlockingType, InstantActions, OperatingMode
 from warehouse_vda5050.simulated_driver import Sighting, SimulatedDriver
 from warehouse_vda5050.vehicle import Vehicle, VehicleSettings
 
-PARKED = Sighting(0, 0, 0, 0, 0, 0, Status.IDLE, 0, 0, 0, 0, 0, 0.5, Mode.AUTOMATIC)
+PARKED = Sighting(0, 0, 0, 0, 0, 0, Status.IDLE, 0, 0, 0, 0, 0, 0.5, RobotMode.AUTOMATIC)
 
 
 class Paths:
@@ -96,7 +95,7 @@ class World(Paths):
 
     def __init__(self):
         super().__init__()
-        self.mode = Mode.AUTOMATIC
+        self.mode = RobotMode.AUTOMATIC
 
     def set_mode(self, _kiva_id, mode):
         self.mode = mode
@@ -118,14 +117,14 @@ def test_a_program_that_was_killed_in_mid_order_is_usable_again():
     driver, vehicle = begun(world)
     driver.sighting = PARKED
     vehicle.update(0.0)
-    assert vehicle.on_order(order("o", row(0, 3)), 0.0) and world.mode == Mode.MANUAL
+    assert vehicle.on_order(order("o", row(0, 3)), 0.0) and world.mode == RobotMode.MANUAL
 
     driver, vehicle = begun(world)  # the first ended without a word
-    drives = replace(PARKED, mode=Mode.MANUAL, status=Status.BUSY)
+    drives = replace(PARKED, mode=RobotMode.MANUAL, status=Status.BUSY)
     for now in range(1, 10):
         driver.sighting = drives
         vehicle.update(float(now))
-    assert world.mode == Mode.MANUAL  # the coordinator has no robot that drives for another
+    assert world.mode == RobotMode.MANUAL  # the coordinator has no robot that drives for another
     driver.sighting = replace(drives, status=Status.IDLE)
     vehicle.update(10.0)
     assert vehicle.state().mode is OperatingMode.AUTOMATIC
@@ -142,14 +141,14 @@ def test_a_robot_whose_program_was_killed_goes_back_to_the_coordinator():
     for now in range(4):
         driver.sighting = replace(PARKED, mode=world.mode)
         vehicle.update(float(now))
-    assert world.mode == Mode.AUTOMATIC and world.taken == {1: None}
+    assert world.mode == RobotMode.AUTOMATIC and world.taken == {1: None}
     assert not begun(world)[1].is_taken
 
 
 def test_a_person_who_takes_a_robot_keeps_it():
     world = World()
     driver, vehicle = begun(world)
-    driver.sighting = replace(PARKED, mode=Mode.MANUAL)
+    driver.sighting = replace(PARKED, mode=RobotMode.MANUAL)
     vehicle.update(0.0)
     assert vehicle.state().mode is OperatingMode.MANUAL
 
@@ -160,10 +159,10 @@ def test_a_robot_that_is_taken_again_at_once_goes_back_to_what_it_was():
     driver, _ = begun(world)
     driver.sighting = PARKED
     driver.take()
-    driver.sighting = replace(PARKED, mode=Mode.MANUAL)
+    driver.sighting = replace(PARKED, mode=RobotMode.MANUAL)
     driver.give_back()
-    assert world.mode == Mode.AUTOMATIC
+    assert world.mode == RobotMode.AUTOMATIC
     assert driver.report().mode is OperatingMode.AUTOMATIC
     driver.take()
     driver.give_back()
-    assert world.mode == Mode.AUTOMATIC
+    assert world.mode == RobotMode.AUTOMATIC

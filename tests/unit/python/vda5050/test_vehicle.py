@@ -355,7 +355,7 @@ def test_mode_that_changes_ends_the_order():
     assert state.mode is OperatingMode.SERVICE and state.last_node != "c9_0"
 
 
-def test_errors_of_the_robot_are_told():
+def test_errors_of_the_robot_are_reported():
     bench = Bench()
     bench.robot.extra = {"errors": (Error("motorError"),), "blocked": True}
     state = bench.tick()
@@ -383,5 +383,5 @@ def test_positions_are_told_while_it_moves():
     assert len(xs) == 5 and xs == sorted(set(xs))
 
 
-def test_without_an_interval_no_positions_are_told():
+def test_without_an_interval_no_positions_are_reported():
     assert Bench(visualization=0.0).vehicle.take_visualization(0.0) is None

@@ -56,7 +56,7 @@ def test_the_api_s_page_is_for_all_and_looks_as_it_did(page):
         assert axe.findings(page) == []
 
 
-def test_a_page_that_looks_otherwise_is_told(page):
+def test_a_page_that_looks_otherwise_is_reported(page):
     page.open("data:text/html;charset=utf-8," + quote(PAGE.format(dark="#eee", more="")))
     before = pictures.picture(page, "light")
     assert pictures.difference(before, pictures.picture(page, "light")) == 0

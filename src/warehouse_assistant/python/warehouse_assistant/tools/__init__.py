@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tools, chosen by what people ask for and not by the paths of the HTTP API.
+"""The tools, designed by people's questions, not by the paths of the HTTP API.
 
 simulations    what runs; start, stop, pause; logs
 overview       a warehouse in words; what stands where; why something waits; alarms, events

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tools: orders are listed, submitted, cancelled, and put before others."""
+"""Tools: list, submit, cancel and prioritise orders."""
 
 from typing import Annotated, Literal
 

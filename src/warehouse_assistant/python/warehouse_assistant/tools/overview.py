@@ -26,7 +26,7 @@ def add(box: Toolbox) -> None:
 
     @box.reads("Describe a warehouse")
     async def describe_warehouse(simulation: Simulation = "") -> str:
-        """Tells what runs, what waits, who needs help, and figures against their targets."""
+        """Describes what runs, waits or needs help, and compares figures with their targets."""
         warehouse = await box.hub.simulation(simulation)
         whole = await warehouse.get("warehouse")
         names = ("coordinator", "stations", "figures", "kpis", "alarms")
@@ -54,7 +54,7 @@ def add(box: Toolbox) -> None:
         ],
         simulation: Simulation = "",
     ) -> str:
-        """Finds a robot, storage unit, item, station, SKU or order, and tells its state."""
+        """Finds a robot, storage unit, item, station, SKU or order, and returns its state."""
         warehouse = await box.hub.simulation(simulation)
         if match := NUMBERED.fullmatch(what.strip()):
             kind = KINDS.get(match[1].lower(), match[1].lower())

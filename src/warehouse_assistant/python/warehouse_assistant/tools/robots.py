@@ -27,7 +27,7 @@ def add(box: Toolbox) -> None:
         answer = await warehouse.send("POST", path, body, wait="end", timeout=WAIT)
         texts = listed((quoted(e["text"]) for e in answer["events"]), 4)
         if answer["outcome"] in ("accepted", "pending"):
-            return f"kiva{robot} is at it: {texts or 'sent'}. recent_events tells how it ends."
+            return f"kiva{robot} is at it: {texts or 'sent'}. recent_events shows how it ends."
         return f"kiva{robot}: {answer['outcome']}: {texts}."
 
     @box.changes("Send a robot somewhere", repeatable=True)
@@ -92,15 +92,15 @@ def add(box: Toolbox) -> None:
         await _heard_of(warehouse, number)
         return (
             f"Transport {number} brings unit {unit}. It waits there until release_unit"
-            f" {number}; transport_state tells how far it is."
+            f" {number}; transport_state shows its progress."
         )
 
-    @box.reads("Tell how far a transport is")
+    @box.reads("Show the progress of a transport")
     async def transport_state(
         transport: Annotated[int, Field(ge=1, le=2**53, description="its number")],
         simulation: Simulation = "",
     ) -> str:
-        """Tells how far a transport is, and which robot has it."""
+        """Returns the progress of a transport, and the robot that has it."""
         warehouse = await box.hub.simulation(simulation)
         return _transport(await warehouse.get(f"transports/{transport}"))
 

@@ -76,7 +76,7 @@ def add(box: Toolbox) -> None:
         name: Name,
         forget: Annotated[bool, Field(description="delete its log and recordings, too")] = False,
     ) -> str:
-        """Ends a simulation and, with `forget`, deletes what is kept of it."""
+        """Ends a simulation and, with `forget`, deletes its files."""
         _check_name(name)
         query = {"forget": "true"} if forget else {}
         await box.hub.send("DELETE", f"{SIMULATIONS}/{name}", **query)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tools: a station's work; opening and closing it; picks that are confirmed."""
+"""Tools: a station's work, its opening and closing, confirmed picks."""
 
 from typing import Annotated, Any, Literal
 
@@ -16,7 +16,7 @@ def add(box: Toolbox) -> None:
 
     @box.reads("Describe a station")
     async def describe_station(station: Station, simulation: Simulation = "") -> str:
-        """Tells a station's mode, the picks from the unit that is there, its orders and totes."""
+        """Returns a station's mode, the picks from the unit at it, its orders and totes."""
         warehouse = await box.hub.simulation(simulation)
         row = await _station(warehouse, station)
         state = "open" if row["open"] else "closed"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Controls a fleet: from what is observed at a time to what is to be done.
+"""Controls a fleet: makes a Decision from each Observation.
 
     controller = FleetController(plan, kiva_ids)
     controller.transports.submit(17, "pick3")
@@ -25,9 +25,9 @@ from warehouse_fleet.transports.towing import Towing, TowingService, TowOrder
 from warehouse_fleet.transports.transports import LiftOrder, Transports
 from warehouse_fleet.transports.unit_map import UnitPoses
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
-CANCEL_PERIOD = 1.0  # between two looks at paths that others gave out [s]
+CANCEL_PERIOD = 1.0  # time between two checks of the paths that others commanded [s]
 
 
 def _nothing() -> None:
@@ -52,8 +52,8 @@ class Observation:
 
 @dataclass
 class Decision:
-    """What is to be done. Events of transports stay in the book, since requests between two ticks
-    cause some as well: the host takes them by transports.take_events()."""
+    """The commands of one tick. Events of transports stay in the book, since requests between two
+    ticks cause some as well: the host takes them by transports.take_events()."""
 
     releases: Releases
     lifts: list[LiftOrder] = field(default_factory=list)
@@ -120,7 +120,7 @@ class FleetController:
         return self.traffic.is_stale(time)
 
     def tick(self, observation: Observation) -> Decision:
-        """Takes in an Observation and returns the Decision for it."""
+        """Returns the Decision for an Observation."""
         traffic, gone = self.traffic, self.robots.gone
         reports = self.robots.align(observation.robots)
         for model in observation.refused:
@@ -155,13 +155,13 @@ class FleetController:
         robots += self._handover.waiting(time, reports)
         return self.robots.kiva_ids[robots].tolist()
 
-    def set_mode(self, kiva_id: int, mode: Mode) -> list[int]:
+    def set_mode(self, kiva_id: int, mode: RobotMode) -> list[int]:
         """Sets the side that commands a robot; returns the ids of those whose paths are to end at
         once. Raises ValueError if there is no such robot."""
         robot = self._present(kiva_id)
         self._handover.end(robot)
         self.robots.mode[robot] = mode
-        if mode == Mode.AUTOMATIC:
+        if mode == RobotMode.AUTOMATIC:
             return []
         self._handover.begin(robot)
         return [] if self.robots.stands[robot] else [kiva_id]

@@ -22,7 +22,7 @@ from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.served_part import LeftOut, served_part
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -157,7 +157,7 @@ class CoordinatorNode:
         if why := self._keep_one(kiva_id, mode):
             raise ValueError(why)
         self._send(
-            FleetOrders(timeline=self._timeline), self.controller.set_mode(kiva_id, Mode(mode))
+            FleetOrders(timeline=self._timeline), self.controller.set_mode(kiva_id, RobotMode(mode))
         )
         self._next_state = 0.0  # subscribers see it at once
 
@@ -185,8 +185,8 @@ class CoordinatorNode:
     # --- the controller of the warehouse that is there
 
     def _ensure_controller(self, reports: np.ndarray, time: float, timeline: int) -> bool:
-        """Begins a controller where there is none of this warehouse. Returns whether the reports
-        are to be taken in by it."""
+        """Makes a controller for this warehouse if there is none. Returns whether it may use the
+        reports."""
         if not self._watch.is_complete(timeline) or not len(reports):
             return False  # the warehouse is still to be built
         if self.controller is None and not self._watch.is_consistent:
@@ -270,7 +270,7 @@ class CoordinatorNode:
         out = np.isin(plan.cell_of(reports["x"], reports["y"]), left_out.cells)
         # The world keeps their modes as they are: another floor may reach them.
         shut = out & robots.automatic
-        robots.mode[shut] = self._kept[shut] = Mode.OUT_OF_SERVICE
+        robots.mode[shut] = self._kept[shut] = RobotMode.OUT_OF_SERVICE
         units = self.controller.transports.units.out_of_reach()
         return left_out.text(plan, units, robots.kiva_ids[out].tolist())
 

@@ -15,7 +15,7 @@ from warehouse_fleet.traffic.traffic import Releases
 from warehouse_fleet.transports.obstructions import in_the_way
 from warehouse_fleet.transports.transport_book import Step, TransportEvent
 from warehouse_fleet.transports.waiting import DOES, Waiting
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, FleetFollow
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 
@@ -94,11 +94,14 @@ def state_message(
 def _count_modes(state: CoordinatorState, controller: FleetController) -> None:
     robots = controller.robots
 
-    def ids(mode: Mode) -> list[int]:
+    def ids(mode: RobotMode) -> list[int]:
         return robots.kiva_ids[(robots.mode == mode) & ~robots.gone].tolist()
 
-    state.manual_kiva, state.out_of_service_kiva = ids(Mode.MANUAL), ids(Mode.OUT_OF_SERVICE)
-    state.automatic = len(ids(Mode.AUTOMATIC))
+    state.manual_kiva, state.out_of_service_kiva = (
+        ids(RobotMode.MANUAL),
+        ids(RobotMode.OUT_OF_SERVICE),
+    )
+    state.automatic = len(ids(RobotMode.AUTOMATIC))
     state.manual, state.out_of_service = len(state.manual_kiva), len(state.out_of_service_kiva)
 
 

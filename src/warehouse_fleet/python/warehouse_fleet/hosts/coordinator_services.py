@@ -16,7 +16,7 @@ from warehouse_fleet.traffic.traffic import STAYS
 from warehouse_fleet.transports.towing import TowOrder
 from warehouse_fleet.transports.transport_book import TransportAnswer
 from warehouse_fleet.transports.transports import Transports
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 from warehouse_msgs.srv import (
     CancelTransport,
     CancelTransportRequest,
@@ -130,8 +130,8 @@ class CoordinatorServices:
 
 
 def check_mode(mode: int) -> None:
-    """Raises ValueError for a number that is not a Mode."""
-    if mode not in list(Mode):
+    """Raises ValueError for a number that is not a RobotMode."""
+    if mode not in list(RobotMode):
         text = f"mode is {mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE) was expected"
         raise ValueError(text)
 

@@ -21,7 +21,7 @@ from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.message_enums import EventKind
 
-UPDATE = 0.1  # between two ticks [s]
+UPDATE = 0.1  # time between two updates [s]
 FELL, PICKED_UP = int(EventKind.FELL), int(EventKind.PICKED_UP)
 COLLISION, REFUSED = int(EventKind.COLLISION), int(EventKind.REFUSED)
 
@@ -84,12 +84,12 @@ class FleetDriver:
         return self.world.time
 
     def step_until(self, time: float) -> None:
-        """Goes on until that simulated time [s]."""
+        """Steps until a simulated time [s]."""
         while self.world.time < time - 1e-9:
             self.step()
 
     def step(self) -> None:
-        """Goes on by 0.1 s."""
+        """Advances by 0.1 s."""
         refused = self._take_events()
         if not self.controller.is_stale(self.world.time):
             self._carry_out(self.controller.tick(self._observe(refused)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a plan that was driven with bodies comes to: figures, and a table of them."""
+"""The results of a plan that was driven with bodies: figures, and a table of them."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from warehouse_fleet.league.plan_driver import Cause, PlanDriver
 
-PERIOD = 5.0  # between two points of the curve [s, simulated]
+PERIOD = 5.0  # time between two points of the curve [s, simulated]
 WORDS = {
     Cause.DRIVING: "driving, as long as at top speed",
     Cause.ACCELERATION: "more for starting and braking",
@@ -21,7 +21,7 @@ WORDS = {
 
 
 class DriveLog:
-    """Notes how a drive goes on, every PERIOD; to be called after each step of the driver.
+    """Records the progress of a drive every PERIOD; to be called after each step of the driver.
 
     `curve`: rows of time [s], the mean tick of the plan that robots have come to, and the number of
     robots for each Cause since the row before.
@@ -49,8 +49,8 @@ class DriveLog:
 
 
 def figures(driver: PlanDriver, wall: float, cpu: float) -> dict[str, Any]:
-    """Returns what drive.json has. wall, cpu: what the drive took of the clock and of this
-    process [s]. Of a drive that was interrupted, planned is as much as robots have come to."""
+    """Returns the contents of drive.json. wall, cpu: the drive's duration and its processor time
+    [s]. For an interrupted drive planned_s covers only the ticks that robots reached."""
     order, spacing = driver.order, driver.plan.spacing
     tick_s = spacing / driver.kinematics.speed
     has_arrived = ~np.isnan(driver.arrival)

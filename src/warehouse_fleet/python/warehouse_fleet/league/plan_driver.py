@@ -18,7 +18,7 @@ from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.message_enums import EventKind, State
 
-STUCK = 60.0  # after which a fleet of which no robot moves is given up [s]
+STUCK = 60.0  # a drive ends if no robot moves for this duration [s]
 STANDSTILL = 0.01  # [m/s]
 
 
@@ -83,7 +83,7 @@ class PlanDriver:
 
     @property
     def tick(self) -> NDArray[np.intp]:
-        """The tick of the plan that each robot comes to next, (robots,)."""
+        """The next tick of the plan of each robot, (robots,)."""
         rank = self._execution.next_tick()
         end = len(self.order.rank_of_tick)
         return np.where(rank < 0, end, self.order.tick(rank))
@@ -106,7 +106,7 @@ class PlanDriver:
         return np.flatnonzero(self.time - self._execution.still_since() >= seconds)
 
     def step(self) -> None:
-        """Goes on by 0.1 s."""
+        """Advances by 0.1 s."""
         self._take_events()
         self._update()
         releases = self._execution.release()

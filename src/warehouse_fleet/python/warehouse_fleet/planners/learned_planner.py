@@ -88,7 +88,7 @@ class Rollout:
         return ~stopped & (self._committed[:, self.at] == FREE)
 
     def tick(self, score: Any) -> np.ndarray:
-        """Goes on by one tick; returns what each robot does, (robots,) of Action.
+        """Advances by one tick; returns the robots' actions, (robots,) of Action.
 
         score(scene): (robots, 5), of staying and of the neighbours in the directions of headings.
         """
@@ -108,7 +108,7 @@ class Rollout:
         return actions
 
     def perform(self, actions: np.ndarray) -> None:
-        """Goes on to where actions lead, (robots,) of Action."""
+        """Applies the robots' actions, (robots,) of Action."""
         scene = self.scene
         ahead = scene.cell + self.view.step[scene.heading]
         cell = np.where(actions == FORWARD, ahead, scene.cell)
@@ -128,7 +128,7 @@ class Rollout:
     def _can_go(self, cells: np.ndarray, forward: np.ndarray) -> np.ndarray:
         """(robots,) bool: whose next cell is empty, or left in time by one that can go itself.
 
-        A ring never comes to an empty cell, so that none of its robots goes.
+        A ring never reaches an empty cell, so none of its robots moves.
         """
         holder = {int(cell): robot for robot, cell in enumerate(self.scene.cell)}
         goes = np.zeros(len(cells), bool)

@@ -37,7 +37,7 @@ class Scene:
         self.ways: list[np.ndarray | None] | None = None
 
     def move(self, cell: np.ndarray, heading: np.ndarray) -> None:
-        """Goes on to where robots are a tick later."""
+        """Moves the robots to their cells and headings of the next tick."""
         self.cell, self.heading = cell, heading
         self.targets = self.ways = None
         self.tight = np.isin(cell, self._tight)

@@ -7,10 +7,10 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from warehouse_fleet.robots.failures import LIFTS_NOT, STANDS
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 NOWHERE = -1
-AUTOMATIC, OUT_OF_SERVICE = int(Mode.AUTOMATIC), int(Mode.OUT_OF_SERVICE)
+AUTOMATIC, OUT_OF_SERVICE = int(RobotMode.AUTOMATIC), int(RobotMode.OUT_OF_SERVICE)
 
 # A report, as FleetState has it: metres and radians in the frame world, batteries 0…1.
 REPORT = np.dtype(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Things on the floor that are in the way of a fleet until a person takes them away."""
 
-PATIENCE = 15.0  # after which a person is asked for [s]
+PATIENCE = 15.0  # an obstacle needs a person after this duration [s]
 
 
 class ObstacleLog:

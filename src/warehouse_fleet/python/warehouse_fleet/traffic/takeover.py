@@ -7,7 +7,7 @@ from warehouse_fleet.robots.robot_table import Reports
 from warehouse_fleet.traffic.traffic import Traffic
 from warehouse_layout.message_enums import State, Status
 
-IN_TRANSIT = 2.0  # for which a message may still be on its way to a robot [s]
+IN_TRANSIT = 2.0  # longest delivery time of a message to a robot [s]
 LONGEST = 30.0  # after which a takeover ends whatever a robot is still doing [s]
 
 

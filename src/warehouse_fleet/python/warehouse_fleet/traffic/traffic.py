@@ -22,17 +22,20 @@ from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.plan_reader import is_taken
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import Status
+from warehouse_layout.message_enums import RobotMode, Status
 
-MANUAL, OUT_OF_SERVICE, IDLE = int(Mode.MANUAL), int(Mode.OUT_OF_SERVICE), int(Status.IDLE)
+MANUAL, OUT_OF_SERVICE, IDLE = (
+    int(RobotMode.MANUAL),
+    int(RobotMode.OUT_OF_SERVICE),
+    int(Status.IDLE),
+)
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
-MAP_PERIOD = 1.0  # between two looks at the world's map [s]
-STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
+MAP_PERIOD = 1.0  # time between two reads of the world's map [s]
+STAYS = 2.5  # an obstacle is assumed to stay this long after it was seen [s]
 
 
 class Releases(NamedTuple):
-    """Paths and how far each is released: the arrays of FleetFollow."""
+    """Paths, and the released part of each: the arrays of FleetFollow."""
 
     kiva_id: np.ndarray  # (m,) int32
     path_id: np.ndarray  # (m,) uint32
@@ -110,7 +113,7 @@ class Traffic:
         return time < self.time
 
     def update_robots(self, time: float, reports: Reports) -> None:
-        """Takes in what all robots report at that time [s]: aligned reports (n,) of REPORT."""
+        """Updates from the robots' reports at a time [s]: aligned, (n,) of REPORT."""
         robots, execution = self.robots, self._execution
         self.time = time
         robots.update_health(reports)
@@ -158,8 +161,8 @@ class Traffic:
             robots.mode[self._foreign >= FOREIGN] = MANUAL
 
     def ahead_of(self, robot: int) -> int:
-        """Returns the robot for which one waits, by the plan or because it holds the next cell of
-        the lane; or NOWHERE."""
+        """Returns the robot that a robot waits for, by the plan or because it holds the next cell
+        of the lane; or NOWHERE."""
         ahead = int(self.robots.waits_for[robot])
         if ahead != NOWHERE or self.robots.busy[robot]:
             return ahead
@@ -258,7 +261,7 @@ class Traffic:
         return self._execution.blocked
 
     def releases(self) -> Releases:
-        """Returns what is to be sent now; adopts and begins plans that are due."""
+        """Returns the releases to send; adopts and begins plans that are due."""
         robots = self.robots
         self._execution.set_work(robots.busy, robots.loaded)
         self.plans.adopt_due(self.time)

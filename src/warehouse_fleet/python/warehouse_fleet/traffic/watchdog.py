@@ -7,7 +7,7 @@ import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 
-NO_PROGRESS = 30.0  # after which a robot is counted [s]
+NO_PROGRESS = 30.0  # a robot counts as stuck after standing this long [s]
 LOOKS_AHEAD = 5.0  # without progress, after which the cause of waiting is looked up [s]
 MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be served, or leaves [s]
 
@@ -55,7 +55,7 @@ class Watchdog:
         ahead[ahead == NOWHERE] = len(robots)  # the end of each chain, which excuses none
         ahead, excused = np.append(ahead, len(robots)), np.append(excuses, False)
         excused = excused[ahead]
-        # As many links again each time: a chain is at most as long as there are robots.
+        # Each pass doubles the links followed; a chain has at most as many as there are robots.
         for _ in range(len(robots).bit_length()):
             further = excused | excused[ahead]
             if np.array_equal(further, excused):

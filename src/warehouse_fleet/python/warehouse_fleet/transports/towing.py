@@ -11,7 +11,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.traffic.traffic import Traffic
 from warehouse_fleet.transports.distances import Distances
 from warehouse_layout.floor.floor_plan import FloorPlan
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 
 class TowOrder(NamedTuple):
@@ -101,5 +101,5 @@ class TowingService:
             except ValueError:
                 continue
             if robots.lost[robot]:
-                robots.mode[robot] = Mode.AUTOMATIC
+                robots.mode[robot] = RobotMode.AUTOMATIC
         return orders

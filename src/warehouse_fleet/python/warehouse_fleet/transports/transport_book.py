@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The records of transports: what was asked for, how far each is, and which events that caused."""
+"""The records of transports: the requests, the progress of each, and the events."""
 
 import bisect
 import collections
@@ -42,7 +42,7 @@ class TransportAnswer(NamedTuple):
 
 
 class Step(IntEnum):
-    """How far a transport is."""
+    """The progress of a transport."""
 
     OPEN = 0  # no robot yet
     FETCHING = 1  # the robot drives beneath the unit

@@ -167,8 +167,8 @@ class TransportRequests(ABC):
     # --- state
 
     def arrive(self, transport: Transport) -> None:
-        """Notes that a unit has come to its destination, where it waits to be released. In a cell
-        where it is to stay it is put down at once."""
+        """Notes that a unit has arrived at its destination, where it waits to be released. A unit
+        that stays in a cell is put down at once."""
         self.book.go_on(transport, WAITING)
         self.book.totals.delivered += 1
         self.book.publish_event(transport, Kind.ARRIVED)

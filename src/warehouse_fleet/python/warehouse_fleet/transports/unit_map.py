@@ -10,7 +10,7 @@ import numpy as np
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_layout.floor.floor_plan import FloorPlan
 
-CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
+CROOKED = 0.05  # least offset from a cell's centre at which a unit can't be lifted [m]
 ASKEW = 0.1  # [rad] from the axes, and more: nor there
 UNIT_REACH = 0.48  # of a unit's sides, with room for a robot that turns beside it [m]
 SEEN_LATE = 0.5  # largest lag of the reported states of units [s]

@@ -8,7 +8,7 @@ import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE
 from warehouse_fleet.transports.transport_book import Step, Transport
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import RobotMode
 
 if TYPE_CHECKING:
     from warehouse_fleet.traffic.traffic import Traffic
@@ -47,8 +47,8 @@ class Waiting:
         }
 
     def _does(self, robot: int) -> str:
-        mode = Mode(self._robots.mode[robot])
-        if mode != Mode.AUTOMATIC:
+        mode = RobotMode(self._robots.mode[robot])
+        if mode != RobotMode.AUTOMATIC:
             return mode.name.lower()
         transport = self._of_robot.get(robot)
         return DOES[transport.step] if transport else "idle"
@@ -123,11 +123,11 @@ class Waiting:
         return own.station if other.step in (Step.BRINGING, Step.WAITING) else ""
 
     def _fault(self, robot: int) -> str:
-        """Returns what keeps a robot from driving by itself; empty if nothing does."""
+        """Returns why a robot can't drive autonomously; empty if it can."""
         if self._robots.broken[robot]:
             return "broken"
-        mode = Mode(self._robots.mode[robot])
-        return "" if mode == Mode.AUTOMATIC else mode.name.lower().replace("_", " ")
+        mode = RobotMode(self._robots.mode[robot])
+        return "" if mode == RobotMode.AUTOMATIC else mode.name.lower().replace("_", " ")
 
 
 def _lasting(seconds: float) -> str:

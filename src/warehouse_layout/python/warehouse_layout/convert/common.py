@@ -91,7 +91,7 @@ def plural(count: int, noun: str) -> str:
 
 
 def within_limits(file: LayoutFile, notes: list[str]) -> tuple[LayoutFile, list[str]]:
-    """Returns the file with no more in it than a layout file may have, and what was left out."""
+    """Returns the file cut to a layout file's limits, and sentences about what was left out."""
     notes = list(notes)
     counts: dict[str, Any] = {}
     for name, most in (

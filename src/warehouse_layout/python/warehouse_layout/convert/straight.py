@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 MOST_POINTS = 20_000  # of those that decide about the angle
-GAIN = 1.05  # by which an angle must be better than none
+GAIN = 1.05  # least factor by which an angle must improve on none
 LEAST = 0.01  # degrees by which drawn lines are off the axes
 
 

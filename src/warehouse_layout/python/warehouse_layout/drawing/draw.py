@@ -29,7 +29,7 @@ EDGE, TITLE, DIMENSIONS = 0.35, 0.85, 0.75  # [in]: around the page, above, belo
 def draw(file: LayoutFile, out: str | Path) -> None:
     """Draws a layout into an .svg or .png file. Raises LayoutFileError where it can't be written.
 
-    A layout in which not all has room is drawn as far as it goes, and says what is missing.
+    A layout that lacks room for everything is drawn without the rest, and says what is missing.
     """
     if Path(out).suffix.lower() not in SUFFIXES:
         raise LayoutFileError(f"{out}: a file that ends in .svg or .png was expected")

@@ -22,7 +22,7 @@ Row = Mapping[Any, Any]  # texts by column; more fields than columns have the ke
 
 
 class CsvTable:
-    """The rows of a file, as texts by column. Raises `error` with file and line where it is none.
+    """The rows of a file, as texts by column. Raises `error` with the line that is malformed.
 
     needed, optional: names of columns; others may be there too. text: what there is in place of a
     file, which then only has a name. decimal_comma: 1,5 is one and a half.
@@ -118,6 +118,6 @@ def fields(row: Row) -> dict[str, str]:
 
 
 def shown(text: str, most: int = 80) -> str:
-    """Returns a text from outside as a message can have it."""
+    """Returns a text from outside, made safe for a message."""
     text = text if len(text) <= most else f"{text[:most]}…"
     return text if text.isprintable() else ascii(text)[1:-1]

@@ -80,7 +80,7 @@ class LayoutFile:
 
 
 def rows_of(lines: Iterable[str]) -> np.ndarray:
-    """Returns the floor (h, w) of a drawing's lines, of which the first is the highest row."""
+    """Returns the floor (h, w) of a drawing's lines; the first line is the highest row."""
     return np.array([list(line) for line in lines][::-1], "<U1")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The boxes of which the walls of a drawing are built."""
+"""The boxes that make up the walls of a drawing."""
 
 from collections.abc import Iterable
 

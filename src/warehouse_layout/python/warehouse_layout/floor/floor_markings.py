@@ -64,7 +64,7 @@ class Mark:
     y: float
     size_x: float
     size_y: float
-    model: str = ""  # of which it is a part
+    model: str = ""  # that it is a part of
 
     @property
     def kind(self) -> str:

@@ -11,7 +11,7 @@ Cell = tuple[int, ...]  # y, x
 
 
 def without_dead_ends(streets: np.ndarray) -> np.ndarray:
-    """Returns the largest part of the streets in which two robots that meet can both go on.
+    """Returns the largest part of the streets in which two robots that meet can pass.
 
     Both are (h, w) bool. Dead ends are taken away, and single ways between two parts, on which no
     way round exists: bridges of the graph, found by chains of its depth-first tree (Schmidt 2013).

@@ -12,7 +12,7 @@ from warehouse_layout.file.request import Request
 BLOCK_DEPTH = 2
 BLOCK_LENGTH = 8  # at most
 
-# Cells of a lane before its service cell: the entry, four to wait in and the corner at the least.
+# Cells of a lane before its service cell: at least the entry, four to wait in and the corner.
 # Long ways need more of them, to keep the station busy: at top speed a robot drives FETCH cells
 # while two units are exchanged, one every 20 s.
 QUEUE, WAIT, FETCH = 6, 4, 60

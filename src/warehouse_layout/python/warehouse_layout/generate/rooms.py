@@ -17,9 +17,9 @@ from warehouse_layout.floor.stations import STEPS
 from warehouse_layout.generate.cells import Cells
 
 DOORS = 4  # cells: gaps narrower than this are doors
-OPEN = 0.25  # of a room's border may be doors
+OPEN = 0.25  # largest share of a room's border that may be doors
 LEAST = 16  # cells of a room
-NEAR = 5.0  # from a point that is asked for to the nearest free cell [m]
+NEAR = 5.0  # largest distance from a requested point to the nearest free cell [m]
 
 Point = tuple[float, ...]  # x, y
 

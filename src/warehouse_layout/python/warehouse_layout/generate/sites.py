@@ -22,7 +22,7 @@ from warehouse_layout.generate.rooms import Region
 
 ROW, COLUMN = BLOCK_DEPTH + 1, BLOCK_LENGTH + 1  # from street to street
 SHIFTS = tuple(np.ndindex(COLUMN, ROW))
-TRIES = 5  # to find rooms that leave each other's streets whole
+TRIES = 5  # searches for rooms that leave each other's streets whole
 
 Cell = tuple[int, ...]  # i, j
 

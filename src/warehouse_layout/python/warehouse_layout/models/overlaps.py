@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds out what stands where something is to be added."""
+"""Finds models that overlap with a new one."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ class Boxes:
 
 
 def first(new: Boxes, standing: Boxes) -> tuple[str, str] | None:
-    """Returns the names of a new model and of the model that stands where it is to be, or None."""
+    """Returns the names of a new model and of one that overlaps with it, or None."""
     reach = np.hypot(*standing.half.T)
     for i, name in enumerate(new.names):
         near = np.hypot(*(standing.centre - new.centre[i]).T) < reach + np.hypot(*new.half[i])
@@ -81,7 +81,7 @@ def _overlap(a: Boxes, i: int, b: Boxes, k: int) -> bool:
 
 
 def _reach(boxes: Boxes, i: int, axis: np.ndarray) -> float:
-    """Returns how far a rectangle reaches along an axis from its centre [m]."""
+    """Returns a rectangle's half extent along an axis [m]."""
     cos, sin = np.cos(boxes.yaw[i]), np.sin(boxes.yaw[i])
     along, across = abs(axis @ (cos, sin)), abs(axis @ (-sin, cos))
     return float(boxes.half[i] @ (along, across))

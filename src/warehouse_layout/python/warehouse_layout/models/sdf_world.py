@@ -206,7 +206,7 @@ class _Reader:
 
     @staticmethod
     def _within(frame: np.ndarray, inner: np.ndarray) -> np.ndarray:
-        if not frame[:6].any():  # as of most parts of markings, of which there are many
+        if not frame[:6].any():  # as for most of the many parts of markings
             return inner.copy()
         composed: np.ndarray = poses.compose(frame[None], inner[None])[0]
         return composed

@@ -16,7 +16,7 @@ from warehouse_layout.floor.stations import PICK, STEPS, Station
 from warehouse_layout.place.layout import SEED, Floor, Layout, chance
 
 BELT_CELLS = 2  # of one conveyor belt; a longer one is several, one behind the other
-OFF_GRID = 1e-4  # as much as a cell's centre may be beside the grid [cells]
+OFF_GRID = 1e-4  # largest offset of a cell's centre from the grid [cells]
 HEADINGS = (1, 3, 0, 2)  # in which parked robots face a street, the first that there is
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Trainings as files, from which they go on."""
+"""Trainings as files, from which they resume."""
 
 import json
 from collections.abc import Sequence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a policy comes to: whole episodes of RWARE's task, on the grid or with bodies."""
+"""The evaluation of a policy: whole episodes of RWARE's task, on the grid or with bodies."""
 
 from collections.abc import Callable
 from typing import Any

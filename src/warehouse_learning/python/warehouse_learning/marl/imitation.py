@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A network learns what the fleet's planner would do, in states that it comes to itself: DAgger
+"""A network learns what the fleet's planner would do, in states that it reaches itself: DAgger
 (Ross et al., 2011). So a training can begin with robots that deliver, where chance hardly ever
 does."""
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 ENVIRONMENTS = 16
 ROUND = 50  # steps of each between two times of learning
 BATCH, RATE = 1024, 2e-3
-PASSES = 4  # over what was seen, a round
-LATE_PASSES = 12  # in the end
+PASSES = 4  # over the samples, a round
+LATE_PASSES = 12  # after the last round
 
 
 def imitate(actor: Mlp, encoder: Encoder, task: "Task", steps: int, seed: int) -> float:

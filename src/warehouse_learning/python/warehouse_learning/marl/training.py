@@ -207,7 +207,7 @@ class Training:
         return self.critic.backward(kept, error)
 
     def save(self, path: Path) -> None:
-        """Writes a checkpoint, at once or not at all; restore() goes on from it."""
+        """Writes a checkpoint, atomically; restore() resumes from it."""
         state = {
             "settings": asdict(self.settings),
             "seed": self.seed,
@@ -219,7 +219,7 @@ class Training:
         checkpoint.save(path, state, self._optimisers)
 
     def restore(self, path: Path) -> None:
-        """Goes on from a checkpoint; episodes begin again.
+        """Resumes from a checkpoint; episodes begin again.
 
         Raises ValueError for that of another training.
         """

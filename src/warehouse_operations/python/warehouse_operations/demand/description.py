@@ -11,7 +11,13 @@ import numpy as np
 
 from warehouse_layout.file.csv_table import CsvTable, fields
 from warehouse_operations.stock.demand_file import Demand, Due
-from warehouse_operations.stock.order_file import NEEDED, OPTIONAL, DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import (
+    NEEDED,
+    OPTIONAL,
+    DemandError,
+    OrderDraft,
+    read_csv,
+)
 
 DAY = 86_400.0  # [s]
 QUANTILES = 21  # of the time until orders are due
@@ -27,7 +33,7 @@ class Orders:
     """
 
     path: str
-    orders: Sequence[Wanted]
+    orders: Sequence[OrderDraft]
     rows: int
     repeated: Sequence[tuple[int, str, str]]
 
@@ -60,7 +66,7 @@ def _rows(table: CsvTable) -> Iterator[tuple[int, str, str]]:
 
 
 def describe(orders: Orders, interval_s: float) -> Demand:
-    """Returns what orders are like, in intervals of that length [s]."""
+    """Returns the Demand that orders make, in intervals of a length [s]."""
     by_day = Counter(int(order.at // DAY) for order in orders.orders)
     mean = len(orders.orders) / len(by_day)
     lines = Counter(len(order.lines) for order in orders.orders)
@@ -94,7 +100,7 @@ def _shares(counts: Mapping[int, int]) -> dict[int, float]:
     return {n: round(counts[n] / total, 6) for n in sorted(counts)}
 
 
-def due_of(orders: Sequence[Wanted]) -> Due:
+def due_of(orders: Sequence[OrderDraft]) -> Due:
     """Returns the time that orders have until they are due."""
     left = [max(order.due - order.at, 0.0) for order in orders if order.due]
     if not left:
@@ -142,7 +148,7 @@ def classes(skus: Mapping[str, int]) -> dict[str, dict[str, float]]:
 
 
 def sentences(demand: Demand) -> Iterator[str]:
-    """Yields what a description says, for people."""
+    """Yields sentences for people that summarise a description."""
     hours = demand.seconds / 3600
     days = f"{demand.days:,} days of" if demand.days > 1 else "A day of"
     yield (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is odd in a file of orders, in sentences: what a person would look at before trusting it."""
+"""Oddities of a file of orders, in sentences: what to check before trusting the file."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from warehouse_operations.demand.description import DAY, Orders
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 
 NAMED = 3  # references in a sentence
-MANY = 0.05  # of all orders, that come in the same second
-GAP = 3600.0  # without an order, amid a day [s]
+MANY = 0.05  # share of the orders that come in the same second
+GAP = 3600.0  # pause between two orders of a day that is odd [s]
 LARGE = 20.0  # times the median pieces or lines
 FEW_DAYS = 7
 
 
 def oddities(orders: Orders) -> list[str]:
-    """Returns sentences about what is odd."""
+    """Returns a sentence for each oddity."""
     checks: Sequence[Callable[[Orders], Iterator[str]]] = (
         _due_before,
         _at_once,
@@ -31,7 +31,7 @@ def oddities(orders: Orders) -> list[str]:
     return [sentence for check in checks for sentence in check(orders)]
 
 
-def _named(orders: Sequence[Wanted]) -> str:
+def _named(orders: Sequence[OrderDraft]) -> str:
     names = ", ".join(order.reference for order in orders[:NAMED])
     return names + (" …" if len(orders) > NAMED else "")
 

@@ -15,20 +15,21 @@ from warehouse_layout.file.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.place import file_check
 
 LEAST, MOST = 8, 1000  # cells of an edge
-PILLAR = 9  # cells of the largest thing that a floor may be laid around
-TRIES = 24  # places in which a floor is tried
-ROOMS = 3  # rectangles that are told apart
-SHARE, ALIKE = 0.3, 0.6  # of the largest one that another has at least; of it in a larger one
+PILLAR = 9  # cells of the largest obstacle that a floor is laid around
+TRIES = 24  # positions tried for a floor
+MAX_ROOMS = 3  # largest free rectangles of a building in which a floor is laid
+SHARE, ALIKE = 0.3, 0.6  # least area over the largest room's; largest overlap with a larger room
 Room = tuple[int, int, int, int]  # column, row, width, height
 
 
 class BuildingError(ValueError):
-    """Says what is wrong with a building."""
+    """Raised for a building in which no layout can be searched."""
 
 
 @dataclass(frozen=True)
 class Building:
-    """A layout file of walls, pillars, doors and what else is fixed; plain floor is free."""
+    """A layout file that draws walls, pillars, doors and other fixed things; plain floor is
+    free."""
 
     file: LayoutFile
 
@@ -50,30 +51,31 @@ class Building:
 
     @property
     def free(self) -> np.ndarray:
-        """Which cells are to be filled, (h, w) bool."""
+        """The cells to be filled, (h, w) bool."""
         return np.asarray(self.file.floor == lf.FLOOR)
 
     @property
     def square_metres(self) -> float:
-        """The area of its floor: all but walls and what is outside."""
+        """The area of its floor [m2], without walls and cells outside."""
         inside = ~np.isin(self.file.floor, [lf.NO_FLOOR, lf.WALL])
         return float(inside.sum()) * self.file.spacing**2
 
     @cached_property
     def rooms(self) -> list[Room]:
-        """The largest rectangles of it, with pillars in them: those of an L have an arm each."""
+        """The largest free rectangles, pillars included: one for each arm of an L-shaped
+        building."""
         every = sorted(rectangles(self._without_pillars()), key=lambda room: -room[2] * room[3])
         out: list[Room] = []
         for room in every:
             area = room[2] * room[3]
-            if len(out) == ROOMS or area < SHARE * out[0][2] * out[0][3] if out else not area:
+            if len(out) == MAX_ROOMS or area < SHARE * out[0][2] * out[0][3] if out else not area:
                 break
             if all(_shared(room, other) <= ALIKE * area for other in out):
                 out.append(room)
         return out
 
     def _without_pillars(self) -> np.ndarray:
-        """Returns the free cells, small things within them included."""
+        """Returns the free cells and those of small obstacles among them."""
         taken = ~self.free
         labels, count = ndimage.label(taken, np.ones((3, 3)))
         sizes = ndimage.sum_labels(taken, labels, np.arange(count + 1))
@@ -83,8 +85,8 @@ class Building:
         return self.free | small[labels]
 
     def filled(self, floor: LayoutFile, room: Room) -> LayoutFile | None:
-        """Returns the building with a floor in a room of it where a fleet can work there; None if
-        nowhere."""
+        """Returns the building with a floor at the first position in a room where a fleet can work;
+        None without such a position."""
         column, row, width, height = room
         rows, columns = floor.floor.shape
         if columns > width or rows > height:
@@ -140,7 +142,7 @@ def _moved(station: StationEntry, x: int, y: int) -> StationEntry:
 
 
 def rectangles(free: np.ndarray) -> set[Room]:
-    """Returns rectangles of free cells that can't be made longer, wider or higher; some others."""
+    """Returns all maximal rectangles of free cells, and some others."""
     out = set()
     heights = np.zeros(free.shape[1], int)
     for row, line in enumerate(free):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A layout that was judged by shifts, and which of several no other beats."""
+"""Layouts judged by shifts, and the Pareto front of several."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,11 +18,10 @@ from warehouse_operations.sizing.verdict import Verdict
 
 @dataclass
 class Candidate:
-    """A layout that was judged. late: share of the orders, by the longest shifts it had.
-
-    contacts: of simulated robots; None: it was not simulated with physics. traffic: the pieces that
-    these picked over those that ideal ones picked in the same time. unseen: shifts by seeds that
-    had no part in its choice.
+    """A judged layout. late: share of late orders in its longest shifts. contacts: between
+    simulated robots; None: it was not simulated with physics. traffic: pieces picked by simulated
+    robots over those by ideal ones in the same time. unseen: shifts of seeds that had no part in
+    its choice.
     """
 
     number: int
@@ -60,7 +59,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Judge:
-    """Judges layouts by the shifts that they had. area: the building, whose floor is paid for."""
+    """Judges layouts by their shifts. area: the building, whose whole floor is paid for."""
 
     costs: Costs
     day: Day
@@ -77,7 +76,7 @@ class Judge:
     def bill(self, file: LayoutFile, late: float = 0.0, at_work: float = 0.0) -> Bill:
         """Returns what a layout costs if a share of the orders is not done in time, and robots are
         at work for a share of their time."""
-        # What is done in all of the day: a short shift has its busiest hours alone.
+        # The mean of the whole day: a short shift has the busiest hours alone.
         orders = self.day.orders / self.day.hours * (1 - late)
         units = file.storage_units
         assert isinstance(units, int), "what the search draws has a count of them"
@@ -102,7 +101,7 @@ class Judge:
         return Candidate(number, chosen, file, late, bill, verdict)
 
     def test(self, candidate: Candidate, records: Sequence[Record]) -> None:
-        """Adds what unseen seeds say of a candidate."""
+        """Adds the Verdict and the costs of a candidate by unseen seeds."""
         candidate.unseen = self.verdict(candidate.file, records)
         candidate.unseen_a_piece = tuple(
             self.bill(candidate.file, figures["late"], figures["robots_at_work"]).a_piece
@@ -116,14 +115,14 @@ def robots_of(file: LayoutFile) -> int:
 
 
 def beats(first: Bill, second: Bill) -> bool:
-    """Returns whether a bill is nowhere above another, and below it somewhere."""
+    """Returns whether a bill dominates another: no cost is higher, one is lower."""
     pairs = ((first.to_buy, second.to_buy), (first.a_piece, second.a_piece))
     return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)
 
 
 def front(candidates: Sequence[Candidate], late: float) -> list[Candidate]:
-    """Returns those that no other beats in what they cost to buy and a piece: of those that keep
-    the limit, or of all where none does."""
+    """Returns the Pareto front by purchase cost and cost a piece: of the candidates within the
+    limit, or of all where no candidate is."""
     able = [each for each in candidates if each.late <= late] or list(candidates)
     return sorted(
         (each for each in able if not any(beats(other.bill, each.bill) for other in able)),

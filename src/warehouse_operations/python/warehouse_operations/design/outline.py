@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Floors that follow the outline of a building, whatever it is: two-way streets over all of it,
-stations with lanes in the middle of the storage, and places nearest to them."""
+"""Floors that follow any outline of a building: two-way streets over all of it, stations with lanes
+in the middle of the storage, and places nearest to them."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -28,7 +28,7 @@ BELT = range(2)  # cells behind a service cell
 def filled(
     building: Building, request: Request, replenish: int, pick_kind: str, shift: int
 ) -> LayoutFile | None:
-    """Returns a building that is filled so; None where there is too little room for it.
+    """Returns a building filled in this way; None where it has too little room.
 
     shift: of the pattern of streets, below SHIFTS. pick_kind: of the picking stations.
     """

@@ -25,7 +25,7 @@ DRAWN = 4  # layouts that the report shows
 
 
 def write(folder: Path, search: Search, front: Sequence[Candidate], why: str) -> Path:
-    """Writes all files; returns the report's path. why: there is no answer, or ""."""
+    """Writes all files; returns the report's path. why: why there is no answer, or ""."""
     for number, candidate in enumerate(front, start=1):
         layout_file.write(candidate.file, folder / f"front-{number}{SUFFIX}")
     if front:
@@ -64,7 +64,7 @@ def _row(number: int, candidate: Candidate) -> list[object]:
 
 
 def answer(search: Search, front: Sequence[Candidate]) -> str:
-    """Returns the answer in sentences: what stands there, what it costs, and how sure that is."""
+    """Returns the answer in sentences: the layout, its cost and the confidence in both."""
     best = front[0]
     puts = (
         f"{count(best.chosen['replenish'], 'replenishing station')}"
@@ -79,7 +79,7 @@ def answer(search: Search, front: Sequence[Candidate]) -> str:
 
 
 def _sure(search: Search, best: Candidate) -> str:
-    """Returns what days say that had no part in the choice."""
+    """Returns a sentence about the days that had no part in the choice."""
     cost, late, limit = best.unseen_cost, best.unseen_late, search.late
     if late.mean > limit:
         word = "the limit is missed"
@@ -100,7 +100,7 @@ def _physics(best: Candidate) -> str:
 
 
 def effort(search: Search) -> str:
-    """Returns what the search took."""
+    """Returns a sentence about the effort of the search."""
     return (
         f"{search.trials} trials by short shifts, {search.by_hand} without a shift;"
         f" {search.shifts} shifts, {search.simulated} of them simulated in this run;"

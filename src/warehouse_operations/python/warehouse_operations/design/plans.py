@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the search may vary of a layout, and the layout file that comes of it."""
+"""The parameters that the search varies, and the layout files built from them."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,11 +19,11 @@ from warehouse_operations.policies import DEFAULTS
 from warehouse_operations.sizing.day import Day
 
 PIECES_AN_HOUR = 360.0  # of a picking station, at most
-SPARE_STATIONS = 2  # beyond those that the busiest hour takes at most
+SPARE_STATIONS = 2  # above the number that the busiest hour needs
 ROBOTS_A_STATION = 8
-FEW_ROBOTS, MANY_ROBOTS = 3, 6  # a station, with which the search begins
+FEW_ROBOTS, MANY_ROBOTS = 3, 6  # per station, in the first trials
 BINS_A_SKU = 1.2  # at least, on the average
-POLICY = "policy_"  # before the role, in a parameter's name
+POLICY = "policy_"  # prefix of a role in a parameter's name
 POLICIES = {
     "orders": ("pile-on", "due date", "fewest lines missing"),
     "units": ("most lines", "most work", "nearest"),
@@ -67,7 +67,7 @@ class Space:
 
     @property
     def most_stations(self) -> int:
-        """The most picking stations that are tried."""
+        """The largest number of picking stations that is tried."""
         peak = self.day.peak * self.day.pieces_per_order
         return math.ceil(peak / PIECES_AN_HOUR) + SPARE_STATIONS
 
@@ -78,7 +78,7 @@ class Space:
 
     @cached_property
     def parameters(self) -> Mapping[str, range | tuple[Any, ...]]:
-        """What may be varied: whole numbers as a range, else choices, the usual first."""
+        """The parameters by name: a range of whole numbers, or choices, the usual one first."""
         stations = range(self.least_stations, self.most_stations + 1)
         return {
             "stations": stations,
@@ -117,7 +117,7 @@ class Space:
         return first | {"depth": 2, "length": 8, "more_queue": 0} | roles
 
     def starts(self) -> Iterator[dict[str, Any]]:
-        """Yields what the search tries first: usual floors with few stations and many."""
+        """Yields the first trials: usual floors with few and with many stations."""
         stations = self.parameters["stations"]
         for more in range(min(3, len(stations))):
             count = stations[more]
@@ -129,14 +129,14 @@ class Space:
     def neighbour(
         self, chosen: Chosen, rng: np.random.Generator, cheaper: bool, most: int = 2
     ) -> dict[str, Any]:
-        """Returns parameters near others: with less to pay, or more, and up to `most` others
-        changed."""
+        """Returns a neighbour of parameters: one count changed, down if `cheaper`, else up, and up
+        to `most` other parameters."""
         out = dict(chosen)
         counts = ("robots", "robots", "robots", "stations", "replenish", "units")
         name = str(rng.choice(counts))
         step = int(rng.integers(1, 4)) if name in ("robots", "units") else 1
         out[name] = self._clipped(name, out[name] + (-step if cheaper else step))
-        if name == "stations" and cheaper:  # what it did is to be done by the others
+        if name == "stations" and cheaper:  # the remaining stations take over its work
             out["robots"] = self._clipped("robots", out["robots"] + int(rng.integers(0, 3)))
         others = [name for name in self.parameters if name not in counts]
         for name in rng.choice(others, int(rng.integers(0, most + 1)), replace=False):
@@ -156,8 +156,8 @@ class Space:
         return rest[int(rng.integers(len(rest)))] if rest else value
 
     def known_as(self, chosen: Chosen) -> str:
-        """Returns a key of parameters that is equal where their layouts are: what a plan makes no
-        use of is left out."""
+        """Returns a key of parameters, equal for equal layouts: parameters that the plan does not
+        use are left out."""
         ignored = (
             {"room", "sides", "first_side", "depth", "length", "one_way", "aspect", "more_queue"}
             | {"parking"}
@@ -212,7 +212,7 @@ def policies_of(chosen: Chosen) -> dict[str, str]:
 
 
 def renamed(floor: LayoutFile, building: LayoutFile) -> LayoutFile:
-    """Returns a floor whose stations have keys that the building's own have not."""
+    """Returns a floor with keys of its stations that the building does not use."""
     taken = {station.key for station in building.stations}
     if not taken:
         return floor

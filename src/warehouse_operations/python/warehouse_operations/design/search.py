@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The search for layouts, in rounds of two stages, and two more at the end.
 
-By hand: what has no room, or would cost more than a layout that is known to do, is not simulated.
+A layout without room, or with higher costs than one known to be in time, is not simulated.
 1. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
    `layout new` makes them, then what Optuna proposes (objectives: to buy, cost a piece;
    constraint: late orders), then neighbours of the best with less to pay.
-2. Ideal and whole: the cheapest by whole days, with the same seeds for all. What is late gets
-   robots, what is not loses one. What a short shift took for able and days do not is not followed.
-3. Physics: those of the front.
-4. Unseen: the front by seeds of which none had a part in its choice; they decide nothing more.
+2. Ideal and whole: the cheapest by whole days, with the same seeds for all. A late layout is
+   tried with more robots, another one with one fewer.
+3. Physics: the front.
+4. Unseen: the front by new seeds, which had no part in its choice and don't change it.
 
 Trials are asked for in batches of the same size on any number of cores, and the budget counts
-simulated pieces: so the answer depends on arguments and seed alone. Shifts are kept; started
-again, a search comes by the same trials without simulating them again.
+simulated pieces: so the answer depends on arguments and seed alone. Shifts are kept: a search that
+is started again repeats its trials without simulating them.
 """
 
 import itertools
@@ -42,25 +42,25 @@ SECONDS_A_SHIFT, SECONDS_A_PIECE = 0.1, 0.0003
 ROUNDS = 4
 SHORT_SHARE = 0.5  # of a round's budget, for the short shifts
 PROPOSING = 2  # rounds in which Optuna proposes; in the others neighbours are tried
-LAST = 5  # layouts that physics sees at most
+LAST = 5  # layouts simulated with physics, at most
 RESCUES = 3  # batches of whole days, at most, beyond the budget where nothing is in time
 SEARCH_SEED = 1
-SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days: none that the search saw
+SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days; short shifts have another seed
 UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
 ASKED = 500  # batches of trials a round, at most
-SAME, HOPELESS = 2, 8  # layouts with the same stations: in a batch, and late until they are left
+# Layouts with the same stations: most in a batch, and late ones that rule out the others.
+SAME, HOPELESS = 2, 8
 PARENTS = 3  # layouts whose neighbours are tried
 SHORT, WHOLE = "short shifts", "whole days"
 WORST = 1e12  # price, and cost a piece, of a layout without room
-RISK = 0.05  # that more orders are late than may be, where a layout goes on
+RISK = 0.05  # probability that a layout in time exceeds the limit of late orders
 
 
 @dataclass(eq=False)
 class Search:
-    """Searches a Space. hours: of a core, about. on_shift(done, text): after each shift.
-
-    is_random: parameters by chance alone, with the same budget. physics_hours: of the simulated
-    shift of each of the last layouts; 0: none.
+    """Searches a Space. hours: the budget in core hours, approximate. on_shift(done, text): called
+    after each shift. is_random: draws all parameters, with the same budget. physics_hours: length
+    of the shift with physics of each of the last layouts; 0: no such shift.
     """
 
     space: Space
@@ -77,19 +77,19 @@ class Search:
     trials: int = 0  # with a shift
     shifts: int = 0
     cpu_s: float = 0.0  # of all its shifts, kept ones too
-    simulated: int = 0  # shifts that were not kept from before
-    by_hand: int = 0  # trials that were given up without a shift
+    simulated: int = 0  # shifts that were not read from the store
+    by_hand: int = 0  # trials dropped without a shift
     importance: dict[str, float] = field(default_factory=dict)
     _known: dict[str, Candidate | None] = field(default_factory=dict)
-    _beaten: dict[str, Bill] = field(default_factory=dict)  # of those that cost more than others
+    _beaten: dict[str, Bill] = field(default_factory=dict)  # of layouts that cost more than others
     _days: dict[str, Candidate] = field(default_factory=dict)  # judged by whole days
     _beside: list[Candidate] = field(default_factory=list)  # to be judged by whole days, too
     _spent: float = 0.0  # of the budget [s]
     _stage: str = SHORT
 
     def run(self) -> list[Candidate]:
-        """Returns the layouts that had whole days, the cheapest that keeps the limit first; []
-        where no layout has room for a fleet at all."""
+        """Searches; returns the layouts judged by whole days, the cheapest within the limit first;
+        [] where no layout has room for a fleet."""
         study, rng = self._study(), np.random.default_rng(self.seed)
         for number in range(ROUNDS):
             proposes = self.is_random or number < PROPOSING
@@ -117,7 +117,7 @@ class Search:
 
     @cached_property
     def judge(self) -> Judge:
-        """What judges layouts by their shifts."""
+        """The Judge of layouts, by their shifts."""
         return Judge(self.costs, self.space.day, self.late, self.space.building.file)
 
     # The budget.
@@ -173,10 +173,10 @@ class Search:
             chosen = [self.space.choose(trial) for trial in trials]
             self._judge_short(chosen)
             for trial, parameters in zip(trials, chosen):
-                self._tell(study, trial, self._known[self.space.known_as(parameters)])
+                self._report_to_optuna(study, trial, self._known[self.space.known_as(parameters)])
 
-    def _tell(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
-        """Tells Optuna what came of a trial: a layout without room is as bad as can be."""
+    def _report_to_optuna(self, study: Any, trial: Any, candidate: Candidate | None) -> None:
+        """Reports the result of a trial to Optuna: a layout without room gets the WORST cost."""
         if candidate is None:
             bill = self._beaten.get(self.space.known_as(trial.params))
             trial.set_constraint("late", 0.0 if bill else 1.0)
@@ -202,8 +202,8 @@ class Search:
         return each.late <= self.late and not self._is_refuted(each)
 
     def _is_refuted(self, each: Candidate) -> bool:
-        """Returns whether days speak against a layout: of those with the same stations none was in
-        time, and as many robots were late, or so many that more would not help."""
+        """Returns whether whole days rule a layout out: all with the same stations were late, and
+        one of them had no fewer robots, or more of them would not help."""
         alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
         if not alike or any(day.late <= self.late for day in alike):
             return False
@@ -234,7 +234,8 @@ class Search:
             self._known[key] = self.judge.judged(self.trials, fresh[key], files[key], [record])
 
     def _costs_more(self, file: LayoutFile) -> bool:
-        """Returns whether a layout would be beaten by one with whole days if all went well."""
+        """Returns whether a layout, even without late orders, costs more than one in time by whole
+        days."""
         bill = self.judge.bill(file)
         return any(day.late <= self.late and beats(day.bill, bill) for day in self._days.values())
 
@@ -261,7 +262,8 @@ class Search:
         )
 
     def _least_late(self) -> list[Candidate]:
-        """Returns candidates that are late least by short shifts, with the most stations."""
+        """Returns the candidates with the fewest late orders by short shifts; of equals, with the
+        most stations."""
         left = [
             each
             for key, each in self._known.items()
@@ -271,15 +273,15 @@ class Search:
         return left[:BATCH]
 
     def _judge_days(self, batch: Sequence[Candidate]) -> None:
-        """Judges candidates by whole days, and notes which may follow from them."""
+        """Judges candidates by whole days, and adds their variants with other numbers of robots."""
         for each in self.by_whole_days(batch):
             key = self.space.known_as(each.chosen)
             self._days[key] = self._known[key] = each
             self._beside += self._with_other_robots(each)
 
     def _with_other_robots(self, each: Candidate) -> list[Candidate]:
-        """Returns candidates with one robot or half as many more than one that is late, or one less
-        than one that is not."""
+        """Returns variants of a candidate: with one robot more and with half as many again if it is
+        late, else with one fewer."""
         out = []
         robots = self.space.parameters["robots"]
         steps = (1, max(2, each.robots // 2)) if each.late > self.late else (-1,)
@@ -293,8 +295,8 @@ class Search:
         return out
 
     def by_whole_days(self, batch: Sequence[Candidate]) -> list[Candidate]:
-        """Returns candidates judged by whole days: more of those that are in time so far. late is
-        its upper limit then."""
+        """Returns candidates judged by whole days; those in time have more days, and the upper
+        limit as `late`."""
         records = self._records(batch, SEEDS)
         judged = [
             self.judge.judged(each.number, each.chosen, each.file, mine)
@@ -327,7 +329,8 @@ class Search:
     # The last stages.
 
     def _with_physics(self, candidates: Sequence[Candidate]) -> None:
-        """Counts contacts of simulated robots, and what traffic takes of the ideal pieces."""
+        """Counts contacts of simulated robots, and measures which share of the ideal pieces they
+        pick."""
         minutes = max(math.ceil(60 * self.physics_hours), 1)
         ideal = [
             replace(point, run_in=0, minutes=minutes)
@@ -363,7 +366,7 @@ class Search:
             return []
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
-        """Returns the Record of each Point, simulating those that are not kept."""
+        """Returns the Record of each Point, simulating those that the store lacks."""
         records = [self.store.get(point) for point in points]
         left = [i for i, record in enumerate(records) if record is None]
         pending = {self.executor.submit(shift.simulate, points[i]): i for i in left}
@@ -384,15 +387,15 @@ class Search:
         return complete
 
     def _show(self) -> None:
-        """Shows how far it is, about: the later stages may end sooner."""
+        """Shows the approximate progress: the later stages may end sooner."""
         text = f"{self._stage}: {self.trials} trials, {count(self.simulated, 'shift')} simulated"
         share = self._spent / self.budget
         self.on_shift(min(share, 1.0), text)
 
 
 def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
-    """Returns the next to have whole days, BATCH at most: the cheapest, but few with the same
-    stations."""
+    """Returns the next candidates for whole days, BATCH at most: the cheapest, few of them with the
+    same stations."""
     out: list[Candidate] = []
     for each in queue:
         alike = sum(_stations_of(other) == _stations_of(each) for other in out)
@@ -406,7 +409,7 @@ def _stations_of(candidate: Candidate) -> tuple[int, int]:
 
 
 def _importance(study: Any) -> dict[str, float]:
-    """Returns how much each parameter decides of the cost a piece, by PED-ANOVA (Watanabe et al.,
+    """Returns the importance of each parameter for the cost a piece, by PED-ANOVA (Watanabe et al.,
     2023); {} for too few trials."""
     import warnings
 

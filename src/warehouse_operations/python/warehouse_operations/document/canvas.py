@@ -71,7 +71,7 @@ class Canvas:
             axes.grid(axis="x")
 
     def say(self, x: float, y: float, text: str, colour: str = "dim", **options: Any) -> None:
-        """Writes beside what it names, in the colour of a token or a colour."""
+        """Writes a label beside its subject, in a colour or that of a token."""
         shown = tokens.LIGHT.get(colour, colour)
         self.axes.annotate(text, (x, y), **_SAID | {"color": shown} | options)
 
@@ -83,9 +83,9 @@ _SAID: dict[str, Any] = {"xytext": (0, 0), "textcoords": "offset points", "annot
 def drawing(
     draw: Callable[[Canvas], None], height: float, margins: Margins, description: str
 ) -> str:
-    """Returns what `draw` draws as SVG, twice: wide, and narrow for phones.
+    """Returns a drawing as SVG in two widths: wide, and narrow for phones.
 
-    description: what it shows, for those who don't see it.
+    description: the content in words, for readers who can't see it.
     """
     svgs = []
     for name, width in (("wide", WIDE), ("narrow", NARROW)):
@@ -98,7 +98,7 @@ def drawing(
 def single(
     draw: Callable[[Canvas], None], width: float, height: float, margins: Margins, description: str
 ) -> str:
-    """Returns what `draw` draws as an SVG of that size [px]."""
+    """Returns a drawing as an SVG of a size [px]."""
     with mpl.rc_context(_look()):
         canvas = on(Figure(figsize=(width / 72, height / 72)), (0, 0, width, height), margins)
         draw(canvas)
@@ -153,7 +153,7 @@ def _top(group: Sequence[float], least: float) -> float:
 
 
 def _look() -> dict[str, Any]:
-    """Returns how matplotlib draws; where Inter is not installed, in the font that it has."""
+    """Returns matplotlib's settings; its own font where Inter is not installed."""
     manager = font_manager.fontManager
     if page_font.FONT.exists() and not any(font.name == "Inter" for font in manager.ttflist):
         manager.addfont(str(page_font.FONT))

@@ -13,8 +13,8 @@ from warehouse_operations.document.canvas import Canvas, Margins
 class Chart:
     """A chart and its words.
 
-    title: its finding, or what it is. quantity: what is drawn, with its unit.
-    head and rows: the table behind it. note: how to read it. key: HTML between title and drawing.
+    title: its finding or its subject. quantity: the drawn quantity with its unit. head and rows:
+    the table behind it. note: how to read it. key: HTML between title and drawing.
     """
 
     title: str
@@ -28,7 +28,7 @@ class Chart:
     key: str = ""
 
     def html(self, width: float = 0) -> str:
-        """Returns the chart for a page; of that width alone [px], or of both that pages have."""
+        """Returns the chart for a page, in one width [px] or in both widths of pages."""
         description = f"{self.title}. {self.quantity}."
         parts = self.draw, self.height, self.margins, description
         drawn = canvas.single(parts[0], width, *parts[1:]) if width else canvas.drawing(*parts)
@@ -48,7 +48,7 @@ def letter(number: int) -> str:
 
 
 def key(labels: Sequence[str]) -> str:
-    """Returns which letter, in which colour, is which configuration."""
+    """Returns the key of configurations: letter, colour and name."""
     names = tokens.names_of_series(len(labels))
     parts = (
         f'<span><b style="color:var(--{name})">{letter(i)}</b>{escape(label)}</span>'

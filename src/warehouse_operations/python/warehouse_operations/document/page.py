@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of a report's page, HTML: all of it in one file, that needs nothing from elsewhere."""
+"""The parts of a report's page as HTML: one file that refers to no other."""
 
 from collections.abc import Iterable, Sequence
 from datetime import datetime
@@ -7,7 +7,7 @@ from html import escape
 
 from warehouse_operations.document.style import css
 
-MOST_ROWS = 500  # of a table: what is behind a chart may be longer than anyone reads
+MOST_ROWS = 500  # of a table: the figures behind a chart may be longer than anyone reads
 LONG = 42  # characters of a fact
 Cells = Sequence[str]
 
@@ -15,8 +15,8 @@ Cells = Sequence[str]
 def document(title: str, kind: str, about: str, first: str, rest: str) -> str:
     """Returns a whole page.
 
-    kind and about, texts, stand above the first sheet; first and rest are HTML. What is first is
-    printed on a sheet of its own.
+    kind and about are texts above the first sheet; first and rest are HTML. `first` is printed on a
+    sheet of its own.
     """
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
@@ -35,7 +35,7 @@ def opening(question: str, answer: str, is_bad: bool = False) -> str:
 
 
 def big(figures: Iterable[tuple[str, str, str]]) -> str:
-    """Returns the few figures that matter: (figure, what may be added to it, what it is)."""
+    """Returns the main figures: (figure, an addition to it, its name)."""
     cells = (
         f"<div><dt>{escape(words)}</dt><dd>{escape(figure)}"
         f"{f' <small>{escape(more)}</small>' if more else ''}</dd></div>"
@@ -52,9 +52,8 @@ def section(title: str, content: str, note: str = "", is_short: bool = False) ->
 
 
 def facts(pairs: Iterable[tuple[str, str]]) -> str:
-    """Returns what was assumed, and the like: terms with their facts, two beside each other.
-
-    A long fact has the whole line.
+    """Returns terms with their facts, such as assumptions, in two columns. A long fact takes the
+    whole line.
     """
     ordered = sorted(pairs, key=lambda pair: len(pair[1]) > LONG)
     return f'<dl class="facts">{"".join(_fact(*pair) for pair in ordered)}</dl>'
@@ -104,5 +103,5 @@ def row(parts: Iterable[str]) -> str:
 
 
 def today() -> str:
-    """Returns the date as it is written in reports."""
+    """Returns a date as reports write it."""
     return datetime.now().strftime("%-d %B %Y")

@@ -40,7 +40,7 @@ def to_xlsx(tables: Mapping[str, Rows]) -> bytes:
     except ImportError:
         return b""
     out = io.BytesIO()
-    # What begins with = or is an address stays a text.
+    # Texts that begin with = or are addresses stay texts.
     plain = {"strings_to_formulas": False, "strings_to_urls": False, "in_memory": True}
     with xlsxwriter.Workbook(out, plain | {"nan_inf_to_errors": True}) as book:
         book.set_properties({"created": WRITTEN})

@@ -38,10 +38,10 @@ LIGHT = {
     "waiting": "#8f5600",
     "needs-help": "#bd2822",
 }
-# Of configurations side by side. They mean nothing: none is a colour of an activity.
+# Colours of configurations side by side; no activity has one of them.
 SERIES_DARK = ("#6cacff", "#f08cbd", "#3fc4bb", "#b79bf5", "#c9cc6a", "#a9b4c2")
 SERIES_LIGHT = ("#1257c4", "#a8326e", "#0b7a75", "#7a45c9", "#6b6f1f", "#4d5967")
-# The activities of robots by the colour that says what they come to.
+# The activities of robots by the token of their colour.
 ACTIVITIES = {
     "to unit": "moving",
     "lift": "working",
@@ -76,12 +76,12 @@ def themed(drawing: str) -> str:
 
 
 def colour(name: str) -> str:
-    """Returns what to draw a token in."""
+    """Returns the colour to draw a token in."""
     return LIGHT[name]
 
 
 def series(number: int) -> str:
-    """Returns what to draw the configuration of that number in, from 0."""
+    """Returns the colour of a configuration by its number, from 0."""
     return SERIES_LIGHT[number % len(SERIES_LIGHT)]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from warehouse_fleet.transports.transport_book import BRINGING
 
 ACTIVITIES = ("to unit", "lift", "to station", "queue", "service", "back", "idle")
-# By Step: a transport that is open has no robot.
+# By Step; an open transport has no robot.
 OF_STEP = ("idle", "to unit", "queue", "lift", "to station", "service", "back", "lift")
 
 
@@ -24,7 +24,7 @@ class ActivityLog:
         self._in_lanes = 0.0  # of those at BRINGING
 
     def observe(self, elapsed: float, transports: Any, standing: np.ndarray) -> None:
-        """Adds what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
+        """Adds the activities of all robots for `elapsed` seconds; standing: (n,) bool by robot."""
         steps = transports.book.step_of
         queues = standing & (steps == BRINGING)
         if queues.any():
@@ -33,7 +33,7 @@ class ActivityLog:
 
     @property
     def seconds(self) -> dict[str, float]:
-        """The robot-seconds spent on each of ACTIVITIES up to now."""
+        """The robot-seconds spent on each of ACTIVITIES so far."""
         out = dict.fromkeys(ACTIVITIES, 0.0)
         for activity, seconds in zip(("idle", *OF_STEP), self._by_step.tolist()):
             out[activity] += seconds

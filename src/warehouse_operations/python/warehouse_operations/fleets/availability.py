@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Batteries, charging, failures and repair of ideal robots: how much of their time they can work.
 
-The parameters are those of the realism of simulated robots (doc/explanation/realism.md), by the
-same names and files; what else a realism has (localisation, radio, people …) ideal robots lack.
+The parameters have the names and files of the realism of simulated robots
+(doc/explanation/realism.md); ideal robots ignore its other parts (localisation, radio, people …).
 """
 
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ KINDS = ("motor", "lift_stuck", "laser_blind", "radio_lost", "wheel_slips")
 
 
 class RealismError(ValueError):
-    """Says what is wrong with a realism: its file and field."""
+    """Raised for an invalid realism; names its file and field."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Energy:
 
 @dataclass(frozen=True)
 class Failures:
-    """Failures by chance: how many a robot and hour, and how long a repair takes [s]."""
+    """Random failures: their number per robot and hour, and the time of a repair [s]."""
 
     per_robot_hour: float = 0.01
     repair_time: float = 300.0
@@ -98,7 +98,7 @@ class Failures:
 
 @dataclass(frozen=True)
 class Availability:
-    """What keeps ideal robots from work; None: nothing of that kind."""
+    """The causes that keep ideal robots from work; None: without that cause."""
 
     energy: Energy | None = None
     failures: Failures | None = None
@@ -109,7 +109,7 @@ class Availability:
 
 def read(realism: str) -> Availability:
     """Returns the availability that a realism gives ideal robots: the name of a preset, or a file;
-    "": nothing keeps them. Raises RealismError."""
+    "": full availability. Raises RealismError."""
     if not realism:
         return Availability()
     data = read_yaml(_path(realism), RealismError)
@@ -152,7 +152,7 @@ def _section(
 
 
 class Upkeep:
-    """The batteries of a fleet of ideal robots, by index, and what was spent on them.
+    """The batteries of a fleet of ideal robots, by index, and the time spent on them.
 
     cells: charging places. charge: states of charge, (n,). place: the charging place that is kept
     for a robot, by index. charging_s: robot-seconds.
@@ -171,7 +171,7 @@ class Upkeep:
         self.policy, self._cells = policy or Opportunity(), [int(cell) for cell in cells]
         least, most = (energy.initial_least, energy.initial_most) if energy else (1.0, 1.0)
         self.charge = rng.uniform(least, max(least, most), robots)
-        self._noted = np.zeros(robots)  # until when the charge holds [s]
+        self._noted = np.zeros(robots)  # the time of each charge [s]
         self.place: dict[int, int] = {}
         # Robots at chargers or on their way: when they are there [s], and the cell. A full robot
         # stays there, and is charged, until it has work; its place is kept no longer.
@@ -261,7 +261,7 @@ class Upkeep:
         return sum(min(duration, now - begin) for begin, duration in self._failures)
 
     def next_failure(self, robots: int) -> float:
-        """Draws the time to the fleet's next failure [s]; infinity where there are none."""
+        """Draws the time to the fleet's next failure [s]; infinity without failures."""
         rate = self.failures.per_robot_hour * robots / HOUR if self.failures else 0.0
         return float(self.rng.exponential(1 / rate)) if rate else np.inf
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Site that came from elsewhere, built as a world with physics."""
+"""Builds a Site without a world, as of an instance, as a world with physics."""
 
 import tempfile
 from collections.abc import Mapping

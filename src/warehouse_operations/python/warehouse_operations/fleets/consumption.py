@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The energy that ideal robots take from their batteries for driving, turning and lifting.
+"""The battery energy of ideal robots for driving, turning and lifting.
 
 The formulas are those of simulated batteries (doc/explanation/realism.md), with the masses of the
 models: a run from rest to rest gains and loses its kinetic energy once, and so does a turn.
@@ -50,7 +50,7 @@ def load_of(items: int) -> Body:
 
 @dataclass(frozen=True)
 class Drain:
-    """What motion takes from a battery.
+    """Parameters of the energy of motion.
 
     rolling_resistance: force over weight. drive_efficiency: from the battery to the wheels;
     lift_efficiency: to the load. regeneration: the share of the energy of motion that braking
@@ -68,7 +68,7 @@ class Drain:
         return self._rolling(float(lengths.sum()), body) + self.starts(lengths, kinematics, body)
 
     def starts(self, metres: ArrayLike, kinematics: Kinematics, body: Body) -> float:
-        """Returns what starts and stops take of the energy of runs [J]."""
+        """Returns the part of the energy of runs for starts and stops [J]."""
         lengths = np.abs(np.asarray(metres, float))
         squares = np.minimum(kinematics.speed**2, kinematics.acceleration * lengths)  # [m²/s²]
         inert = body.mass + 2 * WHEEL_INERTIA / WHEEL_RADIUS**2
@@ -120,7 +120,7 @@ class Way:
 class Consumption:
     """The energy of the trips of a fleet's robots, with or without their units.
 
-    items: how many items each unit has, by its id.
+    items: number of items on each unit, by its id.
     """
 
     def __init__(self, drain: Drain, kinematics: Kinematics, items: Mapping[int, int]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Maps of where on the floor robots drive and wait, over the last hour."""
+"""Maps of robots' drives and waits on the floor, over the last hour."""
 
 import zlib
 from collections.abc import Iterable, Iterator
@@ -8,7 +8,7 @@ import numpy as np
 
 from warehouse_layout.floor.floor_plan import FloorPlan
 
-WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
+WINDOW, SLICES = 3600.0, 12  # counts older than the window are dropped a slice at a time [s]
 TRAFFIC, WAITING = range(2)
 GAP = 1.0  # longest time between two reports that counts for the place of the first [s]
 
@@ -23,7 +23,8 @@ class FloorHeat:
         self._cells, self._time = None, now
 
     def update(self, now: float, x: np.ndarray, y: np.ndarray, waits: np.ndarray) -> None:
-        """Counts where all robots are [m], and which of them wait (bool), at a time [s]."""
+        """Counts the cells of all robots, by their positions [m] and whether they wait (bool), at a
+        time [s]."""
         self._turn(now)
         counts = self._slices[self._slice % SLICES]
         cells = self._plan.cell_of(x, y)
@@ -34,15 +35,16 @@ class FloorHeat:
         self._cells, self._time = cells, now
 
     def kept(self, slices: int = 1) -> Iterator[tuple[int, float, bytes]]:
-        """The last slices, to be kept for restore(): each (slot, when it began [s], bytes). Later
-        ones of a slot take its place."""
+        """The last slices for restore(), each (slot, its beginning [s], bytes). A later slice
+        replaces the one in its slot."""
         for number in range(self._slice + 1 - slices, self._slice + 1):
             slot = number % SLICES
             packed = zlib.compress(self._slices[slot].tobytes(), level=1)
             yield slot, max(number * (WINDOW / SLICES), self._began), packed
 
     def restore(self, kept: Iterable[tuple[float, bytes]]) -> None:
-        """Goes on from what was kept: pairs (begin [s], bytes), if it is of this floor."""
+        """Restores slices of this floor from pairs (begin [s], bytes); ignores those of another
+        one."""
         for began, packed in kept:
             counts = np.frombuffer(zlib.decompress(packed), np.float32)
             number = self._slice_of(began)

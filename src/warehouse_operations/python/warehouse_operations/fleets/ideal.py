@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fleet of ideal robots, which get in each other's way at the stations only.
+"""A fleet of ideal robots, which delay each other only at stations.
 
-Each drive takes what its way, turns, starts and stops cost (travel.py), each lift its time, and at
-a station one unit is served after the other. So a shift runs hundreds of times faster than under
-physics, and the difference between the two is what traffic costs.
+The time of a drive is that of its way, turns, starts and stops (travel.py); each lift takes a
+constant time, and a station serves one unit after the other. A shift runs hundreds of times faster
+than with physics, and the difference between the two is the cost of traffic.
 
     fleet = IdealFleet(plan, robots={1: 17}, units={1: 40})   # cells by id
     fleet.submit(1, "pick1")
@@ -47,15 +47,15 @@ class NearestHooks:
             yield task, robot
 
     def park(self, kiva_id: int, cell: int) -> None:
-        """Returns None: a robot without work waits where it is."""
+        """Returns None: an idle robot waits in place."""
 
 
 class IdealFleet(TransportRequests):
     """Robots, units and stations of a FloorPlan, as protocols.Requests offers them.
 
     robots, units: the cell of each, by id. Raises ValueError where a unit's cell is not a storage
-    place. collisions, blocked, watchdog, stuck, fallen_items, plan_ms and executed_over_planned are
-    as if nothing ever went wrong.
+    place. collisions, blocked, watchdog, stuck, fallen_items, plan_ms and executed_over_planned
+    have the values of a shift without any fault.
     """
 
     def __init__(
@@ -94,7 +94,7 @@ class IdealFleet(TransportRequests):
 
     @property
     def distance_m(self) -> float:
-        """The metres that all robots have driven, or set off to drive."""
+        """The distance of all drives that have begun [m]."""
         return self._trips.distance_m
 
     # The fleet of TransportRequests.
@@ -111,7 +111,7 @@ class IdealFleet(TransportRequests):
             raise ValueError(f"no way leads from storage unit {shelf_id} to ({x:g}, {y:g})")
 
     def taken(self) -> np.ndarray:
-        """Returns (cells,) bool: those with a unit, or kept for one that is under way."""
+        """Returns (cells,) bool: cells with a unit, or kept for a unit under way."""
         taken = np.asarray(self.plan.storage, bool).ravel() & ~self._trips.free()
         taken[list(self._floor.units.values())] = True
         taken[self.book.destinations()] = True
@@ -122,11 +122,11 @@ class IdealFleet(TransportRequests):
         self._trips.end(transport)
 
     def turn_back(self, transport: Transport) -> None:
-        """Has a unit that is being brought stored instead."""
+        """Turns a unit on its way to a station back into storage."""
         self._trips.turn_back(transport)
 
     def leave(self, transport: Transport) -> None:
-        """Has a unit leave its destination now."""
+        """Sends a unit away from its destination now."""
         self._trips.leave(transport)
 
     # The driver.
@@ -140,7 +140,7 @@ class IdealFleet(TransportRequests):
         self._trips.hooks = hooks
 
     def close(self) -> None:
-        """Does nothing; a fleet under physics has threads to end."""
+        """Does nothing; a simulated fleet has threads to end."""
 
     # Events of a scenario.
 
@@ -179,8 +179,8 @@ class IdealFleet(TransportRequests):
 
     @property
     def energy(self) -> dict[str, float]:
-        """The state of batteries, and which parts of their time robots charged and could work;
-        empty where nothing keeps them from work."""
+        """The state of batteries, and the shares of their time that robots charged and could work;
+        empty at full availability."""
         upkeep = self._trips.upkeep
         if not upkeep:
             return {}
@@ -203,11 +203,11 @@ class IdealFleet(TransportRequests):
         return self._floor.units.get(shelf_id)
 
     def activities(self) -> dict[str, float]:
-        """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
+        """Returns the robot-seconds spent on each of ACTIVITIES so far."""
         return self._trips.activities()
 
     def passages(self) -> np.ndarray:
-        """Returns how often a robot with a load drove through each cell, (h, w)."""
+        """Returns the number of passes of loaded robots through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)
         for (station, cell, outbound), times in sorted(self._trips.ways.items()):
             table = self.travel.loaded_from if outbound else self.travel.loaded_to

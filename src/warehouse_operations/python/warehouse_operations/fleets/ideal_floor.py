@@ -20,7 +20,7 @@ class Lane:
     station: Any  # a stations.Station of the FloorPlan
     queue: deque[Transport] = field(default_factory=deque)
     serving: Transport | None = None  # in the service cell, or on the last metre to it
-    free_from: float = 0.0  # when the service cell has been left [s]
+    free_from: float = 0.0  # when the service cell is free again [s]
     waited: float = 0.0  # by all transports [s]
 
 

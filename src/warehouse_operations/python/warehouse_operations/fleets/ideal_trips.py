@@ -30,11 +30,11 @@ from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Table, Travel
 
 OUT = "out of service"  # beside the ACTIVITIES
-TAKEN = 10.0  # metres by which a charging place counts as farther while a robot stands there
-WAYS = 100_000  # of loaded robots that are remembered for their energy, at most
+TAKEN = 10.0  # penalty on the distance to an occupied charging place [m]
+WAYS = 100_000  # most ways of loaded robots whose energy is cached
 DEAD = 30.0  # after which a broken robot loses its transport [s]; as recover.DEAD
 TOWED = 60.0  # after which people tow a robot that is broken in a lane [s]; as world_fleet's
-RETRY = 1.0  # pause of a robot without a free storage place before it looks again [s]
+RETRY = 1.0  # pause of a robot between two searches for a free storage place [s]
 
 
 class Approach(NamedTuple):
@@ -57,8 +57,8 @@ class Robot:
     since: float = 0.0  # when the activity began [s]
     there: float = 0.0  # when it reaches its cell, if it drives there [s]
     in_service: bool = True
-    halt: float = 0.0  # for how long it has to stand amid its way [s]
-    able: float = 0.0  # when it can drive again, if it failed while it waited [s]
+    halt: float = 0.0  # time that it has to stand on its way [s]
+    able: float = 0.0  # end of its repair, if it failed while it waited [s]
     plan: int = 0  # the number of times that a failure took its transport from it
     place: int | None = None  # the storage place that is kept for its unit
     approach: Approach | None = None  # its last way, if that led to a charger
@@ -113,8 +113,8 @@ class Trips:
         self._schedule_failure(upkeep)
 
     def _break_down(self, robot: Robot, duration: float) -> None:
-        """Has a robot break: another one fetches the unit that it was to fetch, and it loses the
-        transport of one that it carries, unless it is repaired soon."""
+        """Breaks a robot down: another one fetches a unit that it has not lifted; the transport of
+        a unit on it fails, unless it is repaired within DEAD."""
         transport = self.book.of_robot.get(robot.index)
         if transport and transport.step <= READY:
             robot.plan += 1
@@ -128,8 +128,8 @@ class Trips:
             self.fail(robot.index, duration)
 
     def _lose(self, lost: tuple[Robot, Transport, float]) -> None:
-        """Ends the transport of a robot that stands broken with its unit; people tow it out of a
-        lane, and once it is repaired the unit is stored."""
+        """Ends the transport of a broken robot with its unit; people tow it out of a lane, and the
+        unit is stored after the repair."""
         robot, transport, left = lost
         if self.book.of_robot.get(robot.index) is not transport:
             return  # it ended meanwhile
@@ -154,7 +154,8 @@ class Trips:
             self._serve_next(lane, float(self.kinematics.run(self.floor.plan.spacing)))
 
     def _repaired(self, work: tuple[Robot, Transport, bool]) -> None:
-        """Has a robot go on that lost its transport: it stores the unit that it still carries."""
+        """Puts a repaired robot that lost its transport back to work: it stores the unit that it
+        still carries."""
         robot, lost, has_unit = work
         if not has_unit:
             self._free(robot)
@@ -193,7 +194,7 @@ class Trips:
         self.queue.schedule(max(able, self.time), _wake, None)
 
     def _turn_off(self, robot: Robot) -> None:
-        """Has a robot that is on its way to a charger stop where it is."""
+        """Stops a robot on its way to a charger."""
         here, there = self._start(robot)
         if self.upkeep and robot.approach and here != robot.cell:
             approach, rest = robot.approach, robot.there - max(self.time, robot.approach.begin)
@@ -241,7 +242,7 @@ class Trips:
             robot.halt += duration
 
     def set_kinematics(self, kinematics: Kinematics) -> None:
-        """Has robots drive otherwise from their next way on."""
+        """Sets the travel times of robots from their next way on."""
         self.kinematics = kinematics
         self.travel = self.floor.travel = Travel(self.floor.plan, kinematics)
 
@@ -288,7 +289,7 @@ class Trips:
     def _schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
-        """Has a robot act after a delay [s], and as much later as it had to stand meanwhile."""
+        """Schedules an act of a robot after a delay [s], later by its halts meanwhile."""
         delay += max(robot.able - self.time, 0.0)
         planned = act, argument, robot, robot.plan
         self.queue.schedule(self.time + delay, self._act, planned)
@@ -336,7 +337,7 @@ class Trips:
             [self.floor.units[transport.shelf] for transport in waiting],
             [cell for cell, _ in starts],
         )
-        # One that drives somewhere must come there first.
+        # A robot that drives somewhere must arrive first.
         seconds += np.array([max(there - self.time, 0.0) for _, there in starts])
         tasks = self._tasks(waiting)
         for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
@@ -344,7 +345,8 @@ class Trips:
             self._assign(waiting[task], indices[robot], seconds[task, robot])
 
     def _start(self, robot: Robot) -> tuple[int, float]:
-        """Returns the cell from which a robot without work can set off, and when it is there."""
+        """Returns the cell from which an idle robot can start, and the time of its arrival there
+        [s]."""
         approach = robot.approach
         if not approach or not self.time < robot.there == approach.there:
             return robot.cell, robot.there
@@ -439,7 +441,7 @@ class Trips:
         self.arrive(transport)
 
     def turn_back(self, transport: Transport) -> None:
-        """Has a unit stored that is being brought: the robot drives on, and turns at the end."""
+        """Stores a unit on its way to a station: the robot drives on, and turns at the end."""
         self.book.go_on(transport, STORING)
 
     def leave(self, transport: Transport) -> None:
@@ -512,7 +514,7 @@ class Trips:
         self._free(self._driver(transport))
 
     def _free(self, robot: Robot) -> None:
-        """Lets a robot without a transport be given another one."""
+        """Makes a robot without a transport available for another one."""
         if robot.halt:  # it failed just before
             robot.there, robot.halt = max(robot.there, self.time) + robot.halt, 0.0
         if not robot.in_service:
@@ -530,7 +532,7 @@ class Trips:
 
 
 def _wake(_: object) -> None:
-    """Does nothing: after it, robots that may work again are given work."""
+    """Does nothing; as any event, it is followed by an assignment of work."""
 
 
 def _between(start: int, end: int, share: float, width: int) -> int:

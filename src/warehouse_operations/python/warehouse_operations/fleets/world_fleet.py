@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated robots of a world, as a shift drives them; ideal.IdealFleet is the other fleet."""
+"""The simulated robots of a world as the fleet of a shift; ideal.IdealFleet is the other fleet."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -14,12 +14,12 @@ from warehouse_operations.fleets.activities import ActivityLog
 from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Travel
 
-TOW_AFTER = 60.0  # in which people come to a robot that is broken in others' way [s]
+TOW_AFTER = 60.0  # until people come to a broken robot that blocks others [s]
 DEADLOCKED = 60.0  # standstill after which a robot with a goal counts as stuck [s]
 
 
 class WorldFleet(FleetDriver):
-    """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
+    """A FleetDriver that decides by policies, with the figures of a report."""
 
     def __init__(
         self, world: Any, site: Any, seed: int, threads: int = 0, planner: Any = None
@@ -77,7 +77,7 @@ class WorldFleet(FleetDriver):
         return self._hooks.park(int(robots.kiva_ids[robot]), int(robots.cell[robot]))
 
     def step(self) -> None:
-        """Goes on by 0.1 s, and counts where robots come through and what they do."""
+        """Advances by 0.1 s; counts the robots through each cell and their activities."""
         super().step()
         robots = self.robots
         cells, inside = robots.cell, robots.cell >= 0
@@ -99,7 +99,7 @@ class WorldFleet(FleetDriver):
         self.world.fail(kiva_id, int(FailureKind.MOTOR), duration)
 
     def passages(self) -> np.ndarray:
-        """Returns how often a loaded robot came through each cell, (h, w)."""
+        """Returns the number of passes of loaded robots through each cell, (h, w)."""
         return self._passages.reshape(self.plan.shape)
 
     def waiting_map(self) -> np.ndarray:
@@ -112,8 +112,8 @@ class WorldFleet(FleetDriver):
 
     @property
     def energy(self) -> dict[str, float]:
-        """The state of batteries, and the part of the robots' time at charging; empty where there
-        are no batteries."""
+        """The state of batteries, and the share of the robots' time at chargers; empty without
+        batteries."""
         charge = self.robots.charge
         if not (charge < 1).any():
             return {}

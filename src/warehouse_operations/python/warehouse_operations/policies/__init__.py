@@ -53,10 +53,10 @@ class UnitChoice(Protocol):
     def choose(
         self, station: WorkStation, candidates: Mapping[int, Mapping[Line, int]], view: "View"
     ) -> int:
-        """Returns the unit, one of candidates, that is brought for missing lines of a station.
+        """Returns the unit, one of candidates, to be brought for missing lines of a station.
 
         candidates: {unit: {line: pieces}}, what each free unit could serve; not empty. It is a
-        candidates.Candidates, which has the same in arrays.
+        candidates.Candidates, which has the same data in arrays.
         """
 
 
@@ -109,7 +109,7 @@ class ChargingPolicy(Protocol):
     charge: the state of charge of batteries, (n,), 0…1. Results are (n,) bool.
     """
 
-    low: float  # robots below it may take the places of charging ones that could work
+    low: float  # charge below which a robot may take the place of one that could work
 
     def sends(self, charge: np.ndarray, is_wanted: bool) -> np.ndarray:
         """Returns which robots without work are to charge.
@@ -121,7 +121,7 @@ class ChargingPolicy(Protocol):
         """Returns which charging robots may get work."""
 
     def spares(self, charge: np.ndarray) -> np.ndarray:
-        """Returns which robots get no work even if no charging place is free."""
+        """Returns which robots get no work, even without a free charging place."""
 
 
 ROLES: dict[str, dict[str, Any]] = {
@@ -184,7 +184,7 @@ class Policies:
             if role not in ROLES:
                 raise PolicyError(f"{source}: '{role}' is not a role; expected {', '.join(ROLES)}")
         self.choices = chosen
-        self.chosen: dict[str, Any] = {}  # as a file has them
+        self.chosen: dict[str, Any] = {}  # in the form of a file
         for role in ROLES:
             what = chosen.get(role, DEFAULTS[role])
             policy = _make(role, what, source)
@@ -204,8 +204,8 @@ class Policies:
 
 
 def beside(chosen: Any, folder: Path) -> Any:
-    """Returns policies by role whose option `file`, if it is relative, is one in a folder: nodes of
-    ROS run in another one."""
+    """Returns policies by role, a relative option `file` resolved against a folder: ROS nodes run
+    in another one."""
     if not isinstance(chosen, dict):
         return chosen
     return {role: _beside(what, folder) for role, what in chosen.items()}
@@ -218,7 +218,7 @@ def _beside(what: Any, folder: Path) -> Any:
 
 
 def _name_of(policy: Any) -> str:
-    """The name under which a file would have an object's class."""
+    """Returns the name of an object's class for a file."""
     return f"{type(policy).__module__}:{type(policy).__qualname__}"
 
 

@@ -19,16 +19,16 @@ from warehouse_operations.stock.stations import WorkStation
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
-SHORTLIST = 16  # candidates that are looked at
+SHORTLIST = 16  # candidates of a decision
 FEATURES = 8
-WAY = 60.0  # that counts as 1 [s]
-LATE = 1800.0  # until an order is due, or since it came, that counts as 1 [s]
+WAY = 60.0  # travel time that is scaled to 1 [s]
+LATE = 1800.0  # time to or since an order's due time or arrival, scaled to 1 [s]
 
 
 class Decision(NamedTuple):
     """A choice of a role: `keys` are the candidates, `rows` (n, FEATURES) their numbers.
 
-    usual: the index that the default policy of the role would take.
+    usual: the index that the role's default policy chooses.
     """
 
     role: str
@@ -62,7 +62,8 @@ def decision_on_unit(station: WorkStation, candidates: Candidates, view: "View")
 
 
 def decision_on_order(station: WorkStation, view: "View") -> Decision:
-    """Returns the Decision which order a station takes on; the last key is None: none for now."""
+    """Returns the Decision which order a station takes on; the last key, None, stands for no order
+    now."""
     usual = PileOn().choose(station, view)
     orders = _orders_near(station, view, usual)
     if not orders:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Policies that were learnt: of a shortlist of candidates that the best score is taken, by a small
-network that was trained in KivaOperations-v0, or by one of your own.
+"""Learned policies: each takes the candidate of a shortlist with the best score, computed by a
+small network that was trained in KivaOperations-v0, or by one of your own.
 
     units: {name: learned, file: units.npz}
 
-A Decision is what such a policy sees: a row of FEATURES numbers for each candidate.
+The input of such a policy is a Decision: a row of FEATURES numbers for each candidate.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -28,7 +28,7 @@ from warehouse_operations.stock.stations import WorkStation
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
-# Straight weights that come along, learnt from the default policies by
+# The default weights, of linear scores, learnt from the default policies by
 # examples/operations_train.py --size medium --robots 8 --imitated 4 --generations 0.
 TRAINED = {
     "orders": (7.274, 2.849, -2.778, -0.439, 4.38, -3.059, 17.897, -4.093),
@@ -40,7 +40,7 @@ Choose = Callable[[Decision], int]  # returns an index into keys
 
 
 class Units:
-    """Chooses the unit for a station: the nearest ones, and those that complete most lines."""
+    """Chooses the unit for a station among the nearest ones and those that complete most lines."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -52,7 +52,7 @@ class Units:
 
 
 class Orders:
-    """Chooses a station's next order: those that its units on the way serve, and urgent ones."""
+    """Chooses a station's next order among those for its units on the way, and urgent ones."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -66,7 +66,7 @@ class Orders:
 
 
 class Robots:
-    """Chooses a robot for each task, in their order: those that are there first."""
+    """Chooses a robot for each task, in their order, among those that arrive first."""
 
     def __init__(self, choose: Choose) -> None:
         self._choose = choose
@@ -85,12 +85,12 @@ class Robots:
 
 
 def best_of(scorer: Scorer) -> Choose:
-    """Returns what takes the candidate with the best score; the first of equals."""
+    """Returns a Choose that takes the candidate with the best score, the first of equals."""
     return lambda decision: int(scorer.scores(decision.rows).argmax())
 
 
 def scorer_of(file: str, role: str) -> Scorer:
-    """Returns the Scorer of a file, or, without one, that which comes along. Raises ValueError."""
+    """Returns the Scorer of a file, or the default one without a file. Raises ValueError."""
     return load(file, role, FEATURES) if file else linear(TRAINED[role])
 
 

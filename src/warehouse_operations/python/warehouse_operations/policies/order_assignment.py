@@ -79,7 +79,7 @@ class PileOn:
             score = (-order.priority, missing, -served, order.urgency)
             if best is not None and score > best_score:
                 continue
-            if not missing or view.in_stock(order):  # asked last: it costs most
+            if not missing or view.in_stock(order):  # checked last: it costs most
                 best, best_score = order, score
         return best
 

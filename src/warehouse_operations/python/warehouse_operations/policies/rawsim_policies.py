@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads controllers (.xconf) of RAWSim-O: the policies that are here too, and names the others."""
+"""Reads controllers (.xconf) of RAWSim-O: policies with a counterpart here, and names of the
+others."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -29,10 +30,10 @@ CHOSEN: dict[str, tuple[str, dict[str, str]]] = {
     ),
     "OrderBatchingConfig": ("orders", {"Random": "random", "PodMatching": "pile-on"}),
 }
-# Of what `Default` order batching goes by, and of the pods that a balanced allocation looks for.
+# Options of `Default` order batching, and of the pods of a balanced allocation.
 RULES = {"FCFS": "first come", "DueTime": "due date", "Random": "random"}
 PODS = {"Nearest": "nearest", "WorkAmount": "most work", "WorkAmountSameTier": "most work"}
-# What a shift does in any case.
+# Elements that describe the behaviour of any shift.
 DONE = {
     "StationActivationConfig": "ActivateAll",
     "RepositioningConfig": "Dummy",
@@ -42,12 +43,12 @@ OTHERS = ("PathPlanningConfig", "ReplenishmentBatchingConfig")
 
 
 def is_controller(path: PathName) -> bool:
-    """Returns whether a file is one by its name."""
+    """Returns whether a file's name is that of a controller."""
     return str(path).lower().endswith(SUFFIX)
 
 
 def read(path: PathName) -> tuple[dict[str, Any], list[str]]:
-    """Returns the policies of a controller by role, and sentences about what is not followed.
+    """Returns the policies of a controller by role, and sentences about its ignored parts.
 
     Raises InstanceError.
     """
@@ -68,7 +69,7 @@ def read(path: PathName) -> tuple[dict[str, Any], list[str]]:
 
 
 def remarks(path: PathName) -> list[str]:
-    """Returns sentences about what of a file of policies is not followed. Raises InstanceError."""
+    """Returns sentences about the ignored parts of a file of policies. Raises InstanceError."""
     return read(path)[1] if is_controller(path) else []
 
 

@@ -9,22 +9,22 @@ from warehouse_operations.stock.demand import BUNDLE_LEAST, BUNDLE_MOST
 if TYPE_CHECKING:
     from warehouse_operations.policies.view import View
 
-AHEAD = 10 * BUNDLE_MOST  # most pieces of a SKU that wait for bins while orders lack more
+AHEAD = 10 * BUNDLE_MOST  # most pieces of a SKU without a bin, however many more orders lack
 
 
 class Threshold:
     """Refills once the stock falls below `begin`, until it reaches `stop`, shares of its room.
 
-    Orders pieces that customers' orders lack at once; of much, a part that follows when the one
-    before is in its bins. waiting: the most bundles that wait for a bin. Raises ValueError unless
-    0 <= begin <= stop <= 1.
+    Pieces that customers' orders lack are ordered at once, up to AHEAD; the rest follows once these
+    are in bins. waiting: most bundles that wait for a bin. Raises ValueError unless 0 <= begin <=
+    stop <= 1.
     """
 
     def __init__(self, begin: float = 0.65, stop: float = 0.85, waiting: int = 200) -> None:
         if not 0 <= begin <= stop <= 1:
             raise ValueError(f"begin {begin} and stop {stop}; 0 <= begin <= stop <= 1 was expected")
         self.begin, self.stop, self.waiting = begin, stop, waiting
-        self.on = True  # as a shift begins, until the stock has been full once
+        self.on = True  # from the begin of a shift until the stock is full
 
     def bundles(self, view: "View") -> Iterator[tuple[str, int]]:
         """Yields (SKU, pieces) of the bundles to be ordered now."""

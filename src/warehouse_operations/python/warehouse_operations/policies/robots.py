@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Nearest:
-    """Matches each task, in their order, to the robot that is there first."""
+    """Matches each task, in their order, to the robot that arrives first."""
 
     def match(
         self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"
@@ -39,7 +39,7 @@ class Balanced:
         for task in tasks:
             waiting[task.station] = waiting.get(task.station, 0) + 1
         for i, task in enumerate(tasks):
-            # Those that no robot fetches yet are not on the way.
+            # Tasks without a robot are not on the way.
             ahead[i] = task.inbound - waiting[task.station]
             waiting[task.station] -= 1
         return _in_order(sorted(ahead, key=key), seconds)

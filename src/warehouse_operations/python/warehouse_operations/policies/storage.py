@@ -52,15 +52,14 @@ class TurnoverClasses:
         """Returns the cell, one of cells (n,), in which a unit is stored; distances [m], (n,)."""
         its = np.searchsorted(self.bounds, view.turnover_rank(unit))
         theirs = np.searchsorted(self.bounds, view.place_rank(cells))
-        # If its own band is full, the nearest band.
+        # The nearest band, if its own is full.
         return cells[np.lexsort((distances, np.abs(theirs - its)))[0]]
 
 
 class Cache:
     """Keeps the places nearest to the stations for units that orders wait for.
 
-    share: the part of all storage places that is kept. work: the least pieces that orders want of
-    a unit stored there.
+    share: of all storage places. work: fewest pieces that orders want of a unit there.
     """
 
     def __init__(self, share: float = 0.15, work: int = 2) -> None:

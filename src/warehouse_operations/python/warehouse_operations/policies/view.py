@@ -17,12 +17,12 @@ from warehouse_operations.stock.stations import WorkStation
 from warehouse_operations.stock.units_by_id import UnitSet
 from warehouse_operations.stock.whereabouts import Whereabouts
 
-RANKS_KEPT = 300.0  # the ranking of the units by turnover is used for this long [s]
+RANKS_KEPT = 300.0  # lifetime of the units' ranking by turnover [s]
 
 
 @dataclass(eq=False)
 class View:
-    """The `view` of a policy on its shift. Policies read it and change nothing.
+    """The `view` of a policy on its shift, read only.
 
     clock: simulated times [s]. backlog: the orders that no station has. orders: all that are not
     over, by id. goods_in: the bundles that have no bin yet. free_units: the ids of units that stand
@@ -67,7 +67,7 @@ class View:
 
     @property
     def pieces_ordered(self) -> int:
-        """Pieces that were ordered and are not in a bin yet."""
+        """The number of ordered pieces that have no bin yet."""
         return self.goods_in.pieces + self.inventory.expected
 
     def pieces_at_door(self, sku: str) -> int:
@@ -75,9 +75,10 @@ class View:
         return self.goods_in.pieces_of.get(sku, 0)
 
     def in_stock(self, order: Order) -> bool:
-        """Returns whether every piece that an order lacks lies in a bin, promised to no order.
+        """Returns whether every missing piece of an order lies in a bin and is promised to no
+        order.
 
-        A line of more than a bin may hold is begun with a bin's worth: room must be made for more.
+        A line larger than a bin's capacity is begun with a bin's content: this makes room for more.
         """
         available = self.inventory.available
         return all(available(ln.sku) >= min(ln.missing, CAPACITY) for ln in order.lines)
@@ -100,7 +101,8 @@ class View:
         return sum(bin_.room for bin_ in self.inventory.of_unit[unit])
 
     def sku_to_refill(self) -> str | None:
-        """Draws a SKU by how many of its bins have room for a bundle; None if there is none."""
+        """Draws a SKU, weighted by its number of bins with room for a bundle; None without such a
+        bin."""
         changed = self.inventory.room_changed | self.goods_in.changed
         self.inventory.room_changed.clear()
         self.goods_in.changed.clear()
@@ -114,7 +116,7 @@ class View:
         return self.assortment.skus[min(int(at), len(sums) - 1)]
 
     def shortages(self) -> dict[str, int]:
-        """Returns the pieces that orders want beyond what is in stock or ordered, by SKU."""
+        """Returns the pieces that orders need above stock and ordered pieces, by SKU."""
         demand: dict[str, int] = defaultdict(int, self.backlog.demand)
         for station in self.stations:
             for line in station.missing.values():
@@ -141,7 +143,7 @@ class View:
         return self.floor.units[unit]
 
     def first_cell_of_robot(self, kiva_id: int) -> int | None:
-        """Returns the cell where a robot stood as the shift began; None of an unknown one."""
+        """Returns the cell where a robot stood as the shift began; None for an unknown robot."""
         return self.floor.robots.get(kiva_id)
 
     def cells_apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
@@ -161,11 +163,12 @@ class View:
     # Ranks.
 
     def popularity_rank(self, sku: str) -> float:
-        """Returns 0 for the SKU that is asked for most, near 1 for the least."""
+        """Returns the rank of a SKU by demand, from 0 for the most to nearly 1 for the least."""
         return self._popularity_rank[sku]
 
     def turnover_rank(self, unit: int) -> float:
-        """Returns 0 for the unit whose pieces are asked for most, near 1 for the least."""
+        """Returns the rank of a unit by the demand for its pieces, from 0 for the most to nearly
+        1."""
         if self.now - self._ranked_at >= RANKS_KEPT:
             self._turnover_rank = self._rank_units()
             self._ranked_at = self.now

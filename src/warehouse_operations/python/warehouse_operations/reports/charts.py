@@ -11,9 +11,9 @@ from warehouse_operations.document.canvas import Canvas, spread
 from warehouse_operations.document.chart import Chart, key, letter
 from warehouse_operations.reports.comparison import Group
 
-BLOCKS = 12  # most parts of a shift: shorter ones show little but chance
+BLOCKS = 12  # most parts of a shift: means of shorter ones show noise
 LINES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (6, 1.5, 1.5, 1.5)))
-TAIL = 99.5  # per cent of the orders, up to which is drawn
+TAIL = 99.5  # percentile of the order times at which the axis ends
 
 
 def throughput(groups: Sequence[Group], height: float = 230) -> Chart:

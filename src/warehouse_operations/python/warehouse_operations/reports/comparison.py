@@ -12,7 +12,7 @@ from scipy import special
 from warehouse_operations.runs.run_files import Run
 
 CONFIDENCE = 0.95
-LEAST = 3  # runs that an interval takes: of two, their deviation is next to unknown
+LEAST = 3  # fewest runs of an interval: two hardly show their deviation
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,9 @@ class Estimate:
 class Difference:
     """The difference of the second of two configurations from the first, and its p-value.
 
-    estimate: with its confidence interval. paired: seeds that both have are compared one by one.
-    effect: over the standard deviation of the pairs' differences, else of the runs (Hedges' g);
-    inf where all pairs differ alike, and have no interval. freedom: degrees of it.
+    estimate: with its confidence interval. paired: compared seed by seed. effect: the difference
+    over the standard deviation of the pairs' differences, else of the runs (Hedges' g); inf where
+    all pairs differ by the same amount, without an interval. freedom: degrees of freedom.
     """
 
     estimate: Estimate
@@ -54,8 +54,8 @@ class Difference:
     def corrected(self, p_value: float) -> "Difference":
         """Returns the same with a p-value that is corrected for others, as by holm().
 
-        The interval is corrected alike: it is of that confidence at which it leaves out 0 where
-        the corrected p-value is below 1 - CONFIDENCE, and only there.
+        The interval is widened to the confidence at which it excludes 0 exactly if the corrected
+        p-value is below 1 - CONFIDENCE.
         """
         risk = 1 - CONFIDENCE
         wider = risk * self.p_value / p_value if p_value else risk
@@ -143,8 +143,8 @@ _Found = tuple[Estimate, float, float, float]  # with p-value, effect and degree
 def _of_pairs(deltas: np.ndarray) -> _Found:
     """Returns the mean of differences, its p-value and effect.
 
-    Where all are the same, t says nothing: their signs alone are tested, of which all are alike
-    with a chance of 2 / 2^n.
+    Equal differences have no deviation for t: their signs are tested, which are all equal with a
+    probability of 2 / 2^n.
     """
     estimate, count = Estimate.of(deltas), len(deltas)
     if not deltas.any():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The figures of a report: which there are, their words, and how they are written."""
+"""The figures of a report: their names, units and format."""
 
 from collections.abc import Sequence
 from typing import Any

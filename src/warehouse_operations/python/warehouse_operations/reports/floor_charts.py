@@ -12,7 +12,7 @@ from warehouse_operations.document.canvas import WIDE, Canvas
 from warehouse_operations.document.chart import Chart
 from warehouse_operations.reports.comparison import Group
 
-# How opaque the grey of cells is beneath the heat: lanes and streets, storage, what is closed.
+# Opacity of the cells' grey beneath the heat: lanes and streets, storage, closed cells.
 GROUND = {"s": 0.14, "p": 0.08, "l": 0.05, "#": 0.45}
 SIDE = (WIDE - 28) / 2  # [px] of one of two maps beside each other
 TALL = 420  # [px] at most
@@ -31,7 +31,7 @@ Stations = Sequence[tuple[str, str, float, float]]  # name, kind and cell
 def maps(group: Group) -> list[Chart]:
     """Returns the maps of a group that its runs have: means over the runs."""
     data = [run.data for run in group.runs]
-    floor = data[0].get("floor") or []  # runs of before have none, and no places of stations
+    floor = data[0].get("floor") or []  # runs of older versions lack it, and places of stations
     stations = [
         (row["name"], row["kind"], *row["cell"]) for row in data[0]["stations"] if row.get("cell")
     ]
@@ -66,18 +66,18 @@ def heat_map(values: Any, what: str, floor: Sequence[str] = (), stations: Statio
 
 
 def _paint(axes: Any, opaque: np.ndarray, token: str) -> None:
-    """Draws cells in a colour, (h, w) from 0 to 1 opaque: what lies beneath shows through."""
-    # The same on light and on dark: a picture has no variables.
+    """Draws cells in a colour with an opacity from 0 to 1, (h, w)."""
+    # The same colour on light and dark pages: a picture has no variables.
     light, dark = (mpl.colors.to_rgb(each[token]) for each in (tokens.LIGHT, tokens.DARK))
     shown = np.empty((*opaque.shape, 4))
     shown[..., :3] = (np.array(light) + np.array(dark)) / 2
-    # The least value differs visibly from none.
+    # The smallest value differs visibly from zero.
     shown[..., 3] = np.where(opaque > 0, 0.1 + 0.9 * opaque, 0) if token != "edge" else opaque
     axes.imshow(shown, origin="lower", interpolation="nearest")
 
 
 def _ground(floor: Sequence[str]) -> np.ndarray:
-    """Returns how opaque a floor's cells are, (h, w)."""
+    """Returns the opacity of a floor's cells, (h, w)."""
     rows = np.array([list(row) for row in floor])
     out = np.zeros(rows.shape)
     for character, opaque in GROUND.items():
@@ -106,7 +106,7 @@ def _name(canvas: Canvas, stations: Stations, shape: tuple[int, ...]) -> None:
 
 
 def _scale(canvas: Canvas, top: float, is_cut: bool, token: str) -> None:
-    """Draws which shade is how much, below the map."""
+    """Draws the colour scale below the map."""
     whole_w, whole_h = canvas.figure.get_size_inches() * 72
     wide = min(160, whole_w - 60)
     box = canvas.figure.add_axes((10 / whole_w, 18 / whole_h, wide / whole_w, 8 / whole_h))
@@ -120,7 +120,7 @@ def _scale(canvas: Canvas, top: float, is_cut: bool, token: str) -> None:
 
 
 def _near(values: np.ndarray, stations: Stations) -> str:
-    """Returns words for the station that the most is near, if it is near one."""
+    """Returns words for the station near the maximum; "" without a near one."""
     if not stations or not values.any():
         return ""
     y, x = np.unravel_index(np.argmax(values), values.shape)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report's first sheet: what a shift came to, what limits it, and on which assumptions."""
+"""The report's first sheet: the results of a shift, its limit and its assumptions."""
 
 from collections.abc import Iterator, Sequence
 from datetime import date
@@ -13,7 +13,7 @@ from warehouse_operations.reports.figures import number
 from warehouse_operations.reports.limits import Limit, Window
 from warehouse_operations.runs.run_files import Run
 
-DAY = 24  # hours of which a table stands open
+DAY = 24  # most hours of a table that is shown unfolded
 # Of kpis.json: name, words, unit, factor, digits.
 BIG: tuple[tuple[str, str, str, float, int], ...] = (
     ("item_throughput_per_hour", "pieces an hour", "", 1, 0),
@@ -38,13 +38,13 @@ def sheet(group: Group) -> str:
 
 
 def question(group: Group) -> str:
-    """Returns what the report answers."""
+    """Returns the question that the report answers."""
     run = group.runs[0]
     return f"What does {run.config.get('site') or 'the warehouse'} do in {_hours(run)}?"
 
 
 def answer(group: Group) -> str:
-    """Returns what the shift came to as a sentence."""
+    """Returns the result of the shift as a sentence."""
     robots = _count(group, "robots", "robot")
     stations = _count(group, "pick_stations", "picking station")
     pieces, orders = (
@@ -63,7 +63,7 @@ def limit(group: Group) -> Limit:
 
 
 def reasons(group: Group) -> Iterator[str]:
-    """Yields sentences from which the limit follows, and from when to when it holds."""
+    """Yields sentences with the evidence for the limit, and the times in which it holds."""
     parts = limits.windows(group.runs)
     chosen = limits.limiting(parts)
     if when := limits.when(parts):
@@ -74,7 +74,7 @@ def reasons(group: Group) -> Iterator[str]:
 
 
 def _reason(limit: Limit, then: Window) -> str:
-    """Returns the figures from which a limit follows, of the time in which it holds."""
+    """Returns the figures that show a limit, in the time in which it holds."""
     waits, idle = f"{100 * then.queue:.0f} %", f"{100 * then.idle:.0f} %"
     of_bound = f"{100 * then.of_bound:.0f} % of what they can at most"
     late = 100 * (then.delay - 1)
@@ -115,9 +115,9 @@ def _cell(value: Any) -> str:
 
 
 def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, str]]:
-    """Yields what was simulated: what all these runs have in common, as (term, fact).
+    """Yields what the runs have in common, as (term, fact).
 
-    warm_up: what of the beginning is left out, if anything is.
+    warm_up: words for the minutes left out at the beginning, or "".
     """
     facts = [dict(_facts(run)) for run in runs]
     for term, fact in facts[0].items():
@@ -159,7 +159,7 @@ def _facts(run: Run) -> Iterator[tuple[str, str]]:
 
 
 def _origin(runs: Sequence[Run]) -> Iterator[tuple[str, str]]:
-    """Yields when and by which version these runs were simulated; runs of before don't say it."""
+    """Yields the date and the version of the simulation; runs of older versions have neither."""
     dates = sorted({run.data["date"][:10] for run in runs if "date" in run.data})
     if dates:
         days = [date.fromisoformat(date_).strftime("%-d %B %Y") for date_ in dates]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The limits of a warehouse over the day; reports, sweeps, sizings and what-if ask here alone.
+"""The limits of a warehouse over the day, for reports, sweeps, sizings and what-if.
 
-A shift is looked at in windows of ten minutes. Each has a limit of its own, from how near stations
-and robots are to what they can; what limits the shift is what does where orders become late, else
-what does for the longest time. So an hour of peak is not lost in a quiet day.
+A shift is divided into windows of ten minutes, each with a limit of its own by the utilisation of
+stations and robots. The limit of the shift is that of the windows in which orders become late, else
+the one that holds longest: so an hour of peak shows in a quiet day.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,13 +18,13 @@ from warehouse_operations.shift.tally import INTERVAL
 
 WINDOW = 600.0  # [s]
 HOUR = 3600.0  # [s]
-SATURATED = 0.95  # of what stations can at most: they are what limits
-IDLE = 0.15  # of the robots' time: they lack work
-HELD_UP = 1.15  # driven over planned time: traffic holds robots up
+SATURATED = 0.95  # utilisation from which stations are the limit
+IDLE = 0.15  # share of the robots' time from which they lack work
+HELD_UP = 1.15  # driven over planned time from which traffic is the limit
 
 
 class Limit(StrEnum):
-    """The parts of a warehouse that can limit it."""
+    """The limits that a warehouse can have."""
 
     STATIONS = "the picking stations"
     REPLENISHING = "the replenishing stations"
@@ -37,10 +37,10 @@ class Limit(StrEnum):
 class Window:
     """A part of one shift or of several with the same times, summed; times of the shift [s].
 
-    arrived, completed, late: orders that came, were complete, became late. bound: pieces that the
-    open picking stations could pick at most. robots_s: robot-seconds, of which idle_s without work
-    and queue_s before stations. replenishing: share of their time that replenishing stations work.
-    delay: driven over planned time.
+    arrived, completed, late: numbers of orders. bound: pieces that the open picking stations could
+    pick at most. robots_s: robot-seconds, of which idle_s without work and queue_s before stations.
+    replenishing: share of their time that replenishing stations work. delay: driven over planned
+    time.
     """
 
     begin: float
@@ -58,7 +58,7 @@ class Window:
 
     @property
     def of_bound(self) -> float:
-        """Pieces picked, of those that the open picking stations could pick at most."""
+        """Pieces picked over the most that the open picking stations could pick."""
         return self.pieces / self.bound if self.bound else 0.0
 
     @property
@@ -73,7 +73,7 @@ class Window:
 
     @property
     def at_work(self) -> float:
-        """The share of the robots' time in which they neither lack work nor wait for stations."""
+        """The share of the robots' time with work and without waits for stations."""
         return 1 - self.idle - self.queue
 
     @property
@@ -133,7 +133,7 @@ def windows(runs: Sequence[Run]) -> list[Window]:
 
 
 def _whole(runs: Sequence[Run], delay: float) -> Window:
-    """Returns the Window of runs that have no minutes: too short, or written without them."""
+    """Returns the Window of runs without minutes: short ones, or those of older versions."""
     spent: dict[str, float] = {}
     for run in runs:
         for activity, seconds in run.data.get("robots", {}).items():
@@ -163,7 +163,7 @@ def _whole(runs: Sequence[Run], delay: float) -> Window:
 
 
 def merged(parts: Sequence[Window]) -> Window:
-    """Returns Windows as one, from the begin of the first to the end of the last."""
+    """Returns the sum of Windows, from the begin of the first to the end of the last."""
     seconds = np.array([part.end - part.begin for part in parts])
     sums = {
         name: sum(getattr(part, name) for part in parts)
@@ -179,7 +179,7 @@ def merged(parts: Sequence[Window]) -> Window:
 
 
 def limit(parts: Sequence[Window]) -> Limit:
-    """Returns what limits a shift: where orders become late, else for the longest time."""
+    """Returns the limit of a shift: where orders become late, else the one that holds longest."""
     late: dict[Limit, float] = {}
     time: dict[Limit, float] = {}
     for part in parts:
@@ -190,20 +190,20 @@ def limit(parts: Sequence[Window]) -> Limit:
 
 
 def limiting(parts: Sequence[Window]) -> list[Window]:
-    """Returns the Windows in which what limits the shift does so."""
+    """Returns the Windows in which the limit of the shift holds."""
     limit_of_all = limit(parts)
     return [part for part in parts if part.limit == limit_of_all]
 
 
 def hours(parts: Sequence[Window]) -> list[tuple[Window, Limit]]:
-    """Returns each hour of a shift, and what limits it."""
+    """Returns the hours of a shift with their limits."""
     each = [list(of) for _, of in groupby(parts, key=lambda part: int(part.begin // HOUR))]
     return [(merged(of), limit(of)) for of in each]
 
 
 def when(parts: Sequence[Window]) -> str:
-    """Returns from when to when a shift is limited by what limits it: `3:20 to 5:20, 7:00 to 7:10`;
-    "" where it is all the time."""
+    """Returns the times in which the limit of a shift holds, as `3:20 to 5:20, 7:00 to 7:10`; ""
+    for all of it."""
     chosen = limiting(parts)
     if len(chosen) == len(parts):
         return ""
@@ -223,6 +223,6 @@ def clock(seconds: float) -> str:
 
 
 def share_of_late(parts: Iterable[Window], of: Iterable[Window]) -> float:
-    """Returns the part of the late orders of Windows that became late in some of them."""
+    """Returns the share of the late orders of Windows that fall into some of them."""
     late = sum(part.late for part in parts)
     return sum(part.late for part in of) / late if late else 0.0

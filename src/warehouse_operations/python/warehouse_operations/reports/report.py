@@ -70,7 +70,7 @@ def write(path: str | os.PathLike[str], runs: Sequence[Run]) -> Path:
 def default_path(folders: Sequence[str | os.PathLike[str]]) -> Path:
     """Returns the path for a report about folders of runs.
 
-    It is in the folder if there is one only. Several have a report each already: their common one
+    The report of a single folder lies in it. Several folders have their own reports: a common one
     is a new file in the working directory.
     """
     if len(folders) == 1:
@@ -88,7 +88,7 @@ def table(runs: Sequence[Run]) -> str:
 
 
 def verdicts(groups: Sequence[Group]) -> Iterator[str]:
-    """Yields sentences about how much each configuration differs from the first."""
+    """Yields a sentence about the difference of each configuration from the first."""
     all_verdicts = differences.verdicts(groups)
     yield from map(str, all_verdicts)
     for group in groups[1:]:

@@ -27,8 +27,8 @@ COMPARED = (
 NOTE = "Means of the runs with half their 95 % confidence interval, where there are several runs."
 INTERVALS = "Means of the runs with 95 % confidence intervals."
 NO_INTERVALS = (
-    "Fewer than three runs don't tell how much of a difference is chance: simulate with three seeds"
-    " or more."
+    "Fewer than three runs don't show how much of a difference is chance: simulate with three"
+    " seeds or more."
 )
 SHORT = {
     PIECES: "pieces an hour",
@@ -64,7 +64,7 @@ def sheet(groups: Sequence[Group]) -> str:
 
 
 def more(groups: Sequence[Group]) -> str:
-    """Returns the HTML of other figures side by side, and of how they differ."""
+    """Returns the HTML of other figures side by side, and of their differences."""
     drawn = [_chart(groups, *figure).html(SIDE) for figure in COMPARED]
     shown = key_of(groups) + page.row(drawn)
     side = page.section("Other figures side by side", shown, NOTE, is_short=True)
@@ -84,7 +84,8 @@ def _chart(groups: Sequence[Group], kpi: str, label: str) -> Chart:
 
 
 def answer(groups: Sequence[Group], verdicts: Sequence[Verdict]) -> str:
-    """Returns which configuration picks most, and whether chance may explain it, as a sentence."""
+    """Returns a sentence: the configuration that picks most, and whether chance may explain
+    that."""
     means = [group.estimate(KPI).mean for group in groups]
     best = means.index(max(means))
     pieces = number(groups[best].estimate(KPI), 1, 0)
@@ -114,7 +115,7 @@ def named(place: int, group: Group) -> str:
 
 
 def by_chance(first: Group, group: Group) -> str:
-    """Returns a sentence about a difference of too few runs."""
+    """Returns a sentence about a difference between too few runs for a test."""
     a, b = (group.estimate(KPI).mean for group in (first, group))
     return (
         f"{group.label}: {100 * (b / max(a, 1e-9) - 1):+.1f} % pieces an hour against"
@@ -123,14 +124,15 @@ def by_chance(first: Group, group: Group) -> str:
 
 
 def too_few(group: Group) -> str:
-    """Returns a clause about a group that has no interval, and how many runs would."""
+    """Returns a clause about a group without an interval, and the number of runs for one."""
     count = len(group.runs)
     runs = f"{count} run{'' if count == 1 else 's'}"
-    return f"{runs}: chance can't be told apart; {LEAST} seeds or more can"
+    return f"{runs}: too few to exclude chance; simulate {LEAST} seeds or more"
 
 
 def _differences(groups: Sequence[Group], verdicts: Sequence[Verdict], label: str) -> str:
-    """Returns how configurations differ from the first: a table, or sentences of too few runs."""
+    """Returns the differences of configurations from the first: a table, or sentences for too few
+    runs."""
     if not verdicts:
         return page.sentences(by_chance(groups[0], group) for group in groups[1:])
     head = ("Against A", "difference", "95 %", "p", "effect")

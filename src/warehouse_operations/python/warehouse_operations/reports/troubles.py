@@ -33,9 +33,10 @@ NOTE = (
 
 
 def section(group: Group, name: str = "") -> str:
-    """Returns the part of a report about troubles: of the first run, and the costs in all.
+    """Returns the section of a report about troubles: those of the first run, and their costs in
+    all runs.
 
-    name: of the group, after a colon; the part is empty where there were none.
+    name: of the group, after a colon. Returns "" for runs without troubles.
     """
     costs = [
         [words, number(group.estimate(kpi), factor, digits, unit)]

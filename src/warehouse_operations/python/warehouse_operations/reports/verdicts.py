@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Says how configurations differ: after the warm-up, seed by seed, with Holm's correction.
+"""Differences between configurations: after the warm-up, seed by seed, with Holm's correction.
 
-Intervals are widened as p-values are corrected, so that both say the same. Fewer than
-comparison.LEAST runs say nothing.
+Intervals are widened as p-values are corrected, so that both agree. Fewer than comparison.LEAST
+runs have no verdict.
 
-The warm-up is where MSER-5 cuts the pieces picked a minute; all configurations lose as much as the
-one that takes longest. All differences that are shown together are corrected together.
+The warm-up is the part that MSER-5 cuts from the pieces picked a minute, the longest of all
+configurations for each of them. All differences that are shown together are corrected together.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.runs.run_files import Run
 
 # Names of figures, with their words, factor and digits.
-TOLD: tuple[tuple[str, str, float, int], ...] = (
+COMPARED: tuple[tuple[str, str, float, int], ...] = (
     ("pieces_per_hour", "pieces an hour", 1, 0),
     ("metres_per_piece", "metres driven for a piece", 1, 1),
     ("turnover_s", "minutes from an order's arrival to its completion, median", 1 / 60, 1),
@@ -57,12 +57,12 @@ class Verdict:
 
 
 def verdicts(groups: Sequence[Group]) -> list[Verdict]:
-    """Returns how all groups differ from the first in all figures of TOLD."""
+    """Returns the verdicts on all groups against the first, for each figure of COMPARED."""
     cut = warm_up(groups)
     figures = [{run.seed: figures_of(run, cut) for run in group.runs} for group in groups]
     out = []
     for group, its in zip(groups[1:], figures[1:]):
-        for name, words, *_ in TOLD:
+        for name, words, *_ in COMPARED:
             a, b = (
                 {seed: figures_of_run[name] for seed, figures_of_run in all_.items()}
                 for all_ in (figures[0], its)
@@ -77,7 +77,7 @@ def verdicts(groups: Sequence[Group]) -> list[Verdict]:
 
 
 def warm_up(groups: Sequence[Group]) -> int:
-    """Returns the intervals that the warm-up of the slowest group takes."""
+    """Returns the number of intervals in the longest warm-up of the groups."""
     return max(mser5(_rows(group)) for group in groups)
 
 
@@ -88,9 +88,9 @@ def _rows(group: Group) -> np.ndarray:
 
 
 def figures_of(run: Run, cut: int) -> dict[str, float]:
-    """Returns the figures of TOLD of a run without its first intervals.
+    """Returns the figures of COMPARED of a run without its first intervals.
 
-    Figures of runs that were written before these series are those of the whole shift.
+    Runs of older versions lack these series: their figures are of the whole shift.
     """
     seconds = run.data["intervals"]["seconds"]
     picked = run.data["intervals"]["picked"][cut:]
@@ -111,7 +111,7 @@ def figures_of(run: Run, cut: int) -> dict[str, float]:
 
 
 def p_text(p_value: float) -> str:
-    """Returns a p-value as text; of the least ones only how small they are."""
+    """Returns a p-value as text; the smallest ones as a bound."""
     return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
 
 

@@ -3,9 +3,8 @@
 
 MSER-5 (White, "An effective truncation heuristic for bias reduction in simulation output",
 Simulation 69, 1997; White, Cobb & Spratt, Proc. 2000 Winter Simulation Conference): means of five
-values each, of which those before the cut are dropped that makes the squared standard error of
-the mean of the rest least. Cuts beyond the first half are not considered: the rest then says too
-little.
+values each; the cut minimises the squared standard error of the mean of the rest. It lies in the
+first half: a shorter rest would be too small a sample.
 """
 
 import numpy as np

@@ -15,7 +15,7 @@ from warehouse_operations.store.engines import DatabaseError, lock, make_engine,
 
 
 def orders(text: str, folder: Path) -> str:
-    """Checks orders; only the shift knows whether the SKUs of a file are in stock."""
+    """Checks orders, but for the SKUs of a file: the shift alone knows its stock."""
     text = orders_text.with_file(text, lambda file: _whole_path(file, folder))
     make_demand(text, None, (1, 1), np.random.default_rng(1))
     return text
@@ -29,7 +29,7 @@ def policies(text: str, folder: Path) -> str:
 
 
 def database(text: str, folder: Path) -> str:
-    """Checks a database's URL or file; does not create one that is missing."""
+    """Checks a database's URL or file; creates none."""
     text = text if "://" in text else _whole_path(text, folder)
     engine = make_engine(text)
     path = path_of(engine)

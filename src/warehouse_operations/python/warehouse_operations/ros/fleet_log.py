@@ -9,7 +9,7 @@ from warehouse_msgs.msg import FleetState, KivaStatus, People
 from warehouse_operations.fleets.floor_heat import FloorHeat
 
 WAITS = (KivaStatus.STATE_WAITING, KivaStatus.STATE_BLOCKED)  # robots under way
-JUMP = 1.0  # a robot that has moved farther between two messages was put there [m]
+JUMP = 1.0  # a longer move between two messages is a teleport, not a drive [m]
 
 
 class FleetLog:

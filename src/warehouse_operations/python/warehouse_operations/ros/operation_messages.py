@@ -118,7 +118,7 @@ def _station_state(station: WorkStation, now: float) -> msg.StationState:
 
 
 def _totes(station: WorkStation) -> list[msg.Tote]:
-    """Returns the totes that a person sees, none at a station that works by itself."""
+    """Returns the totes that a person sees; [] at a station that works by itself."""
     if station.mode != StationMode.MANUAL:
         return []
     return [_tote(order) for order in station.totes]
@@ -175,7 +175,7 @@ def heat_map(heat: FloorHeat, plan: FloorPlan, now: float) -> msg.HeatMap:
 
 
 def fleet_figures(robot_count: int, state: msg.CoordinatorState, log: FleetLog) -> Any:
-    """Returns what kpis.of_shift asks of a fleet; state: the coordinator's."""
+    """Returns the fleet's figures for kpis.of_shift; state: the coordinator's."""
     return SimpleNamespace(
         robot_count=robot_count,
         distance_m=log.distance_m,

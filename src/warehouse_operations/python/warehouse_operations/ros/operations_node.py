@@ -39,9 +39,9 @@ from warehouse_operations.stock.units_by_id import UnitCells
 from warehouse_operations.store import stored
 from warehouse_operations.store.database import Database
 
-FAREWELL = 1.0  # the last notice is offered to subscribers for this long [s, wall]
+FAREWELL = 1.0  # time for subscribers to get the last notice [s, wall]
 CYCLE = 0.1  # between two steps of the shift [s]
-# Roles of policies that only a shift with its own fleet can follow; here another node drives.
+# Roles of policies of a shift with its own fleet; here another node drives.
 OF_THE_COORDINATOR = ("storage", "robots", "idle", "charging")
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 
@@ -74,7 +74,7 @@ class OperationsNode:
         self._database = Database(database)
         self._begin()
         ShiftServices(self)
-        # Last of all: a node that has got this topic finds the services advertised.
+        # Published last: a node that has received this topic finds all services.
         self._stations = _publisher("stations", msg.StationStates)
 
     @property
@@ -88,7 +88,7 @@ class OperationsNode:
         return self._database.engine
 
     def _begin(self) -> None:
-        """Begins a shift that goes on with what the database has."""
+        """Begins a shift that continues the warehouse of the database."""
         now = rospy.get_time()
         self._timeline = self._warehouse.timeline
         file = self._layout_file()
@@ -109,7 +109,7 @@ class OperationsNode:
         self._transports.release_left(*left)
         self._shift = self._open_shift(now)
         self._shift.on_order_event = self._publish_order_event
-        # Task numbers that a page got in an earlier run must not come again [ms, wall].
+        # Task numbers on pages of an earlier run must not be reused [ms, wall].
         self._shift.task_numbers.number_from(time_ns() // 10**6)
         self._shift.tasks.remember(reports)
         self._shift.notices.on_change = self._publish_notices
@@ -119,7 +119,7 @@ class OperationsNode:
                 f"policies: the coordinator decides {idle} by itself, whatever is chosen"
             )
         self._publish_notices()
-        # It passes on what it does not define itself, which its type does not say.
+        # Delegates other attributes to the inner journal, which its type does not show.
         changes: Any = ChangeJournal(self._shift.journal)
         self._changes = self._shift.journal = changes
         self._floor_heat = heat
@@ -133,7 +133,7 @@ class OperationsNode:
         )
 
     def _layout_file(self) -> LayoutFile | None:
-        """Returns the layout file of which the warehouse was built, if it was."""
+        """Returns the layout file of which the warehouse was built; None without one."""
         path = identity.layout(rospy)
         return layout_file.read(path) if path else None
 
@@ -148,7 +148,7 @@ class OperationsNode:
         )
 
     def _open_shift(self, now: float) -> Shift:
-        """Returns a Shift; without orders where they come from a file with faults."""
+        """Returns a Shift, without orders if their file has faults."""
 
         def begin(orders: str) -> Shift:
             chosen: dict[str, Any] = self._chosen | {"orders": orders, "policies": self._policies}
@@ -181,7 +181,7 @@ class OperationsNode:
     def _begin_again(self, now: float) -> None:
         """Begins another shift after the world was reset, restored or undone.
 
-        Stock and orders are as they are, transports are not.
+        It keeps stock and orders, and drops the transports.
         """
         rospy.logwarn(f"the world jumped from {self._shift.now:g} s to {now:g} s")
         self._shift.end(self._figures())
@@ -190,7 +190,7 @@ class OperationsNode:
         self._begin()
 
     def close(self) -> None:
-        """Writes what is left to the database. Raises DatabaseError."""
+        """Writes pending rows to the database. Raises DatabaseError."""
         with self._lock:
             self._shift.end(self._figures())
             self._database.close()
@@ -229,7 +229,7 @@ class OperationsNode:
             self._keep_heat(slices=1)
 
     def carry_out(self, act: Callable[[Shift], Any]) -> Any:
-        """Calls act(shift), waits until its result is kept, and returns what act returned."""
+        """Calls act(shift), waits until the database has its effects, and returns its result."""
         with self._lock:
             shift = self._shift
             answer = act(shift)
@@ -288,7 +288,7 @@ class OperationsNode:
 
 
 def publish_end(error: Exception) -> None:
-    """Publishes why there is no shift as the last notice."""
+    """Publishes an error that ended or prevented the shift as its last notice."""
     notices = _publisher("notices", msg.Notices)
     notices.publish(msg.Notices(notices=[f"no shift runs: {error}"]))
     sleep(FAREWELL)

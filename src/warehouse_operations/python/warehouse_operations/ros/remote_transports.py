@@ -7,7 +7,7 @@ from typing import Any
 from warehouse_client.coordinator import CoordinatorClient
 from warehouse_fleet.transports.transports import ENDS, STORE, Kind, TransportAnswer, TransportEvent
 
-UNKEPT = 100  # most transports that a run asks for between two writes to the database
+UNKEPT = 100  # most transports that a run requests between two writes to the database
 
 
 class RemoteTransports:
@@ -46,18 +46,20 @@ class RemoteTransports:
         return self._coordinator.cancel(transport_id)
 
     def set_open(self, station: str, is_open: bool) -> None:
-        """Does nothing: a shift requests nothing at a closed station, and cancels its requests."""
+        """Does nothing: a shift cancels its requests at a closed station, and makes no others
+        there."""
 
     def release_left(self, transports: Iterable[int], last: int | None) -> None:
         """Releases the transports of an earlier run at once, or when they arrive.
 
-        last: the newest one that is known.
+        last: the newest known transport.
         """
         self._left.update(number for number in transports if not self.release(number)[0])
         self._last_left = last
 
     def _release_unknown(self, first: int) -> None:
-        """Releases what the earlier run requested and could not write down: all before `first`."""
+        """Releases the transports that the earlier run requested and did not record: all before
+        `first`."""
         if self._last_left is not None:
             self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 

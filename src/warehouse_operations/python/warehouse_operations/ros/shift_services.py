@@ -35,7 +35,7 @@ class Host(Protocol):
         """The engine of its database."""
 
     def carry_out(self, act: Callable[[Shift], Any]) -> Any:
-        """Calls act(shift), waits until its result is kept, and returns what act returned."""
+        """Calls act(shift), waits until the database has its effects, and returns its result."""
 
     def publish_stations(self) -> None:
         """Publishes the stations at once."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from warehouse_operations.runs.event_file import Event
 from warehouse_operations.stock.days import check_stock
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 
 if TYPE_CHECKING:
     from warehouse_operations.runs.operations import Operations
@@ -19,8 +19,7 @@ NAMED = 8  # names in a message
 class Director:
     """Carries out events in a shift. spare: ids of robots that are out of service at first.
 
-    Raises EventError at once for an event that could not happen there: a station, a robot or a SKU
-    that there is not.
+    Raises EventError at once for an event with an unknown station, robot or SKU.
     """
 
     def __init__(
@@ -107,7 +106,7 @@ class Director:
         for order in read_csv(event.value):
             self._shift.context.clock.schedule(now + order.at, self._submit, (order, now))
 
-    def _submit(self, argument: tuple[Wanted, float]) -> None:
+    def _submit(self, argument: tuple[OrderDraft, float]) -> None:
         order, begin = argument
         due = order.due + begin if order.due else 0.0
         _, text = self._shift.submit(order.lines, due, order.priority, order.reference)

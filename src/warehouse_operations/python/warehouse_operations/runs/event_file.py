@@ -25,7 +25,7 @@ from warehouse_operations.stock.lined_yaml import LinedYaml, Place, shown
 from warehouse_operations.stock.order_file import DemandError, read_csv
 
 LAST = 1e9  # [s]
-REPAIR = 600.0  # until a robot that fails is repaired [s]
+REPAIR = 600.0  # time to the repair of a robot that fails [s]
 MOST_ROBOTS = 20_000
 MOST_EVENTS = 10_000
 PICKER = ("seconds_a_piece", "pickers")
@@ -34,7 +34,7 @@ EXPECTED = "close, open, robots, fail, speed, sku_out, orders or picker"
 
 
 class EventError(ValueError):
-    """Says what is wrong with an event: file, line and field."""
+    """Raised for an invalid event; names file, line and field."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Event:
     where: str = field(default="", compare=False)
 
     def to_json(self) -> dict[str, Any]:
-        """Returns what a list of events has for it."""
+        """Returns the event in the form of a list in a file."""
         value = self.value
         if self.kind == "fail":
             value = f"robot {value}" if isinstance(value, int) else value
@@ -214,7 +214,7 @@ class _Reader:
         return self.close(value, "open")
 
     def robots(self, value: Any) -> int:
-        """Returns how many robots more, or fewer."""
+        """Returns the change of the number of robots."""
         number = plain(value) if isinstance(value, str) else value
         whole = isinstance(number, int) and not isinstance(number, bool)
         if not whole or not number or abs(number) > MOST_ROBOTS:
@@ -258,7 +258,7 @@ class _Reader:
         return path
 
     def picker(self, value: Any) -> dict[str, Any]:
-        """Returns what is set at a station."""
+        """Returns the settings for a station."""
         known = {"station", *PICKER}
         if not isinstance(value, Mapping) or not value.keys() <= known or len(value) < 2:
             text = "has to be {station: pick1, seconds_a_piece: 14}, or pickers: 2"
@@ -293,7 +293,7 @@ def _share(value: Any) -> float | None:
 
 
 def most_added(events: Sequence[Event]) -> int:
-    """Returns the most robots beyond those at first that are there at any time."""
+    """Returns the largest number of robots above the initial one."""
     most = count = 0
     for event in events:
         if event.kind == "robots":

@@ -9,7 +9,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor
 
 
 class ExecutorError(Exception):
-    """Says why there is no such executor, and what to do."""
+    """Raised where an executor is unavailable; says why, and what to do."""
 
 
 def make(processes: int | None = None, ray: str | None = None) -> Executor:
@@ -29,7 +29,7 @@ def make(processes: int | None = None, ray: str | None = None) -> Executor:
 
 @contextlib.contextmanager
 def running(executor: Executor) -> Iterator[Executor]:
-    """Shuts an Executor down at the end; after Ctrl-C without waiting for what its processes do."""
+    """Shuts an Executor down at the end; after Ctrl-C without waiting for its processes."""
     try:
         yield executor
     except BaseException:
@@ -41,5 +41,5 @@ def running(executor: Executor) -> Iterator[Executor]:
 
 
 def _end_by_ctrl_c() -> None:
-    """Lets Ctrl-C end a process at once, instead of with a traceback."""
+    """Lets Ctrl-C end a process without a traceback."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -14,13 +14,14 @@ from warehouse_operations.stock.site import Site, Stock
 
 
 def of_file(site: Site, file: LayoutFile) -> Site:
-    """Returns the Site of a warehouse that was built of a layout file, with what else that says.
+    """Returns the Site of a warehouse that was built of a layout file, with the file's stock and
+    settings.
 
     Raises LayoutFileError for a stock file that is wrong.
     """
-    # A unit of it may be gone by now: bins of items that are not here are left out.
+    # Units may be gone by now: bins whose items are missing are left out.
     rows = stock_of(file, LIMITS["shelves"])
-    # Each row of the stock was made an item, in their order.
+    # The items are numbered by the rows of the stock.
     stock = [Stock(f"item{i}", row.sku, row.quantity) for i, row in enumerate(rows, start=1)]
     return replace(
         site,
@@ -69,7 +70,7 @@ def merged(file: LayoutFile, policies: Policies) -> Policies:
 
 
 def fault(file: LayoutFile) -> str:
-    """Returns what a shift could not take of a layout file, as a sentence; "" if nothing."""
+    """Returns the fault in the policies of a layout file, a sentence; "" without one."""
     try:
         policies_of(file)
     except PolicyError as error:

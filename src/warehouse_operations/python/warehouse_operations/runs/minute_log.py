@@ -10,7 +10,7 @@ from warehouse_operations.shift.kpis import upper_bound
 from warehouse_operations.shift.tally import INTERVAL
 from warehouse_operations.stock.stations import WorkStation
 
-# Each a count since the last minute, but `open` as it is and `bound` as it was over RECENT minutes.
+# Counts of a minute, but `open`, the current number, and `bound`, an average over RECENT minutes.
 SERIES = (
     "arrived",  # orders that came
     "completed",  # orders
@@ -30,7 +30,7 @@ RECENT = 15  # minutes over which the pieces picked from a unit are averaged
 
 
 class MinuteLog:
-    """Notes each minute of a shift that is over. series: a list for each of SERIES.
+    """Records each minute of a shift. series: a list for each of SERIES.
 
     orders: those that are not over. fleet: an IdealFleet or a WorldFleet. spacing: of the cells
     [m].
@@ -60,7 +60,7 @@ class MinuteLog:
         self._next = INTERVAL  # time since the begin [s]
 
     def observe(self) -> None:
-        """Notes the minutes that are over by now."""
+        """Records the minutes that are over."""
         while self._clock.now - self._clock.began >= self._next:
             self._next += INTERVAL
             self._note()

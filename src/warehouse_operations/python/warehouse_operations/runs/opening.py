@@ -40,9 +40,9 @@ def open_shift(
 ) -> Shift:
     """Returns a new Shift at a Site, over transports.
 
-    orders: see demand.make_demand. policies: the chosen ones by role. database: holds the
-    warehouse that the shift goes on with, or gets a new one; None: nothing is kept. now: simulated
-    time [s]. Raises SiteError, DemandError, PolicyError, DatabaseError.
+    orders: see demand.make_demand. policies: the chosen ones by role. database: a shift continues
+    its warehouse, or writes a new one into an empty database; None: no records. now: simulated time
+    [s]. Raises SiteError, DemandError, PolicyError, DatabaseError.
     """
     journal: DatabaseJournal | None = None
     stored: Stored | None = None
@@ -63,7 +63,7 @@ def open_shift(
                 layout=layout_of(site),
                 now=now,
             )
-    # A run that goes on has its own chance, or the same orders would come again.
+    # A continued run draws from another seed, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
     stock_rng, demand_rng, policy_rng = (np.random.default_rng(seeds) for seeds in chance.spawn(3))
@@ -104,7 +104,7 @@ def open_shift(
         if journal:
             journal.begin(assortment, shift.inventory.bins.values())
         shift.begin(stock)
-    if journal:  # what the shift begins with is kept before it does
+    if journal:  # the initial state is written before the first change
         shift.commit()
         journal.flush()
     return shift

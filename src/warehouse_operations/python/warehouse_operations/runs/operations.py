@@ -22,21 +22,21 @@ if TYPE_CHECKING:
     from warehouse_operations.fleets.world_fleet import WorldFleet
     from warehouse_operations.store.database import Database
 
-CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
+CYCLE = 0.1  # a world is stepped by this duration between two calls of the shift [s]
 ROUNDING = 1e-6  # [s]
-GATHER = 0.5  # rows for the database are written together, twice a second [s, wall]
-ASKED = 16  # cycles between two calls of progress: those of a large world take seconds
+GATHER = 0.5  # interval at which rows are written to the database [s, wall]
+ASKED = 16  # cycles between two calls of progress: in a large world these take seconds
 
 
 class Operations:
     """Runs one shift with its orders, stock and fleet.
 
     world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
-    warehouse; None: the world's own. orders: see orders_text.EXPECTED.
-    policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
-    SQLite file, in which everything is kept; a shift that it holds goes on. planner, threads: see
-    PlanLoop. availability: of ideal robots; simulated ones have their world's. The same seed gives
-    the same shift, to the last event, with any number of threads. Raises what open_shift raises.
+    warehouse; None: the world's own. orders: see orders_text.EXPECTED. policies: a Policies, a
+    mapping, or the path of a YAML file. database: a URL, or the path of an SQLite file, in which
+    everything is kept; a shift in it continues. planner, threads: see PlanLoop. availability: of
+    ideal robots; simulated ones have their world's. The same seed gives the same shift, to the last
+    event, with any number of threads. Raises what open_shift raises.
 
     context: what the parts of the shift share. stations: all of them. orders: those that are not
     over, by id. log: what happened, minute by minute.
@@ -119,10 +119,10 @@ class Operations:
         progress: "Callable[[Operations], bool | None] | None" = None,
         observe: "Callable[[Operations], None] | None" = None,
     ) -> None:
-        """Goes on for a time, the sum of its arguments.
+        """Simulates a duration, the sum of its arguments.
 
-        progress(self) is called now and then; it may return True to stop. observe(self) is called
-        at the begin and after each cycle.
+        progress(self) is called every ASKED cycles; it may return True to stop. observe(self) is
+        called at the begin and after each cycle.
         """
         end = self.time + hours * 3600 + minutes * 60 + seconds
         self.step_until(end, progress, observe)
@@ -145,7 +145,7 @@ class Operations:
             self.fleet.step_until(until)
             now = self.fleet.time
             self.shift.fallen.update(self.fleet.fallen_items)
-            # A world counts steps: times that differ by rounding alone are the same.
+            # A world counts steps: its times differ from these by rounding.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
             self.log.observe()
             observe(self)
@@ -155,11 +155,11 @@ class Operations:
         self.wall_s += clock.monotonic() - began
 
     def kpis(self) -> dict[str, Any]:
-        """Returns the figures up to now, in the form of kpis.json."""
+        """Returns the figures so far, in the form of kpis.json."""
         return self.shift.figures(self.fleet, self.site.kinematics, self.wall_s)
 
     def close(self) -> None:
-        """Writes what is left and the run's figures to the database, and ends the fleet.
+        """Writes pending rows and the run's figures to the database, and ends the fleet.
 
         Raises DatabaseError.
         """
@@ -181,7 +181,7 @@ def _look_away(_: Operations) -> None:
 
 
 def _opened(url: str) -> "Database":
-    """Returns a Database; its libraries are needed for nothing else."""
+    """Returns a Database; imports its libraries here, for runs without one."""
     from warehouse_operations.store import database
 
     return database.Database(url, gather=GATHER)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows the progress of a shift on one line of a terminal; elsewhere as a line now and then, and to
+"""Progress of a shift: on one line of a terminal, elsewhere as a line now and then, and for
 programs as lines of JSON."""
 
 import json
@@ -37,7 +37,7 @@ class ProgressLine:
         return self._clock() - self._began
 
     def is_due(self) -> bool:
-        """Returns whether something is to be shown now, and not again for a period."""
+        """Returns whether the period is over, and begins the next one."""
         now = self._clock()
         if now < self._next:
             return False
@@ -45,12 +45,12 @@ class ProgressLine:
         return True
 
     def show(self, share: float, text: str) -> None:
-        """Shows which share is done, 0…1, and a text."""
+        """Shows the completed share, 0…1, and a text."""
         done = round(WIDTH * min(share, 1.0))
         self.replace(f"[{'#' * done}{'.' * (WIDTH - done)}] {text}")
 
     def replace(self, text: str) -> None:
-        """Shows a text in place of the last one; elsewhere than on a terminal below it."""
+        """Shows a text: on a terminal in place of the last one, elsewhere as a new line."""
         self.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
 
     def write(self, text: str) -> None:
@@ -65,7 +65,7 @@ class ProgressLine:
 
 
 class ProgressBar:
-    """Shows simulated time, throughput and speed; to be called with an Operations now and then.
+    """Shows simulated time, throughput and speed; call it with an Operations.
 
     seconds: the whole shift [s]. stopped: set to True, it stops the shift at the next call.
     """
@@ -101,7 +101,10 @@ class ProgressBar:
 
 
 class ProgressLines(ProgressBar):
-    """Tells programs how far a shift is: {time, of [simulated s], pieces, wall_s}, a line each."""
+    """Writes the progress of a shift for programs, a JSON object a line.
+
+    {time, of [simulated s], pieces, wall_s}
+    """
 
     PERIOD = 0.5  # [s, wall]
 

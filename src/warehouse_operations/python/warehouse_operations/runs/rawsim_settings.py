@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads settings (.xsett) of RAWSim-O: what a shift follows of them, and what it does not."""
+"""Reads settings (.xsett) of RAWSim-O: those that a shift follows, and a remark on each other
+one."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -9,7 +10,7 @@ from xml.etree.ElementTree import Element
 from warehouse_layout.convert.common import PathName
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError, read_root, text_of
 
-# Elements that a shift follows, and those that change no figure: names, logs, what is drawn.
+# Elements that a shift follows, and those without effect on figures: names, logs, drawing.
 FOLLOWED = {
     "SimulationDuration",
     "Seed",
@@ -36,7 +37,7 @@ WITHOUT_EFFECT = {
     "CommentTag3",
     "InventoryConfiguration/WarmupOrderCount",
 }
-# What a shift does whatever the file says.
+# Values of the only behaviour that a shift has.
 DONE: dict[str, str | float] = {
     "SimulationWarmupTime": 0,
     "UseAcceleration": "true",
@@ -68,14 +69,14 @@ DONE: dict[str, str | float] = {
 
 @dataclass(frozen=True)
 class ShiftSettings:
-    """The part of a settings file that a shift uses; None: the file does not say."""
+    """The part of a settings file that a shift uses; None: not in the file."""
 
     orders: str = "fill"
     policies: dict[str, Any] = field(default_factory=dict)
     duration_s: float | None = None
     seed: int | None = None
     level: float | None = None  # of the first stock, over its room
-    not_followed: tuple[str, ...] = ()  # sentences: what the file asks for beyond that
+    not_followed: tuple[str, ...] = ()  # sentences about other settings of the file
 
 
 def read_settings(path: PathName) -> ShiftSettings:
@@ -107,7 +108,7 @@ def read_settings(path: PathName) -> ShiftSettings:
 
 
 def _not_followed(path: PathName, root: Element) -> Iterator[str]:
-    """Yields a sentence for each element that asks for what a shift does not do."""
+    """Yields a sentence for each element with a setting that a shift does not follow."""
     for name, text in _leaves(root):
         if name in FOLLOWED or name in WITHOUT_EFFECT or _is_done(name, text):
             continue

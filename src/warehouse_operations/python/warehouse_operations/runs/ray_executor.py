@@ -30,7 +30,7 @@ class RayExecutor(Executor):
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Waits until all calls have ended, whatever the arguments say, and leaves the cluster."""
+        """Waits until all calls have ended, even with wait=False, and leaves the cluster."""
         # A reference to a result that is dropped after ray.shutdown() ends the process.
         for thread in self._threads:
             thread.join()

@@ -35,7 +35,7 @@ KPIS, RUN, DATABASE, REPORT = "kpis.json", "run.json", "run.db", "report.html"
 
 
 class RunError(Exception):
-    """Raised for a folder that holds no run; says what is missing."""
+    """Raised for a folder without a complete run; says what is missing."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def write(
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     run = Run(folder, ops.kpis(), describe(ops, config, seed))
-    # kpis.json comes last and at once: where it is, the run is complete.
+    # kpis.json is written last and atomically: a run with it is complete.
     (folder / RUN).write_text(json.dumps(run.data) + "\n", encoding="utf-8")
     unfinished = folder / f"{KPIS}.new"
     unfinished.write_text(json.dumps(run.kpis, indent=1) + "\n", encoding="utf-8")
@@ -135,7 +135,7 @@ def floor_rows(plan: FloorPlan) -> list[str]:
 
 
 def _late(tally: Tally, orders: Iterable[Order], now: float, count: int) -> list[int]:
-    """Returns how many orders became late in each interval; `orders` are not over."""
+    """Returns the number of orders that became late in each interval; `orders` are not over."""
     late = Counter(tally.late_in)
     late.update(int(order.due // INTERVAL) for order in orders if 0 < order.due < now)
     return [late[i] for i in range(count)]

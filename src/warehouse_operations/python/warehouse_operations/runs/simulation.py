@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 MOST_SEED = 2**63 - 1
 WriteReport = Callable[[Path, Sequence[runs.Run]], object]  # writes the report about runs
-# What a wrong description can raise.
+# Errors of an invalid description.
 ERRORS = (
     DatabaseError,
     DemandError,
@@ -60,8 +60,8 @@ class Description:
 
     size: str = "medium"
     layout: str = ""  # a .layout.yaml file
-    robots: int = 0  # overrides the layout's or the preset's number; 0: does not
-    units: int = 0  # of a warehouse that is generated for them and the robots; 0: none is
+    robots: int = 0  # overrides the layout's or the preset's number; 0: does not override it
+    units: int = 0  # storage units of a generated warehouse; 0: it is not generated
     stations: int = 0  # picking stations that are open, the first ones; 0: all
     instance: str = ""  # an .xinst file
     settings: str = ""  # an .xsett file
@@ -77,7 +77,7 @@ class Description:
 
     @property
     def config(self) -> dict[str, Any]:
-        """The part of run.json that, with the seed, decides the outcome."""
+        """The configuration in run.json: with the seed, it determines the outcome."""
         return {
             "site": self.site_name,
             "orders": self.orders,
@@ -104,7 +104,7 @@ class Description:
 
     @property
     def _fingerprint(self) -> str:
-        """The hash of the layout: a sweep goes on only with what has not changed."""
+        """The hash of the layout: a sweep reuses a run only if its layout is unchanged."""
         text = text_of(layout_choice.chosen(self.layout))
         return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
 
@@ -120,7 +120,7 @@ class Description:
 
 
 def with_settings(description: Description) -> Description:
-    """Returns the Description completed by its settings file where it has defaults."""
+    """Returns the Description with its defaults replaced by the settings file."""
     if not description.settings:
         return description
     settings, default = read_settings(description.settings), Description()
@@ -132,7 +132,7 @@ def with_settings(description: Description) -> Description:
 
 
 def remarks(description: Description) -> list[str]:
-    """Returns sentences about what a shift does otherwise than its files ask for.
+    """Returns sentences about settings in its files that a shift does not follow.
 
     Raises one of ERRORS.
     """
@@ -151,8 +151,8 @@ def remarks(description: Description) -> list[str]:
 
 
 def _of_bodies(file: LayoutFile) -> list[str]:
-    """Returns sentences about what hinders robots with bodies alone; [] where anything hinders
-    ideal ones, too."""
+    """Returns sentences about obstacles for robots with bodies alone; [] if the layout is
+    impossible for ideal robots as well."""
     faults = file_check.faults(file)
     return [fault.text for fault in faults] if all(fault.is_of_bodies for fault in faults) else []
 
@@ -182,8 +182,8 @@ def open_operations(description: Description, database: str | None = None) -> Op
 
 
 def _with_spare_robots(description: Description) -> tuple[Description, int]:
-    """Returns a Description with all robots that are there at any time, and how many are not there
-    at first. Raises EventError."""
+    """Returns a Description with the robots of all its events, and the number of those that come
+    later. Raises EventError."""
     spare = event_file.most_added(description.events)
     if not spare:
         return description, 0
@@ -266,7 +266,7 @@ def simulate(
     """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
     database: None: a new one in the folder. observe: called at the begin and after each cycle.
-    write_report: as reports.report.write; None: there is no report.
+    write_report: as reports.report.write; None: no report.
     """
     folder = Path(folder)
     with _locked(folder):
@@ -368,7 +368,7 @@ def _options(description: Description) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def _errors_as_ours() -> Iterator[None]:
-    """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
+    """Converts the error of an unknown preset or an invalid realism into one of ERRORS."""
     try:
         yield
     except LayoutFileError:

@@ -70,7 +70,7 @@ MOST_SEEDS, MOST_MINUTES = 10_000, 1e7
 
 
 class SweepError(Exception):
-    """A file that describes no sweep; the text names file, key and what was expected."""
+    """Raised for an invalid sweep; names file and key, and what was expected."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Sweep:
     jobs: tuple[tuple[Description, Path], ...]
 
     def done(self) -> tuple[list[runs.Run], list[tuple[Description, Path]]]:
-        """Returns the complete Runs of this sweep, and the jobs that are left."""
+        """Returns the complete Runs of this sweep, and the remaining jobs."""
         complete, left = [], []
         for description, folder in self.jobs:
             try:
@@ -123,7 +123,7 @@ def run_all(
     on_done: Callable[[int, int], object] | None = None,
     write_report: WriteReport | None = None,
 ) -> tuple[list[runs.Run], list[str]]:
-    """Runs what is left; returns all Runs and sentences about those that failed.
+    """Runs the remaining jobs; returns all Runs and sentences about those that failed.
 
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
     called after each. write_report: a function of a module, see simulate.
@@ -206,7 +206,7 @@ def _only(data: dict[str, Any]) -> str:
 
 
 def _beside(path: Path, name: str) -> str:
-    """Returns a file that a sweep names, by the same path whichever folder that is seen from."""
+    """Returns the absolute path of a file that a sweep names."""
     return os.path.abspath(path.parent / name)
 
 

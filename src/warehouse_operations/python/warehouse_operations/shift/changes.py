@@ -10,7 +10,8 @@ from warehouse_operations.stock.orders import Line, Order
 
 
 class ChangeJournal:
-    """Passes what a shift writes down on to another Journal, and remembers what it was about."""
+    """Passes the records of a shift on to another Journal, and collects the changed orders and
+    bins."""
 
     def __init__(self, journal: Journal) -> None:
         self._journal = journal

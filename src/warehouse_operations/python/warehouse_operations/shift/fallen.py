@@ -10,7 +10,7 @@ from warehouse_operations.stock.inventory import Bin, Inventory
 
 
 class Fallen:
-    """The bins of an Inventory that lie on the floor; count: how often a bin fell."""
+    """The bins of an Inventory that lie on the floor; count: number of falls."""
 
     def __init__(
         self, inventory: Inventory, visits: Visits, picking: Picking, replenishing: Replenishing
@@ -48,7 +48,7 @@ class Fallen:
         self._visits.offer(bin_.unit)
 
     def figures(self) -> dict[str, int]:
-        """Returns the figures for kpis.json; empty if nothing fell."""
+        """Returns the figures for kpis.json; empty without falls."""
         if not self.count and not self._items:
             return {}
         return {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The interface by which a shift records what it does; database_journal keeps the records."""
+"""The interface for the records of a shift; database_journal writes them."""
 
 from collections.abc import Collection
 from typing import Any
@@ -12,7 +12,7 @@ from warehouse_operations.stock.stations import Visit
 
 
 class Journal:
-    """Receives every change of a shift and keeps none; times are simulated [s].
+    """Receives every change of a shift, and drops it; times are simulated [s].
 
     The changes between two calls of commit() belong together.
     """
@@ -70,7 +70,7 @@ class Journal:
         """
 
     def flush(self) -> None:
-        """Waits until everything that was committed is kept."""
+        """Waits until all commits are written."""
 
     def end(self, now: float, bins: Collection[Bin], figures: dict[str, Any]) -> None:
         """Records the end of the run, with the figures of kpis.json, and commits."""

@@ -22,7 +22,7 @@ def upper_bound(
     pile_on: pieces p picked from each unit. spacing: of the cells [m].
 
     The formula is p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer / pickers):
-    the next unit may come while the last piece of a unit is still being handled.
+    the next unit may come while the last piece of a unit is handled.
     """
     cell = 2 * math.sqrt(spacing / kinematics.acceleration)
     top = kinematics.speed**2 / kinematics.acceleration
@@ -51,7 +51,7 @@ def of_shift(
     tally, now = context.tally, context.clock.now
     elapsed = now - context.clock.began
     hours = max(elapsed, 1e-9) / 3600
-    # A station that was closed all the time is as if it were not there.
+    # Stations that were closed all the time do not count.
     picking = [s for s in stations if s.picks and (s.is_open or s.visits)]
     picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
     pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
@@ -98,7 +98,7 @@ def of_shift(
 
 
 def _of_troubles(fleet: Any, items_picked: int) -> dict[str, Any]:
-    """Returns what failures, charging and people cost; empty where there were none."""
+    """Returns the costs of failures, charging and people; empty without any of these."""
     log = getattr(fleet, "failures", None)
     figures: dict[str, Any] = log.figures() if log else {}
     figures |= getattr(fleet, "energy", {})
@@ -113,13 +113,13 @@ def _of_troubles(fleet: Any, items_picked: int) -> dict[str, Any]:
 
 
 def _lost(items_picked: int, away: float) -> float:
-    """Returns how many pieces robots would have picked in the part of their time that they were
-    `away`, at the pace of the rest of it."""
+    """Returns the pieces that robots would have picked in their time `away`, at the rate of their
+    other time."""
     return items_picked * away / max(1 - away, 1e-9)
 
 
 def quantiles(values: Sequence[float]) -> dict[str, float]:
-    """Returns p25, median, p75 and p95 of values; zeros where there are none."""
+    """Returns p25, median, p75 and p95 of values; zeros without values."""
     names = ("p25", "median", "p75", "p95")
     return dict(zip(names, np.percentile(values or [0.0], (25, 50, 75, 95)).tolist()))
 

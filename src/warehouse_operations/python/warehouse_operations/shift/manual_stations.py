@@ -34,7 +34,7 @@ class ManualPicking:
         self._visits, self._taking_back = visits, taking_back
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
-        """Takes pieces of a SKU as picked. Returns success and the fault."""
+        """Records pieces of a SKU as picked. Returns success and the fault."""
         visit, picks = self._asked(station, sku)
         asked = sum(pick.quantity for pick in picks)
         if not (visit and 0 < quantity <= asked):
@@ -82,7 +82,7 @@ class ManualPicking:
         return next(filter(is_it, picks), None)
 
     def asks(self, station: WorkStation) -> str:
-        """Returns a sentence about what a person is asked to do now."""
+        """Returns a sentence about the current task of a person."""
         visit = station.here
         if not visit or not visit.picks:
             return f"{station.name} asks for nothing now"
@@ -92,7 +92,7 @@ class ManualPicking:
 
     def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
         """Carries out a Report of a Pick."""
-        # The pick is of the unit at the station, where task() looks for it.
+        # The pick is of the unit at the station: task() searches there.
         visit, bin_, sku = cast(Visit, station.here), pick.bin, pick.line.sku
         if report.outcome == PickOutcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
@@ -117,8 +117,8 @@ class ManualPicking:
     ) -> str:
         """Puts (SKU, pieces) that were written off back into their bin.
 
-        They serve the same lines again if the unit is still there. Returns why the bin can't take
-        them, or "".
+        They serve the same lines again if the unit is still there. Returns the reason of a refusal,
+        or "".
         """
         sku, quantity = pieces
         if bin_.room < quantity or not (bin_.empty or bin_.sku == sku):
@@ -163,7 +163,7 @@ class ManualReplenishing:
         self._taking_back = taking_back
 
     def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
-        """Takes the bundle of a SKU as put in. Returns success and the fault."""
+        """Records the bundle of a SKU as put in. Returns success and the fault."""
         visit, bundle = self._asked(station, sku)
         if not visit or not bundle or bundle.quantity != quantity:
             asked = f"{bundle.quantity} of {sku}" if bundle else f"none of {sku}"
@@ -175,7 +175,7 @@ class ManualReplenishing:
     def short(
         self, station: WorkStation, sku: str, lacking: int, _reason: Reason
     ) -> tuple[bool, str]:
-        """Leaves out pieces of a bundle that are missing or damaged: they were never in the stock.
+        """Removes missing or damaged pieces from a bundle: they were never in the stock.
 
         Returns success and the fault.
         """
@@ -202,7 +202,7 @@ class ManualReplenishing:
         return next((b for b in puts if (0, b.bin.item, b.sequence) == named), None)
 
     def asks(self, station: WorkStation) -> str:
-        """Returns a sentence about what a person is asked to do now."""
+        """Returns a sentence about the current task of a person."""
         visit = station.here
         if not visit or not visit.puts:
             return f"{station.name} asks for nothing now"
@@ -213,7 +213,7 @@ class ManualReplenishing:
 
     def report(self, station: WorkStation, bundle: Bundle, report: Report) -> Answer:
         """Carries out a Report of a Bundle."""
-        # The bundle is for the unit at the station, where task() looks for it.
+        # The bundle is for the unit at the station: task() searches there.
         visit, there = cast(Visit, station.here), bundle.quantity
         if report.outcome == PickOutcome.DONE:
             if report.quantity != there:
@@ -230,7 +230,7 @@ class ManualReplenishing:
         return Answer(True, f"{lacking} of {bundle.sku} are not put in", lacking, undo)
 
     def _lengthen(self, visit: Visit, bundle: Bundle, pieces: int) -> str:
-        """Adds pieces that were left out to their bundle again, or orders them as another one."""
+        """Adds removed pieces to their bundle again, or orders them as another one."""
         is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
         if is_there and self._inventory.takes(bundle.bin, bundle.sku, pieces):
             self._inventory.expect(bundle.bin, bundle.sku, pieces)
@@ -248,7 +248,7 @@ class ManualReplenishing:
 
 
 class ManualStations:
-    """The stations at which people work, by name, and who carries out what they report."""
+    """The stations at which people work, by name, and the parts that carry out their reports."""
 
     def __init__(
         self,
@@ -267,7 +267,7 @@ class ManualStations:
         return self._replenishing if replenishes else self._picking
 
     def confirm(self, name: str, sku: str, quantity: int) -> tuple[bool, str]:
-        """Takes pieces as picked, or put in, by a person. Returns success and the fault."""
+        """Records pieces as picked, or put in, by a person. Returns success and the fault."""
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"

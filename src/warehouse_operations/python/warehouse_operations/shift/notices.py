@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Notices for people about a shift: what it could not take, and why."""
+"""Notices for people about a shift: refused input, with the reason."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -27,13 +27,13 @@ class Notices:
         self._counts[text] = self._counts.pop(text, 0) + 1
         if len(self._counts) > MOST:
             del self._counts[next(iter(self._counts))]
-        self._tell()
+        self._notify()
 
     def drop(self, text: str) -> None:
         """Removes a sentence that is no longer true."""
         if self._counts.pop(text, None):
-            self._tell()
+            self._notify()
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         if self.on_change:
             self.on_change()

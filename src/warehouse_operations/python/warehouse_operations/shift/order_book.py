@@ -18,9 +18,8 @@ Lines = Sequence[tuple[str, int]]  # (SKU, pieces)
 class OrderBook:
     """The orders that are not over.
 
-    orders: all of them, by id. backlog: those that no station has. skus: those that may be asked
-    for. on_event: called for each event with (order, kind, sku, quantity, station, unit, text), or
-    None.
+    orders: all of them, by id. backlog: those without a station. skus: those that may be ordered.
+    on_event: called for each event with (order, kind, sku, quantity, station, unit, text), or None.
     """
 
     def __init__(self, context: Context, skus: Iterable[str], notices: Notices) -> None:
@@ -41,7 +40,7 @@ class OrderBook:
     def register(
         self, on_backlog_change: Callable[[], object], take_away: Callable[[Order], object]
     ) -> None:
-        """Sets who assigns orders to stations.
+        """Sets the part that assigns orders to stations.
 
         on_backlog_change() is called where the backlog has a new order, take_away(order) for one
         that is cancelled while a station has it.
@@ -53,7 +52,7 @@ class OrderBook:
     ) -> tuple[Order | None, str]:
         """Takes a new order of (SKU, pieces), due at a time [s], 0: at any time.
 
-        Returns (order, what it waits for), or (None, the reason of the refusal).
+        Returns (order, the cause of its wait), or (None, the reason of the refusal).
         """
         reason = self._fault_of(lines) or acceptance.fault_of_head(reference, due, priority)
         if reason:
@@ -80,7 +79,7 @@ class OrderBook:
         return order, f"waits for replenishment of {', '.join(lacking)}" if lacking else ""
 
     def unpromised(self, sku: str) -> int:
-        """Returns how many available pieces of a SKU the backlog does not ask for."""
+        """Returns the number of available pieces of a SKU beyond the backlog's demand."""
         return self._context.inventory.available(sku) - self.backlog.demand.get(sku, 0)
 
     def _fault_of(self, lines: Lines) -> str:
@@ -125,7 +124,8 @@ class OrderBook:
         return True, text
 
     def _end_cancelled(self, order: Order, reason: str = "") -> str:
-        """Ends an order that neither the backlog nor a station has; returns the event's text."""
+        """Ends an order that is neither in the backlog nor at a station; returns the event's
+        text."""
         order.state = OrderState.CANCELLED
         picked = sum(line.picked for line in order.lines)
         text = "; ".join(
@@ -142,7 +142,7 @@ class OrderBook:
         self._on_backlog_change()
 
     def bring_back(self, order: Order) -> None:
-        """Makes a complete order one of its station again: a piece was taken back."""
+        """Returns a complete order to its station after a piece was taken back."""
         self._context.tally.reopened(order)
         self.orders[order.order_id] = order
         order.state, order.completed = OrderState.ASSIGNED, 0.0
@@ -158,7 +158,7 @@ class OrderBook:
         del self.orders[order.order_id]
 
     def resume(self, orders: Sequence[Order], last_order: int) -> None:
-        """Goes on with orders of an earlier run; new ones are numbered from last_order + 1."""
+        """Adds orders of an earlier run; new ones are numbered from last_order + 1."""
         self._ids = itertools.count(last_order + 1)
         for order in orders:
             self.orders[order.order_id] = order

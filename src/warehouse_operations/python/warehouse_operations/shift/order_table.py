@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from warehouse_operations.shift.order_book import TOO_MANY, OrderBook
 from warehouse_operations.stock import acceptance
-from warehouse_operations.stock.order_file import Fault, Wanted, parse_csv
+from warehouse_operations.stock.order_file import Fault, OrderDraft, parse_csv
 
 MOST_ORDERS = 5_000  # of a table
 
@@ -22,8 +22,8 @@ class TableAnswer:
 
 
 def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer:
-    """Takes the orders of a table into an OrderBook; see order_file. None of them with check_only,
-    or where anything is wrong."""
+    """Submits the orders of a table to an OrderBook (see order_file): all, or none if any is faulty
+    or with check_only."""
     drafts, faults = parse_csv(table, set(book.skus), book.capacity)
     faults = faults or _faults_of_all(drafts, book)
     answer = TableAnswer(
@@ -38,13 +38,13 @@ def submit(book: OrderBook, table: str, check_only: bool = False) -> TableAnswer
         order, why = book.submit(draft.lines, draft.due, draft.priority, draft.reference)
         if order:
             answer.order_ids.append(order.order_id)
-        else:  # what was checked above forbids it
+        else:  # impossible after the check above
             answer.faults.append(Fault(0, "", f"{draft.reference} is refused: {why}"))
     return answer
 
 
-def _faults_of_all(drafts: list[Wanted], book: OrderBook) -> list[Fault]:
-    """Returns what is wrong with the orders together."""
+def _faults_of_all(drafts: list[OrderDraft], book: OrderBook) -> list[Fault]:
+    """Returns the faults of the orders as a whole."""
     if not drafts:
         return [Fault(0, "", "there is no order in it")]
     if len(drafts) > MOST_ORDERS:

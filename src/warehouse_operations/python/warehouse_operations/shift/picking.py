@@ -19,12 +19,12 @@ from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
-LATER = 0.1  # until stations that a step had no effort left for choose orders [s]
-EFFORT = 200_000  # most lines of orders that are looked at in a step: about 0.1 s of work
+LATER = 0.1  # delay for stations whose choice exceeds the effort of a step [s]
+EFFORT = 200_000  # most order lines that a step examines: about 0.1 s of work
 
 
 class Picking:
-    """The work at picking stations: which order to which of them, which unit, piece by piece."""
+    """The work at picking stations: assigning orders, fetching units, picking pieces."""
 
     def __init__(
         self,
@@ -59,8 +59,8 @@ class Picking:
     def on_backlog_change(self) -> None:
         """Lets stations with a free slot look at the backlog, once in LOOK at most.
 
-        Orders that come one after the other are looked at together: a look costs as much as there
-        are orders and stations.
+        Orders that come in a row are examined together: a look costs time for each order and
+        station.
         """
         if self._clock.now >= self._next_look:
             self._check_backlog(None)
@@ -75,7 +75,7 @@ class Picking:
                 self._to_assign[station] = None
 
     def on_unit_free(self, unit: int) -> None:
-        """Lets stations fetch a unit that is back in storage, if it holds what they lack."""
+        """Lets stations fetch a unit that is back in storage, if it holds pieces that they lack."""
         for bin_ in self._inventory.of_unit[unit]:
             if bin_.available and bin_.sku in self._missing:
                 for station in self._missing[bin_.sku].values():
@@ -128,7 +128,7 @@ class Picking:
             self.allot(station, line)
 
     def allot(self, station: WorkStation, line: Line) -> None:
-        """Reserves for a line what units at its station or on their way there can serve."""
+        """Reserves pieces for a line on the units at its station or on their way there."""
         for visit in station.coming_for(replenishes=False):
             for bin_ in self._inventory.of_unit[visit.unit]:
                 pieces = min(line.missing, bin_.available) if bin_.sku == line.sku else 0
@@ -180,13 +180,13 @@ class Picking:
         self.leave_if_done(station)
 
     def drop_visit(self, visit: Visit) -> None:
-        """Drops all picks of a visit, whose lines need another unit then."""
+        """Drops all picks of a visit; their lines need another unit."""
         lines = [pick.line for pick in visit.picks]
         for pick in list(visit.picks):
             self.drop(visit, pick)
         for line in lines:
             self._note(visit.station, line)
-        self._to_fetch[visit.station] = None  # there is room for another one
+        self._to_fetch[visit.station] = None  # it has room for another unit
 
     def drop_bin(self, bin_: Bin) -> list[tuple[Visit, Line]]:
         """Drops all picks from a bin; returns the visit and line of each."""
@@ -255,7 +255,7 @@ class Picking:
         self.leave_if_done(visit.station)
 
     def next_piece(self, station: WorkStation) -> None:
-        """Starts picking the next pieces, as many as pickers are free, if a unit is there."""
+        """Starts picking the next pieces, one for each free picker, if a unit is there."""
         visit = station.here
         if not visit or station.mode == StationMode.MANUAL:
             return

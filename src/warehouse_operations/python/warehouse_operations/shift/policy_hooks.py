@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The answers of a shift's policies to what the fleet asks."""
+"""The decisions of a shift's policies for the fleet."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any

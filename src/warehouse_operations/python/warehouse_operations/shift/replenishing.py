@@ -18,13 +18,13 @@ from warehouse_operations.stock.inventory import Bin
 from warehouse_operations.stock.orders import Bundle
 from warehouse_operations.stock.stations import Visit, WorkStation
 
-PERIOD = 10.0  # between two looks at what is to be ordered [s]
+PERIOD = 10.0  # between two calls of the policy that orders bundles [s]
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK_AHEAD = 30  # waiting bundles that are tried for a place
 
 
 class Replenishing:
-    """The work at replenishing stations: which bundle into which bin, which unit, one by one."""
+    """The work at replenishing stations: choosing bins, fetching units, putting bundles in."""
 
     def __init__(
         self,
@@ -47,7 +47,7 @@ class Replenishing:
             station.on_hands_free.append(self.next_bundle)
 
     def order(self, sku: str, quantity: int) -> None:
-        """Queues a bundle that has arrived for replenishment; none comes of what is sold out."""
+        """Queues a bundle that has arrived; drops it if its SKU is sold out."""
         if sku in self.sold_out:
             return
         self._goods_in.order(sku, quantity, self._clock.now)
@@ -68,7 +68,7 @@ class Replenishing:
         if not self._look:
             return
         self._look = False
-        limit = -(-self._visits.most // 2)  # their units have more work with them
+        limit = -(-self._visits.most // 2)  # few visits, each with many bundles
         coming = {s: n for s in self.stations if s.is_open and (n := _coming(s)) < limit}
         while self._goods_in.bundles and coming:
             station = min(coming, key=coming.__getitem__)
@@ -170,13 +170,13 @@ class Replenishing:
         self._context.tally.stored(self._clock.now, bundle)
 
     def drop_visit(self, visit: Visit) -> None:
-        """Queues the bundles of a visit again, whose unit does not come or leaves early."""
+        """Queues the bundles of a visit again if its unit does not come, or leaves early."""
         for bundle in visit.puts:
             self._return(bundle)
         visit.puts = deque()
 
     def drop_bin(self, bin_: Bin) -> None:
-        """Queues the bundles again that were meant for a bin."""
+        """Queues the bundles for a bin again."""
         for visit in [v for s in self.stations for v in s.inbound.values() if v.unit == bin_.unit]:
             dropped = [bundle for bundle in visit.puts if bundle.bin is bin_]
             for bundle in dropped:

@@ -3,8 +3,8 @@
 
 It is driven by events and by simulated time, and sees the fleet through protocols.Requests alone:
 
-    shift.advance(time)           # takes in what happened up to then
-    shift.next_time()             # when it must be called next, if nothing happens before
+    shift.advance(time)           # handles all events up to then
+    shift.next_time()             # time of the next call, if no event comes before
 """
 
 from collections.abc import Callable, Collection, Iterable
@@ -48,15 +48,15 @@ from warehouse_operations.stock.whereabouts import Whereabouts
 
 __all__ = ["Settings", "Shift"]
 
-RECENT = 200  # orders whose time is taken for the usual one
+RECENT = 200  # latest orders, whose median time is the usual one
 
 
 class Shift:
-    """The work of a warehouse from a moment on.
+    """The work of a warehouse during a shift.
 
     order_book, visits, picking, replenishing, fallen, manual, tasks: its parts, which share its
     context. task_numbers: of tasks for people. view: its state for policies. hooks: the policies'
-    answers for the fleet. notices: what a person must know. tally: counts for the KPIs.
+    answers for the fleet. notices: for people. tally: counts for the KPIs.
     """
 
     def __init__(
@@ -146,7 +146,7 @@ class Shift:
         return station
 
     def _set_pickers(self, argument: tuple[WorkStation, int]) -> None:
-        """Begins a break of a station's pickers, or has them or others go on."""
+        """Sets the number of a station's pickers, 0 during a break."""
         station, pickers = argument
         station.set_pickers(pickers, self.now)
         station.next_work()
@@ -192,7 +192,7 @@ class Shift:
         return min(self._clock.next_time, self.demand.next_time() if self.demand else np.inf)
 
     def advance(self, time: float) -> None:
-        """Takes in what happened up to a time [s] and decides what follows from it."""
+        """Handles the events up to a time [s], and decides what follows."""
         self._clock.now = time
         for event in self._transports.take_events():
             self.visits.on_event(event)
@@ -265,8 +265,8 @@ class Shift:
         return self.order_book.change(order_id, priority, due)
 
     def likely_completion(self, order_id: int) -> tuple[float, list[int]]:
-        """Returns when an order is likely complete [s], 0: over, or not known; and the units at its
-        station, or on their way there, that hold pieces of it."""
+        """Returns the expected time of completion of an order [s], 0: over or unknown; and the
+        units at its station, or on their way there, with pieces of it."""
         order = self.order_book.orders.get(order_id)
         if not order:
             return 0.0, []
@@ -280,7 +280,7 @@ class Shift:
         if not turnovers:
             return 0.0, units
         usual = order.created + sorted(turnovers)[len(turnovers) // 2]
-        # An order that has waited for longer than others needs its pieces' time at least.
+        # An order that has waited longer than usual needs at least the time of its pieces.
         pace = place.seconds_a_piece if place else 0.0
         work = sum(visit.pieces_to_pick for visit in visits) * pace
         return max(usual, self.now + work), units
@@ -314,7 +314,8 @@ class Shift:
         return True, ""
 
     def open_picking(self, count: int) -> None:
-        """Opens the first `count` picking stations and closes the others, before robots begin."""
+        """Opens the first `count` picking stations and closes the others; call it before robots
+        begin."""
         for i, station in enumerate(self.picking.stations):
             self.set_station(station.name, i < count, station.mode)
         working = sum(station.is_open for station in self.stations)

@@ -12,7 +12,8 @@ from warehouse_operations.stock.stations import Pick, Visit, WorkStation
 
 
 class TakingBack:
-    """Undoes picks and bundles of stations in mode MANUAL; each returns why it can't, or ""."""
+    """Undoes picks and bundles of stations in mode MANUAL; each method returns the reason of a
+    refusal, or ""."""
 
     def __init__(
         self, context: Context, order_book: OrderBook, picking: Picking, task_numbers: TaskNumbers
@@ -21,7 +22,7 @@ class TakingBack:
         self._order_book, self._picking, self._task_numbers = order_book, picking, task_numbers
 
     def pick(self, visit: Visit, pick: Pick, pieces: int, when: float) -> str:
-        """Lays pieces that were picked at a time [s] into their bin again, to be asked for next."""
+        """Returns pieces that were picked at a time [s] to their bin; they are the next task."""
         line, station = pick.line, visit.station
         refusal = _away(visit) or _no_room(pick.bin, line.sku, pieces)
         if refusal := refusal or self._have_order(station, line.order):
@@ -56,7 +57,7 @@ class TakingBack:
         return ""
 
     def _ask_again(self, visit: Visit, pick: Pick, pieces: int) -> None:
-        """Makes pieces the next ones to be picked, with what is left of their pick."""
+        """Makes pieces the next ones to be picked, with the rest of their pick."""
         is_left = pick in visit.picks
         if is_left:
             visit.picks.remove(pick)
@@ -70,7 +71,7 @@ class TakingBack:
         visit.station.pieces -= pieces
 
     def _have_order(self, station: WorkStation, order: Order) -> str:
-        """Has the station work at an order that it worked at a moment ago."""
+        """Assigns an order to its last station again."""
         if order.order_id in station.orders:
             return ""
         if order.state != OrderState.COMPLETED:

@@ -15,7 +15,7 @@ class Tally:
     def __init__(self) -> None:
         self.items_picked = self.lines_picked = self.orders_completed = 0
         self.bundles_stored = self.pieces_stored = self.late_orders = self.orders_received = 0
-        self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
+        self.trips = self.pick_visits = 0  # visits of units: to any station, to picking stations
         self.turnover_s: list[float] = []
         self.throughput_s: list[float] = []
         self.completed_s: list[float] = []  # when each of these orders was complete
@@ -37,13 +37,13 @@ class Tally:
         self.stored_in[int(now // INTERVAL)] += bundle.quantity
 
     def unpicked(self, when: float, pieces: int, line: Line) -> None:
-        """Counts pieces no longer that were picked at a time [s]; the line still has them."""
+        """Uncounts pieces that were picked at a time [s]; call it before the line loses them."""
         self.items_picked -= pieces
         self.lines_picked -= not line.open
         self.picked_in[int(when // INTERVAL)] -= pieces
 
     def unstored(self, when: float, bundle: Bundle) -> None:
-        """Counts a bundle no longer that was put in at a time [s]."""
+        """Uncounts a bundle that was put in at a time [s]."""
         self.bundles_stored -= 1
         self.pieces_stored -= bundle.quantity
         self.stored_in[int(when // INTERVAL)] -= bundle.quantity
@@ -58,7 +58,7 @@ class Tally:
         self.completed_in[int(order.completed // INTERVAL)] += 1
 
     def reopened(self, order: Order) -> None:
-        """Counts an order no longer that was complete. Raises ValueError if it was not counted."""
+        """Uncounts a complete order. Raises ValueError if it was not counted."""
         self.orders_completed -= 1
         self._late(order, -1)
         times = order.completed - order.created, order.completed - order.assigned, order.completed

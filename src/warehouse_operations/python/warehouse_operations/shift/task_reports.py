@@ -12,7 +12,7 @@ from warehouse_layout.message_enums import PickOutcome
 class Report:
     """A person's report of a task, which station, order, item and sequence name.
 
-    id: the sender's name of the report; one that comes again under it is the same. "": none.
+    id: the sender's name of the report: a report with the same id is a repetition; "": without.
     """
 
     station: str
@@ -26,7 +26,7 @@ class Report:
 
 @dataclass
 class Answer:
-    """The result of a Report; `undo()` takes it back, and returns why it can't."""
+    """The result of a Report; `undo()` takes it back, and returns the reason of a refusal."""
 
     success: bool
     message: str = ""

@@ -10,18 +10,18 @@ from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.task_reports import Answer, Report
 from warehouse_operations.stock.stations import WorkStation
 
-KEPT = 10_000  # reports that are known when they come again
-UNDO_WITHIN = 60.0  # after a write-off [s], simulated: ten of a person where time runs faster
+KEPT = 10_000  # reports whose repetitions are recognised
+UNDO_WITHIN = 60.0  # after a write-off [s, simulated]: less for a person where time runs faster
 
 
 class ManualPart(Protocol):
     """Carries out the reports of people about tasks of one kind."""
 
     def task(self, station: WorkStation, report: Report) -> Any:
-        """Returns the task that a Report names, at the unit that is there, or None."""
+        """Returns the task that a Report names, of the unit at its station, or None."""
 
     def asks(self, station: WorkStation) -> str:
-        """Returns a sentence about what a person is asked to do now."""
+        """Returns a sentence about the current task of a person."""
 
     def report(self, station: WorkStation, task: Any, report: Report) -> Answer:
         """Carries out a Report of a task."""
@@ -52,7 +52,7 @@ class Tasks:
         self._answered: dict[str, Done] = {}  # those with an id, refused ones too, by it
 
     def remember(self, reports: Iterable[tuple[Report, Answer]]) -> None:
-        """Takes in reports of earlier runs with their answers, for when they come again."""
+        """Adds reports of earlier runs with their answers, to recognise repetitions."""
         for report, answer in reports:
             self._answered[report.id] = Done(report, answer, self._clock.now)
 
@@ -89,7 +89,7 @@ class Tasks:
         return answer
 
     def undo(self, station: str, sequence: int) -> tuple[bool, str]:
-        """Takes back what a report has led to; returns success and why not."""
+        """Undoes a report; returns success and the reason of a refusal."""
         done = self._done.get(sequence)
         if not done or done.report.station != station or not done.answer.undo:
             return False, f"nothing was reported at {station} under {sequence}"

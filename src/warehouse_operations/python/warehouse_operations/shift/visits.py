@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Units that a shift asks the fleet for, and those that it may ask for."""
+"""The visits of units that a shift requests from the fleet, and the units that are free for one."""
 
 import itertools
 from collections import Counter
@@ -13,7 +13,7 @@ from warehouse_operations.stock.stations import Visit, WorkStation
 from warehouse_operations.stock.units_by_id import UnitSet
 from warehouse_operations.stock.whereabouts import Whereabouts
 
-HOLD = 10.0  # a unit is not asked for this long after its transport failed or was refused [s]
+HOLD = 10.0  # pause before a unit is requested again after a failed or refused transport [s]
 
 
 class Part(Protocol):
@@ -23,17 +23,17 @@ class Part(Protocol):
         """Begins the work at a unit that has arrived, or lets it leave."""
 
     def drop_visit(self, visit: Visit) -> None:
-        """Gives up what a visit was to do: its unit does not come, or leaves early."""
+        """Gives up the work of a visit: its unit does not come, or leaves early."""
 
     def on_unit_free(self, unit: int) -> None:
-        """Looks for work of a unit that may be asked for again."""
+        """Finds work for a unit that may be requested again."""
 
 
 class Visits:
     """The visits of units to stations that are under way.
 
-    free_units: the ids of units that stand in storage and may be asked for. most: how many units
-    at most are at a station or on their way to it.
+    free_units: the ids of units that stand in storage and may be requested. most: most units at a
+    station or on their way to it.
     """
 
     def __init__(
@@ -115,13 +115,13 @@ class Visits:
             self.offer(unit)
 
     def offer(self, unit: int) -> None:
-        """Lets the parts of the shift look for work of a unit, if it may be asked for."""
+        """Lets the parts of the shift find work for a unit, if it may be requested."""
         if unit in self.free_units:
             for part in self._parts.values():
                 part.on_unit_free(unit)
 
     def on_event(self, event: TransportEvent) -> None:
-        """Brings the visit up to date that a TransportEvent belongs to, if any."""
+        """Updates the visit of a TransportEvent, if there is one."""
         visit = self._by_transport.get(event.transport_id)
         if not visit:
             return

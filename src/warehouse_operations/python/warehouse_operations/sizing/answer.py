@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The answer of a sizing, in words and figures: how many, how sure, and what limits it."""
+"""The answer of a sizing, in words and figures: the numbers, their confidence and their limit."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -18,16 +18,15 @@ SHOWN = {
     "undecided": "not shown to be met",
     "drawn": "not judged",
 }
-KNEE = 0.99  # of the most orders an hour of any number of robots
+KNEE = 0.99  # share of the highest order rate of any number of robots
 
 
 @dataclass(frozen=True)
 class Answer:
     """The chosen point of a Study, with the points around it.
 
-    others: the points with a robot or a station more. verdict: of ideal robots. check: of
-    simulated ones, None if that was not asked for; its robots
-    may be more.
+    others: the points with a robot or a station more. verdict: of ideal robots. check: of simulated
+    ones, which may be more; None: not requested.
     """
 
     study: Study
@@ -37,7 +36,7 @@ class Answer:
 
     @property
     def robots(self) -> int:
-        """The number of robots needed: simulated ones, if they were checked."""
+        """The number of robots: of simulated ones, if they were checked."""
         return self.check.robots if self.check and self.check.met else self.verdict.robots
 
     @property
@@ -57,7 +56,7 @@ class Answer:
 
     @property
     def confirmed(self) -> bool:
-        """Whether simulated robots met the wish, or were not asked for."""
+        """Whether simulated robots met the wish, or were not requested."""
         return self.check is None or self.check.met
 
     def headline(self) -> str:
@@ -79,7 +78,7 @@ class Answer:
 
     @property
     def limit(self) -> Limit:
-        """What limits the answer; where nothing does yet, what is nearest to its own limit."""
+        """The limit of the answer; without one, the part nearest to its limit."""
         verdict = self.measured
         if not self.confirmed or self.robots > self.verdict.robots:
             return Limit.STREETS
@@ -94,7 +93,7 @@ class Answer:
         return max(use, key=lambda limit: use[limit])
 
     def reasons(self) -> Iterator[str]:
-        """Yields sentences about what limits the answer."""
+        """Yields sentences about the limit of the answer."""
         verdict = self.measured
         yield (
             f"At work: robots {percent(verdict, 'robots_at_work')} of their time (before stations"
@@ -170,7 +169,7 @@ class Answer:
 
 
 def knee(verdicts: list[Verdict]) -> int | None:
-    """Returns the fewest robots with nearly as many orders an hour as any of these points have."""
+    """Returns the fewest robots with KNEE of the highest order rate of these points."""
     hourly = {verdict.robots: verdict.estimate("orders_per_hour").mean for verdict in verdicts}
     if len(hourly) < 2:
         return None

@@ -15,8 +15,8 @@
     interest: 0.05
     instead: {order: 2.10}                           # what an order costs today, for the payback
 
-What is left out costs nothing; years are 8 and hours_a_year 4,000 then. What is bought costs its
-annuity: the same amount each year of its life, with interest.
+Costs that are left out are zero; the defaults of years and hours_a_year are 8 and 4,000. A purchase
+costs its annuity: the same amount in each year of its life, with interest.
 """
 
 from collections.abc import Mapping
@@ -36,20 +36,20 @@ PEOPLE = ("station", "replenish_station", "floor")
 NUMBERS = ("person_hour", "square_metre_year", "kwh", "hours_a_year", "interest")
 YEARS = 8.0  # of a thing's life
 HOURS_A_YEAR = 4000.0  # two shifts on 250 days
-WORKING, WAITING = 150.0, 80.0  # what a robot takes at work, and without [W]
+WORKING, WAITING = 150.0, 80.0  # power of a robot with work, and without [W]
 MOST = 1e12
 
 
 @dataclass(frozen=True)
 class Thing:
-    """A thing that is bought: its price, how many years it lasts, what it costs a year besides."""
+    """A purchase: its price, its life [years], and further costs a year."""
 
     price: float = 0.0
     years: float = YEARS
     a_year: float = 0.0
 
     def annual(self, interest: float) -> float:
-        """Returns what it costs a year: its annuity and what it costs besides."""
+        """Returns its costs a year: the annuity and the further costs."""
         if not interest:
             return self.price / self.years + self.a_year
         annuity = interest / (1 - (1 + interest) ** -self.years)
@@ -71,13 +71,13 @@ class Costs:
     instead: float = 0.0
 
     def thing(self, name: str) -> Thing:
-        """Returns one of THINGS."""
+        """Returns the purchase of a name in THINGS."""
         return self.things.get(name, Thing())
 
 
 @dataclass(frozen=True)
 class Bill:
-    """What a warehouse costs. years: until it has paid for itself; None: never, or not asked."""
+    """The costs of a warehouse. years: to its payback; None: never, or without today's costs."""
 
     to_buy: float
     a_year: float
@@ -87,7 +87,7 @@ class Bill:
     currency: str
 
     def text(self) -> str:
-        """Returns it as a sentence."""
+        """Returns the costs as a sentence."""
         unit = f" {self.currency}" if self.currency else ""
         back = f"; it has paid for itself after {self.years:.1f} years" if self.years else ""
         return (
@@ -96,7 +96,7 @@ class Bill:
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Returns its figures."""
+        """Returns the costs as figures."""
         return {
             "to_buy": round(self.to_buy, 2),
             "a_year": round(self.a_year, 2),
@@ -108,7 +108,7 @@ class Bill:
 
 
 class LayoutCosts:
-    """Costs of a layout with a number of robots and open picking stations; all else is its own."""
+    """Costs of a layout with a given number of robots and open picking stations."""
 
     def __init__(self, costs: Costs, file: LayoutFile, units: int) -> None:
         self.costs, self.units = costs, units
@@ -118,17 +118,17 @@ class LayoutCosts:
         self.square_metres = cells * file.spacing**2
 
     def counts(self, robots: int, stations: int) -> dict[str, int]:
-        """Returns how many of each of THINGS there are; stations: open picking ones."""
+        """Returns the number of each of THINGS; stations: open picking ones."""
         numbers = (robots, stations, self.replenishing, self.chargers, self.units)
         return dict(zip(THINGS, numbers))
 
     def to_buy(self, robots: int, stations: int) -> float:
-        """Returns what everything costs to buy."""
+        """Returns the price of all purchases."""
         counts = self.counts(robots, stations).items()
         return sum(count * self.costs.thing(name).price for name, count in counts)
 
     def running(self, robots: int, stations: int, at_work: float = 1.0) -> float:
-        """Returns what a year costs besides what is bought. at_work: share of the robots' time."""
+        """Returns the costs of a year without purchases. at_work: share of the robots' time."""
         costs, people = self.costs, self.costs.people
         things = sum(
             count * costs.thing(name).a_year
@@ -145,7 +145,7 @@ class LayoutCosts:
         )
 
     def a_year(self, robots: int, stations: int, at_work: float = 1.0) -> float:
-        """Returns what a year costs in all."""
+        """Returns all costs of a year."""
         things = sum(
             count * (self.costs.thing(name).annual(self.costs.interest))
             - count * self.costs.thing(name).a_year
@@ -154,7 +154,7 @@ class LayoutCosts:
         return things + self.running(robots, stations, at_work)
 
     def per_hour(self, robots: int, stations: int, _units: int = 0) -> float:
-        """Returns what an hour costs; stations: picking and replenishing ones, as of Prices."""
+        """Returns the costs of an hour; stations: picking and replenishing ones, as of Prices."""
         return self.a_year(robots, stations - self.replenishing) / self.costs.hours_a_year
 
     def bill(
@@ -165,7 +165,7 @@ class LayoutCosts:
         pieces_per_hour: float,
         at_work: float = 1.0,
     ) -> Bill:
-        """Returns what it costs where that many orders and pieces are done an hour."""
+        """Returns the Bill at a rate of orders and pieces an hour."""
         hours, year = self.costs.hours_a_year, self.a_year(robots, stations, at_work)
         orders, pieces = (max(rate * hours, 1e-9) for rate in (orders_per_hour, pieces_per_hour))
         buy, running = self.to_buy(robots, stations), self.running(robots, stations, at_work)
@@ -174,7 +174,7 @@ class LayoutCosts:
         return Bill(buy, year, year / orders, year / pieces, years, self.costs.currency)
 
     def sentence(self, _replenishing: int) -> str:
-        """Returns what was assumed."""
+        """Returns the assumptions."""
         costs = self.costs
         prices = ", ".join(
             f"{name.replace('_', ' ')} {thing.price:,g} for {thing.years:g} years"

@@ -10,7 +10,7 @@ from warehouse_operations.stock import demand_file, orders_text
 from warehouse_operations.stock.order_file import DemandError, read_csv
 from warehouse_operations.stock.orders_text import DAY, DEMAND, DayText
 
-RUN_IN = 60  # minutes before the day, in which the orders of its first hour come
+RUN_IN = 60  # minutes before the day, with the orders of its first hour
 HOUR = 3600.0  # [s]
 MOST_HOURS = 48
 
@@ -74,7 +74,7 @@ class Day:
 
     @property
     def orders_per_hour(self) -> float:
-        """Orders an hour, in the hours in which any come."""
+        """Orders an hour, over the hours with orders."""
         return self.orders / sum(count > 0 for count in self.by_hour)
 
     @property

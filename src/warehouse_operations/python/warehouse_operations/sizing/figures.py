@@ -16,7 +16,7 @@ from warehouse_operations.sizing.answer import knee
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
 
-FAR = 2.5  # times the robots of the answer
+FAR = 2.5  # robots of the last point drawn, over those of the answer
 MARGINS = (54, 84, 32, 40)
 HEIGHT = 280  # [px]
 SLIDE = (1040, 340)  # [px]
@@ -49,7 +49,7 @@ def lateness(study: Study, chosen: Chosen) -> Chart:
 
 
 def use(study: Study, chosen: Chosen) -> Chart:
-    """Returns how much of their time robots and stations work, over robots."""
+    """Returns the utilisation of robots and stations, over robots."""
 
     def draw(drawn: Canvas) -> None:
         ends = []
@@ -115,7 +115,7 @@ def _knee(drawn: Canvas, verdicts: Sequence[Verdict], number: int) -> None:
 
 
 def _most(study: Study, chosen: Chosen) -> float:
-    """Returns the robots up to which is drawn: where little changes any more is left out."""
+    """Returns the largest number of robots that is drawn: beyond it, little changes."""
     most = max((robots for robots, _ in study.verdicts), default=1)
     return min(FAR * chosen[0], 1.02 * most) if chosen else 1.02 * most
 
@@ -150,7 +150,7 @@ def _points(verdicts: Sequence[Verdict], name: str, factor: float) -> Any:
 
 
 def _label(drawn: Canvas, ends: Sequence[Any]) -> None:
-    """Writes at the end of each line for how many stations it is, where it leaves the chart."""
+    """Writes the number of stations at the end of each line, or where it leaves the chart."""
     (_, right), (_, top) = drawn.axes.get_xlim(), drawn.axes.get_ylim()
     heights = []
     for _, _, verdicts, name, factor in ends:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What would help: runs of a robot more and of a station more, beside the point of an answer."""
+"""Improvements of an answer: the points with one robot more and with one station more."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ from warehouse_operations.sizing.verdict import Verdict, difference
 
 
 def simulate(study: Study, verdict: Verdict) -> list[Verdict]:
-    """Returns the points with a robot more, and with a station more, as far as there is room."""
+    """Returns the points with one robot more and with one station more that have room."""
     wish, robots, stations = study.wish, verdict.robots, verdict.stations
     points = []
     if robots < wish.room:
@@ -19,7 +19,7 @@ def simulate(study: Study, verdict: Verdict) -> list[Verdict]:
 
 
 def sentences(study: Study, verdict: Verdict, others: list[Verdict]) -> Iterator[str]:
-    """Yields what each of these points changes, seed by seed."""
+    """Yields the differences of each of these points, seed by seed."""
     for other in others:
         more = "A robot more"
         if other.stations > verdict.stations:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A point hour by hour: orders that came and were done, what was late, how busy all were, and what
-limited it."""
+"""A point hour by hour: orders in, done and late, utilisation, and the limit."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -29,7 +28,7 @@ MINUTES = 60
 class Hour:
     """An hour of a shift, from its begin [h]; means over the shifts of a point.
 
-    late: orders that came in it and were not done in time. shares are of time.
+    late: orders that came in this hour and were not done in time. Shares are of time.
     """
 
     begin: int
@@ -82,14 +81,14 @@ def hours_of(verdict: Verdict) -> list[Hour]:
 
 
 def _limits(verdict: Verdict) -> Iterator[tuple[float, int, str]]:
-    """Yields each hour with what limits it."""
+    """Yields each hour with its limit."""
     for window, limit in limits.hours(verdict.windows):
         is_quiet = limit == Limit.ORDERS and not window.late
         yield window.begin, int(window.begin // limits.HOUR), NOTHING if is_quiet else str(limit)
 
 
 def sentences(hours: Sequence[Hour]) -> Iterator[str]:
-    """Yields what limits the shift when, and where orders are late."""
+    """Yields sentences about the limits of the shift over time, and the hours with late orders."""
     begin = 0
     for i, hour in enumerate(hours):
         if i + 1 == len(hours) or hours[i + 1].limit != hour.limit:
@@ -105,7 +104,7 @@ def to_csv(hours: Sequence[Hour]) -> str:
 
 
 def chart(hours: Sequence[Hour]) -> Chart:
-    """Returns orders in and done, late ones and how busy stations and robots are, by hour."""
+    """Returns charts by hour: orders in, done and late; utilisation of stations and robots."""
     return Chart(
         "The day, hour by hour",
         "Orders an hour: that came (bars), done (line), late (dark bars)",
@@ -118,7 +117,7 @@ def chart(hours: Sequence[Hour]) -> Chart:
 
 
 def use_chart(hours: Sequence[Hour]) -> Chart:
-    """Returns how busy stations and robots are, by hour."""
+    """Returns the utilisation of stations and robots, by hour."""
     return Chart(
         "How busy they are, hour by hour",
         "Share of the time [%]",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the report of a sizing: report.html, figure.png, points.csv, .xlsx and .txt.
 
-The first page is to be handed on: the answer, its figure, what limits it, what was assumed.
+The first page stands alone: the answer, its figure, its limit and the assumptions.
 """
 
 import json
@@ -44,7 +44,7 @@ def write(
 ) -> Path:
     """Writes the report and tables into a folder; returns the report's path.
 
-    answer: None where the wish is impossible; `why` says so then.
+    answer: None where the wish is impossible; `why` is the reason.
     """
     texts = {
         "points.csv": table.to_csv(study, prices),
@@ -66,7 +66,7 @@ def write(
 
 
 def bill_of(answer: Answer | None, prices: Pricing | None) -> Bill | None:
-    """Returns what the answer costs, where all costs are known."""
+    """Returns the costs of the answer; None without an answer or a file of costs."""
     if not answer or not isinstance(prices, LayoutCosts):
         return None
     figures_of = answer.measured.estimate
@@ -103,7 +103,7 @@ def page(study: Study, answer: Answer | None, why: str, prices: Pricing | None) 
 
 
 def _first(study: Study, answer: Answer | None, why: str, prices: Pricing | None) -> str:
-    """Returns the sheet that is handed on."""
+    """Returns the first sheet."""
     wish = study.wish
     asked = f"How many robots does {wish.file.title} need for {wish.asked}?"
     result = answer.headline() if answer else f"It can't be done: {why}."
@@ -151,7 +151,7 @@ def _big(study: Study, answer: Answer, prices: Pricing | None) -> Iterator[tuple
 
 
 def assumptions(wish: Wish, prices: Pricing | None) -> Iterator[str]:
-    """Yields sentences about what the answer takes for granted."""
+    """Yields sentences about the assumptions of the answer."""
     if wish.day:
         yield (
             f"Orders are those of {wish.day}, after an hour in which those of its first hour come;"
@@ -203,7 +203,7 @@ def _upkeep(wish: Wish) -> str:
 
 
 def effort(study: Study) -> str:
-    """Returns what was simulated for the answer, as a sentence."""
+    """Returns a sentence about the simulations for the answer."""
     points = len(study.verdicts) + len(study.checks)
     shifts = sum(len(v.records) for d in (study.verdicts, study.checks) for v in d.values())
     return (

@@ -2,8 +2,8 @@
 """Simulates one shift of a point, and writes down each minute of it.
 
 An empty warehouse fills first (the run-in); then come the minutes that count. Afterwards the shift
-goes on until each order that came in them is complete or due: so an order that is not due yet at
-the end of a shift is judged like any other, however short the shift is.
+goes on until each of their orders is complete or due: so even in a short shift every order is
+judged.
 """
 
 import time as clock
@@ -20,9 +20,9 @@ from warehouse_operations.stock import order_mix
 from warehouse_operations.stock.orders import Order
 
 MINUTE = 60.0  # [s]
-MOST_AFTER = 24 * 60  # minutes for which orders are waited for that are not due yet
+MOST_AFTER = 24 * 60  # longest wait for orders that are not due yet [min]
 PATIENCE = order_mix.DUE_LATER  # after which an order without a due time is late [s]
-# Orders by the minute in which they came: completed in time, whenever that was, or not.
+# Orders by the minute of their arrival: completed in time, or late.
 FATES = ("in_time", "missed")
 SERIES = (*minute_log.SERIES, *FATES)
 
@@ -50,7 +50,7 @@ class Point:
 class Record:
     """A shift of a point, minute by minute: a list for each of SERIES.
 
-    faults: sentences, of physics. wall_s, cpu_s: what it took, by the clock and of the process [s].
+    faults: sentences, of physics. wall_s, cpu_s: its duration, and the CPU time of the process [s].
     """
 
     robots: int
@@ -63,7 +63,7 @@ class Record:
     cpu_s: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
-        """Returns what JSON can hold, and Record(**…) is made of."""
+        """Returns the arguments of Record(**…) as JSON can hold them."""
         return asdict(self)
 
 
@@ -121,7 +121,7 @@ class _Fates:
             (self._in_time if order.completed <= _due(order) else self._late)[minute] += 1
 
     def open_of(self, begin: int, end: int, now: float) -> bool:
-        """Returns whether any order that came from a minute to another may still be in time."""
+        """Returns whether any order that came between two minutes may still be in time."""
         return any(
             begin <= order.created // MINUTE < end and now <= _due(order)
             for order in self._open.values()

@@ -5,9 +5,9 @@
     station: 40000    # a picking or a replenishing one
     unit: 150         # a storage unit
     hour: 28          # of a person at a station
-    hours: 20000      # in which what is bought is used up: 5 years of two shifts, if left out
+    hours: 20000      # life of robots, stations and units; 5 years of two shifts, if left out
 
-Each may be left out: it costs nothing then.
+A price that is left out is zero.
 """
 
 from dataclasses import dataclass, fields
@@ -18,11 +18,11 @@ from warehouse_operations.stock.yaml_file import read_yaml
 
 
 class PriceError(Exception):
-    """Says what is wrong in a file of prices, with its name and the key."""
+    """Raised for an invalid file of prices; names the file and the key."""
 
 
 class Pricing(Protocol):
-    """What prices a point: Prices, or costs.LayoutCosts."""
+    """The interface of Prices and costs.LayoutCosts, which price a point."""
 
     def per_hour(self, robots: int, stations: int, units: int, /) -> float:
         """Returns the cost an hour; stations: picking and replenishing stations."""

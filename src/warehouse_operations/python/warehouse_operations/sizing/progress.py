@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows how far a sizing is: on one line of a terminal, elsewhere a line a shift."""
+"""Progress of a sizing: on one line of a terminal, elsewhere a line a shift."""
 
 import sys
 from typing import TYPE_CHECKING, TextIO
@@ -20,7 +20,7 @@ class Shown:
         self._line = ProgressLine(stream)
 
     def __call__(self, study: "Study", point: Point, record: Record) -> None:
-        """Shows a shift, and what was simulated so far."""
+        """Shows a shift, and the totals so far."""
         kind = " with physics" if point.physics else ""
         in_time = 1 - figures_of(record, point.run_in)["late"]
         self._line.replace(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Looks for the fewest robots for each number of stations, judging as few points as that takes.
+"""Searches the fewest robots for each number of stations, with as few points as possible.
 
-Robots are bisected, after a first guess: those that were at work when there were many. A station
-more is tried for as long as it saves robots; it has to do with one robot less than without it.
+The number of robots is bisected from a first guess: the number at work of a large fleet. Stations
+are added while each saves at least one robot.
 """
 
 from collections.abc import Callable
@@ -11,14 +11,14 @@ from typing import Protocol
 
 
 class Judged(Protocol):
-    """The result of a point, as far as a search needs it."""
+    """The parts of a point's result that a search needs."""
 
     @property
     def met(self) -> bool:
         """Whether the point meets the wish."""
 
     def at_work(self) -> float:
-        """Returns how many of its robots were at work, on the average."""
+        """Returns the mean number of its robots at work."""
 
 
 Judge = Callable[[int, int], Judged]  # of (robots, stations)
@@ -28,9 +28,9 @@ Judge = Callable[[int, int], Judged]  # of (robots, stations)
 class Search:
     """The search for the fewest robots.
 
-    judge: of (robots, stations). most_robots: of a number of stations, how many are tried at most.
-    frontier: the fewest robots that meet the wish, by stations; None: no number of robots does. The
-    first number of stations that saves no robot is not in it.
+    judge: of (robots, stations). most_robots: largest number of robots to try, by stations.
+    frontier: the fewest robots that meet the wish, by stations; None: no number suffices. It ends
+    before the first number of stations that saves no robot.
     """
 
     judge: Judge
@@ -38,7 +38,7 @@ class Search:
     frontier: dict[int, int | None] = field(default_factory=dict)
 
     def run(self, least: int, most: int) -> dict[int, int | None]:
-        """Fills the frontier for `least` stations and more, up to `most` at the most."""
+        """Fills the frontier from `least` stations to `most` or fewer."""
         best: int | None = None
         for stations in range(least, most + 1):
             highest = self.most_robots(stations) if best is None else best - 1

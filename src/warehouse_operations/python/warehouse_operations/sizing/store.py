@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps the shifts of points in a folder, each under what decides its outcome."""
+"""The store of points' shifts: a folder, each file named by a hash of the inputs."""
 
 import hashlib
 import json
@@ -9,7 +9,7 @@ from pathlib import Path
 from warehouse_layout.file import user_file
 from warehouse_operations.sizing.point import SERIES, Point, Record
 
-VERSION = 2  # of what is kept; another one is simulated again
+VERSION = 2  # of the files; those of other versions are simulated again
 
 
 class Store:

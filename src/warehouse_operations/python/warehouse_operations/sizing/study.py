@@ -13,8 +13,9 @@ from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
 from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
 
-STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
-CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3  # of the fewest robots, and shifts each, to draw
+STEP = 0.05  # share of robots added where simulated ones miss the wish; it doubles each time
+# Points to draw: factors on the fewest robots, and shifts of each.
+CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3
 TRIES = 4  # numbers of simulated robots
 
 OnShift = Callable[["Study", Point, Record], object]
@@ -25,8 +26,8 @@ class Study:
     """Judges points of a wish. Shifts run on an Executor, and are kept in a Store.
 
     on_shift is called after each shift that was simulated. verdicts: by (robots, stations), of
-    ideal robots; checks: the same of simulated ones. simulated_h, wall_s: of the shifts that were
-    simulated by this Study, not taken from the Store.
+    ideal robots; checks: the same of simulated ones. simulated_h, wall_s: of the shifts that this
+    Study simulated, without those from the Store.
     """
 
     wish: Wish
@@ -63,12 +64,13 @@ class Study:
                     self._judged(self.verdicts, robots, stations, self._shifts(points))
 
     def beside(self, verdict: Verdict, robots: int, stations: int) -> Verdict:
-        """Returns the Verdict on another point by the seeds of one that was judged."""
+        """Returns the Verdict on a point by the seeds of a point that was judged."""
         points = self.wish.points(robots, stations, [record.seed for record in verdict.records])
         return self._judged(self.verdicts, robots, stations, self._shifts(points))
 
     def check(self, robots: int, stations: int, hours: float) -> int | None:
-        """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
+        """Returns the number of simulated robots that meet the wish, `robots` or a few more; or
+        None.
 
         hours: of a shift.
         """
@@ -121,7 +123,7 @@ class Study:
         return verdict
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
-        """Returns the Record of each Point, simulating those that are not kept."""
+        """Returns the Record of each Point, simulating those that the store lacks."""
         records = {point.seed: self.store.get(point) for point in points}
         left = [point for point in points if records[point.seed] is None]
         pending = {self.executor.submit(shift.simulate, point): point for point in left}

@@ -59,7 +59,7 @@ def cells(study: Study, prices: Pricing | None) -> list[list[Any]]:
 
 
 def to_text(study: Study, prices: Pricing | None) -> str:
-    """Returns the most telling figures of all points, in columns."""
+    """Returns the main figures of all points, in columns."""
     columns = [column for column in FIGURES if column[0] in SHORT]
     cost = ["cost a piece"] if prices else []
     lines: list[Sequence[str]] = [[*HEAD, *(heading for _, heading, *_ in columns), *cost]]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judges a point by its shifts: is the wish met, and how sure is that?
+"""The verdict on a point by its shifts: whether it meets the wish, with a confidence.
 
-Lateness is a part of the orders that came after the warm-up; orders that were not due
-yet when the shift was over are waited for. A point meets a wish if the upper confidence limit of
-the mean part, by Student's t over seeds, is at most the share that may be late, and if the open
-orders do not pile up: orders of which few are late today may all be late tomorrow.
+Lateness is the share of late orders among those that came after the warm-up; the shift goes on
+until all of them are complete or due. A point meets a wish if the upper confidence limit of the
+mean share, by Student's t over seeds, is at most the limit, and if the open orders don't
+accumulate: otherwise few late orders today may become many tomorrow.
 """
 
 import math
@@ -21,20 +21,20 @@ from warehouse_operations.reports.warm_up import mser5
 from warehouse_operations.sizing.point import SERIES, Record
 
 FIRST = LEAST  # shifts after which a point that is far off is dropped
-MORE = (1, 2, 4)  # times the seeds of a wish, at which a point is judged
-RISK = (1 - CONFIDENCE) / len(MORE)  # of one look: each has its part (Bonferroni)
+MORE = (1, 2, 4)  # multiples of a wish's seeds at which a point is judged
+RISK = (1 - CONFIDENCE) / len(MORE)  # risk of one judgement: the total is shared out (Bonferroni)
 
 Figures = dict[str, float]
 
 
 def looks(seeds: int) -> list[int]:
-    """Returns the numbers of shifts at which a point may be accepted."""
+    """Returns the numbers of shifts after which a point may be accepted."""
     return [seeds * times for times in MORE]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """A point's shifts, and what they say. late: the share that may be late; run_in [min]."""
+    """The result of a point's shifts. late: the share of orders that may be late; run_in [min]."""
 
     robots: int
     stations: int
@@ -42,16 +42,16 @@ class Verdict:
     late: float
     seeds: int
     run_in: int = 0
-    is_day: bool = False  # with hours that differ: it is judged from its begin, by lateness alone
+    is_day: bool = False  # a day with a peak: judged from its begin, by lateness alone
 
     @property
     def decided(self) -> bool:
-        """Whether more shifts would hardly change the verdict, or there are enough."""
+        """Whether the shifts suffice: the verdict is clear, or stays open with more of them."""
         most = looks(self.seeds)[-1]
         return self.met or self.fails or len(self.records) >= most or self._hopeless(most)
 
     def _hopeless(self, most: int) -> bool:
-        """Whether `most` shifts like these would leave it open that the wish is met."""
+        """Whether `most` shifts like these would not show that the wish is met."""
         return len(self.records) >= self.seeds and self.limit(RISK, 1, most) > self.late
 
     @cached_property
@@ -70,23 +70,24 @@ class Verdict:
 
     @cached_property
     def piles_up(self) -> bool:
-        """Whether more orders come than are completed, by more than may be late, with the
-        confidence of a look."""
+        """Whether open orders grow by more than the share that may be late, with the confidence of
+        one judgement."""
         return not self.is_day and self._limit("growth", RISK, -1) > self.late
 
     def at_work(self) -> float:
-        """Returns how many of the robots were at work, on the average."""
+        """Returns the mean number of robots at work."""
         return self.robots * self.estimate("robots_at_work").mean
 
     @property
     def word(self) -> str:
-        """One of met, missed, undecided, and drawn: for the figure alone, by too few shifts."""
+        """One of met, missed, undecided and drawn; drawn: for the figure alone, with too few
+        shifts."""
         if self.met or self.fails:
             return "met" if self.met else "missed"
         return "undecided" if len(self.records) >= self.seeds else "drawn"
 
     def limit(self, risk: float, side: int, shifts: int = 0) -> float:
-        """Returns the upper (side 1) or lower (-1) limit of the mean part that is late.
+        """Returns the upper (side 1) or lower (-1) limit of the mean share of late orders.
 
         shifts: their assumed number, with the same mean and deviation; 0: the number simulated.
         """
@@ -102,12 +103,12 @@ class Verdict:
 
     @property
     def at_most(self) -> float:
-        """The part of the orders that is late at most, with CONFIDENCE."""
+        """The upper limit of the share of late orders, with CONFIDENCE."""
         return max(self.limit(RISK, 1), 0.0)
 
     @cached_property
     def warm_up(self) -> int:
-        """The first minutes that are left out: the run-in, and until the open orders are steady."""
+        """The minutes left out at the beginning: the run-in, and the warm-up of the open orders."""
         if self.is_day:
             return self.run_in
         return max(self.run_in, mser5([record.series["open"] for record in self.records]))
@@ -159,7 +160,7 @@ def figures_of(record: Record, warm_up: int) -> Figures:
 
 
 def difference(first: Verdict, second: Verdict, name: str) -> Estimate:
-    """Returns by how much a figure of `second` is above that of `first`, seed by seed."""
+    """Returns the difference of a figure of `second` from that of `first`, seed by seed."""
     firsts = {record.seed: figures[name] for record, figures in zip(first.records, first.figures)}
     deltas: Sequence[float] = [
         figures[name] - firsts[record.seed]

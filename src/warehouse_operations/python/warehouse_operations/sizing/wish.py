@@ -23,17 +23,17 @@ from warehouse_operations.stock.order_file import read_csv
 from warehouse_operations.stock.settings import UNITS_MOST
 
 LINES, PIECES = 1.55, 1.05  # of an order, of a line: those of simulate's own orders
-AT_WORK = 2  # robots a unit that may be on its way to stations: another one is on its way back
-RUN_IN = 120  # minutes in which an empty warehouse fills: as long as orders have until they are due
-MANY = 1e6  # pieces from a unit: a bound on all that picking could reach
+AT_WORK = 2  # robots per unit that may be on its way to stations; the other one is on its way back
+RUN_IN = 120  # minutes in which an empty warehouse fills: the time until orders are due
+MANY = 1e6  # pieces from a unit: beyond any that picking can reach
 
 
 class WishError(ValueError):
-    """Says what is wrong with a wish."""
+    """Raised for an invalid wish."""
 
 
 class ImpossibleError(Exception):
-    """Says why no number of robots and stations meets a wish."""
+    """Raised where no number of robots and stations meets a wish; says why."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +53,9 @@ class Wish:
     late: float = 0.01
     hours: float = 8.0
     seeds: int = 5
-    most_robots: int = 0  # 0: what the demand can use and the floor has room for
+    most_robots: int = 0  # 0: as the demand needs and the floor has room
     day: Day | None = None  # in place of a constant rate of orders
-    realism: str = ""  # what keeps robots from work: a preset or a file
+    realism: str = ""  # availability of robots: a preset or a file
 
     def __post_init__(self) -> None:
         faults = [fault for fault in file_check.faults(self.file) if not fault.is_of_bodies]
@@ -73,7 +73,7 @@ class Wish:
 
     @property
     def stock_file(self) -> str:
-        """The path of the layout's stock, wherever a shift is simulated; "" without."""
+        """The absolute path of the layout's stock file, for other machines; "" without one."""
         return str(self.file.beside_file(self.file.stock).absolute()) if self.file.stock else ""
 
     @property
@@ -111,16 +111,16 @@ class Wish:
 
     @property
     def asked(self) -> str:
-        """What is asked for, in words."""
+        """The wish in words."""
         return str(self.day) if self.day else f"{self.orders_per_hour:,.0f} orders an hour"
 
     @property
     def pieces_per_hour(self) -> float:
-        """Pieces that are asked for an hour."""
+        """Requested pieces an hour."""
         return self.orders_per_hour * self.pieces_per_order
 
     def bound(self, stations: int) -> float:
-        """Returns the pieces an hour that the first `stations` can do at most."""
+        """Returns the most pieces an hour that the first `stations` can pick."""
         settings = layout_site.settings_of(self.file)
         return sum(self._bound_of(settings.of(name)) for name in self.stations[:stations])
 
@@ -128,7 +128,7 @@ class Wish:
         return kpis.upper_bound(MANY, settings, kpis.Kinematics(), self.file.spacing)
 
     def least_stations(self) -> int:
-        """Returns how many picking stations there must be. Raises ImpossibleError."""
+        """Returns the fewest picking stations that can meet the wish. Raises ImpossibleError."""
         for count in range(1, len(self.stations) + 1):
             if self.bound(count) >= self.pieces_per_hour:
                 return count

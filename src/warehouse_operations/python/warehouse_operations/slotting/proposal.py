@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Proposes which SKUs lie together and on which units, from orders.
+"""Proposes a unit for each bin of a SKU, from orders.
 
-Units are filled one after the other, the one that stands nearest to a station first. Each begins
-with the SKU that has the most lines of those left (class A before B before C), and takes the SKU
-that is most often in an order with those on it: the sum of lift-weighted pairs. So one trip has
-more of an order's lines, and the trips that are made most often are the shortest.
+Units are filled one by one, the nearest to a station first. Each begins with the remaining SKU that
+has the most lines (class A before B before C), and adds the SKU that shares most orders with those
+on it: the largest sum of lift-weighted pairs. So a trip serves more lines of an order, and frequent
+trips are short.
 """
 
 from collections import Counter, defaultdict
@@ -14,10 +14,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 from warehouse_operations.slotting.sku_master import Sku
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 
-UNIT_KG = 390.0  # what a unit may hold: 450 kg is a robot's load, 60 kg the unit's own
-MOST_LINES = 60  # of an order whose pairs are counted: longer ones say little about pairs
+UNIT_KG = 390.0  # largest mass on a unit: a robot's load of 450 kg, less the unit's own 60 kg
+MOST_LINES = 60  # longest order whose pairs are counted: in longer ones, pairs mean little
 
 
 class Lot(NamedTuple):
@@ -37,13 +37,13 @@ class Slot(NamedTuple):
 
 @dataclass(frozen=True)
 class Pairs:
-    """How often SKUs are asked for, and together. lines: by SKU; together: by SKU and other."""
+    """The demand for SKUs and for pairs of them. lines: by SKU; together: by SKU and other."""
 
     lines: Counter[str]
     together: Mapping[str, Counter[str]]
 
     @classmethod
-    def of(cls, orders: Iterable[Wanted]) -> "Pairs":
+    def of(cls, orders: Iterable[OrderDraft]) -> "Pairs":
         """Returns the pairs of orders."""
         lines: Counter[str] = Counter()
         together: dict[str, Counter[str]] = defaultdict(Counter)
@@ -71,8 +71,8 @@ def propose(
 ) -> list[Slot]:
     """Returns a slot for each lot. room: bins of each unit; nearest: units, the nearest first.
 
-    A SKU lies twice on a unit only where nothing else is left, and a unit holds at most UNIT_KG
-    while another has room.
+    A SKU lies twice on a unit only as the last remaining one; a unit holds at most UNIT_KG while
+    another one has room.
     """
     left: dict[str, list[int]] = defaultdict(list)
     for lot in sorted(lots):
@@ -91,7 +91,7 @@ def _fill(
     skus: Mapping[str, Sku],
     slots: list[Slot],
 ) -> None:
-    near: Counter[str] = Counter()  # how often each SKU is asked for with those on the unit
+    near: Counter[str] = Counter()  # demand for each SKU together with those on the unit
     here: set[str] = set()
     weight = 0.0
     for _ in range(bins):
@@ -110,7 +110,7 @@ def _fill(
             del left[choice]
         if choice not in here:
             here.add(choice)
-            # A partner that is in few other orders says more than one that is in all.
+            # A partner with few other orders is more specific than one in all orders.
             for other, count in pairs.together.get(choice, {}).items():
                 near[other] += count * 1000 // max(pairs.lines[other], 1)
 

@@ -4,7 +4,8 @@
     sku,weight_kg,length_m,width_m,height_m,pieces_a_bin,class
     bolt-m8,0.02,0.01,0.01,0.04,24,A
 
-Only sku is needed. Where pieces_a_bin is empty, it is what fits into a bin by the three edges.
+sku is required, all else optional. The default of pieces_a_bin is the number that fits into a bin
+by the three edges.
 """
 
 import itertools
@@ -22,12 +23,12 @@ CLASSES = ("", "A", "B", "C")
 
 
 class SkuMasterError(ValueError):
-    """Says what is wrong in a file of SKUs: file, line and column."""
+    """Raised for an invalid file of SKUs; names file, line and column."""
 
 
 @dataclass(frozen=True)
 class Sku:
-    """A SKU: weight of a piece [kg], how many pieces a bin holds (0: any number), its class."""
+    """A SKU: weight of a piece [kg], number of pieces that a bin holds (0: any), its class."""
 
     weight: float = 0.0
     pieces_a_bin: int = 0
@@ -75,7 +76,7 @@ def _sku(texts: Mapping[str, str]) -> Sku:
 
 
 def fitting(edges: list[float]) -> int:
-    """Returns how many boxes with such edges [m] fit into a BIN, all turned alike."""
+    """Returns the number of boxes of these edges [m] that fit into a BIN in one orientation."""
     return max(
         int(BIN[0] / a + 1e-9) * int(BIN[1] / b + 1e-9) * int(BIN[2] / c + 1e-9)
         for a, b, c in itertools.permutations(edges)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shifts with stock as proposed and as drawn by chance: the same bins, SKUs, pieces and orders.
+"""Shifts with the proposed and with a random stock: of the same bins, SKUs, pieces and orders.
 
 SKUs are placed by the even orders of a file alone; the shifts draw their orders from the odd ones.
 """
@@ -24,20 +24,20 @@ from warehouse_operations.slotting.proposal import Lot, Pairs, Slot, propose
 from warehouse_operations.slotting.sku_master import Sku
 from warehouse_operations.stock.assortment import Assortment, stocked
 from warehouse_operations.stock.demand import DemandError
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 from warehouse_operations.stock.site import Site, Stock
 from warehouse_operations.stock.travel import Travel
 
-WARM_UP = 0.5  # hours before those that count
+WARM_UP = 0.5  # left out at the begin of a shift [h]
 FIGURES = ("pieces_per_hour", "pieces_a_unit", "units_an_order", "metres_a_piece", "late")
 
 
 @dataclass(frozen=True)
 class Catalogue:
-    """A layout, and the orders and SKUs that it is to serve."""
+    """A layout with its orders and SKUs."""
 
     file: LayoutFile
-    orders: Sequence[Wanted]
+    orders: Sequence[OrderDraft]
     skus: Mapping[str, Sku]
 
     def site(self) -> Site:
@@ -46,8 +46,8 @@ class Catalogue:
         return replace(layout_site.of_file(Site.of_layout(laid, self.file.title), self.file))
 
     def lots(self, site: Site) -> list[Lot]:
-        """Returns what lies in the bins: the layout's own stock, or one that is drawn of the SKUs
-        that orders ask for, by how often. Raises DemandError where there are too few bins."""
+        """Returns the content of the bins: the layout's own stock, or a random one of the orders'
+        SKUs, by their popularity. Raises DemandError for too few bins."""
         if site.stock:
             lots = [Lot(row.sku, row.pieces) for row in site.stock]
         else:
@@ -66,7 +66,7 @@ class Catalogue:
         most = self.skus[lot.sku].pieces_a_bin if lot.sku in self.skus else 0
         return min(lot.pieces, most) if most else lot.pieces
 
-    def slots(self, orders: Sequence[Wanted]) -> list[Slot]:
+    def slots(self, orders: Sequence[OrderDraft]) -> list[Slot]:
         """Returns the proposal by some of the orders."""
         site = self.site()
         room = Counter(unit for _, unit in site.items)
@@ -178,7 +178,7 @@ def _figures(change: Mapping[str, float], hours: float) -> dict[str, float]:
     }
 
 
-def _write_orders(path: Path, orders: Sequence[Wanted]) -> None:
+def _write_orders(path: Path, orders: Sequence[OrderDraft]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(("reference", "sku", "quantity", "at", "due"))

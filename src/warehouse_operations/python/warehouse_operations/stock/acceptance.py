@@ -8,15 +8,16 @@ from typing import Any
 from warehouse_layout.file.csv_table import shown
 
 MOST_LINES = 1_000  # of one order
-MOST_WAITING = 100_000  # lines of all orders that no station has yet
+MOST_WAITING = 100_000  # lines of all orders without a station
 REFERENCE_LENGTH = 200  # characters, as the database has room for
-LAST_MOMENT = 1e10  # orders are due before it [s]: some 300 years
+LAST_MOMENT = 1e10  # latest due time [s]: some 300 years
 
 
 def fault_of_lines(lines: Sequence[tuple[str, int]], skus: Any, capacity: float) -> str:
-    """Returns why an order of these (sku, pieces) is not accepted, as a sentence; empty if it is.
+    """Returns the reason to refuse an order of these (sku, pieces), a sentence; "" for an
+    acceptable one.
 
-    skus: those that the warehouse deals in. capacity: pieces that all of its bins can hold.
+    skus: the assortment of the warehouse. capacity: pieces that all of its bins can hold.
     """
     if not lines:
         return "an order has one line or more"
@@ -31,14 +32,14 @@ def fault_of_lines(lines: Sequence[tuple[str, int]], skus: Any, capacity: float)
 
 
 def fault_of_pieces(pieces: int, capacity: float) -> str:
-    """Returns why an order of a number of pieces is not accepted; empty if it is."""
+    """Returns the reason to refuse an order of a number of pieces; "" for an acceptable one."""
     if pieces > capacity:
         return f"an order of {pieces} pieces; all bins of the warehouse together hold {capacity}"
     return ""
 
 
 def fault_of_head(reference: str, due: float = 0.0, priority: int = 0) -> str:
-    """Returns why the head of an order is not accepted; empty if it is."""
+    """Returns the reason to refuse the head of an order; "" for an acceptable one."""
     if len(reference) > REFERENCE_LENGTH:
         return (
             f"the reference has {len(reference)} characters; {REFERENCE_LENGTH} or fewer were "

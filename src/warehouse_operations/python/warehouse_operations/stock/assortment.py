@@ -9,14 +9,14 @@ import numpy as np
 from warehouse_operations.stock.inventory import Bin
 
 SKUS = 1000
-BINS_A_SKU = 4  # at least, on the average: a small warehouse deals in fewer SKUs
+BINS_A_SKU = 4  # fewest bins per SKU, on the average: a small warehouse has fewer SKUs
 CAPACITY = 24  # pieces a bin
 INITIAL_LEVEL = 0.7
 
 
 @dataclass(frozen=True)
 class Assortment:
-    """SKUs and the share of the demand that each has, (n,), their sum 1."""
+    """SKUs and their shares of the demand, (n,), with a sum of 1."""
 
     skus: tuple
     popularity: np.ndarray
@@ -29,7 +29,7 @@ class Assortment:
 
     @classmethod
     def of_lines(cls, lines: Mapping[str, int]) -> "Assortment":
-        """Returns the SKUs of order lines, each as popular as it has lines."""
+        """Returns the SKUs of order lines, each with a popularity proportional to its lines."""
         counts = np.array(list(lines.values()), float)
         return cls(tuple(lines), counts / counts.sum())
 
@@ -39,10 +39,10 @@ def listed(
     stock: Sequence[tuple[str, str, int]],
     rng: np.random.Generator,
 ) -> tuple["Assortment", list[tuple[Bin, int]]]:
-    """Returns what stocked() does, for a stock that a file lists: (item, SKU, pieces) of each bin.
+    """Returns the result of stocked() for the stock in a file: (item, SKU, pieces) of each bin.
 
-    items: as for stocked(); those that are not listed have no bin. A bin has room for CAPACITY
-    pieces, or for its content if that is more. How often a SKU is asked for is drawn.
+    items: as for stocked(); items outside the stock have no bin. A bin has room for CAPACITY
+    pieces, or for a larger content. The popularity of SKUs is drawn.
     """
     drawn = Assortment.draw(len({sku for _, sku, _ in stock}), rng)
     assortment = Assortment(tuple(dict.fromkeys(sku for _, sku, _ in stock)), drawn.popularity)

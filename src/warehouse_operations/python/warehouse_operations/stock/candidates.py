@@ -14,8 +14,8 @@ from warehouse_operations.stock.units_by_id import UnitSet
 class Candidates(Mapping[int, Mapping[Line, int]]):
     """The pieces of some lines that units could serve: {unit: {line: pieces}}, ascending.
 
-    units: their ids, (n,). completes: how many lines each completes, (n,). pieces: how many pieces
-    each has for all lines, (n,).
+    units: their ids, (n,). completes: number of lines that each completes, (n,). pieces: number of
+    pieces that each has for all lines, (n,).
     """
 
     def __init__(self, lines: Collection[Line], inventory: Inventory, free_units: UnitSet) -> None:
@@ -33,7 +33,7 @@ class Candidates(Mapping[int, Mapping[Line, int]]):
         self.pieces = np.bincount(rows, self._pieces, minlength=count).astype(int)
 
     def _of_line(self, number: int, inventory: Inventory) -> tuple[np.ndarray, ...]:
-        """Returns (units, line, pieces, whether that completes it) of one line, (m,) each."""
+        """Returns (units, line, pieces, whether they complete it) of one line, (m,) each."""
         missing = self._lines[number].missing
         units, available = inventory.by_unit(self._lines[number].sku)
         pieces = np.minimum(available, missing)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A day of orders as it was, or drawn; its orders multiplied by a factor."""
+"""The orders of a day, recorded or drawn, multiplied by a factor."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -9,16 +9,16 @@ import numpy as np
 from warehouse_operations.stock import demand_file
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand_file import DrawnDays
-from warehouse_operations.stock.order_file import DemandError, Wanted, lines_by_sku, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, lines_by_sku, read_csv
 from warehouse_operations.stock.orders_text import DAY, DayText
 
 HOUR = 3600.0  # [s]
-NEAR = 300.0  # an order that comes once more does so within [s] of the first
+NEAR = 300.0  # longest time between an order and its copy [s]
 MOST_NAMED = 20  # SKUs in a message
 
 
 def assortment_of(day: DayText) -> Assortment:
-    """Returns the SKUs of a day's file, by how often each is asked for. Raises DemandError."""
+    """Returns the SKUs of a day's file with their popularity. Raises DemandError."""
     lines = lines_by_sku(day.file) if day.kind == DAY else demand_file.read(day.file).skus
     if not lines:
         raise DemandError(f"{day.file}: there is no order in it")
@@ -26,7 +26,7 @@ def assortment_of(day: DayText) -> Assortment:
 
 
 def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> None:
-    """Raises DemandError, which names each SKU once that the stock lacks."""
+    """Raises DemandError, which names each SKU that the stock lacks."""
     has = set(stock)
     lacking = [sku for sku in asked if sku not in has]
     if lacking:
@@ -36,10 +36,12 @@ def check_stock(file: str, asked: Collection[str], stock: Collection[str]) -> No
         raise DemandError(f"{file}: the stock has none of {count} of {len(asked)}: {named}{more}")
 
 
-def scaled(orders: Sequence[Wanted], factor: float, rng: np.random.Generator) -> list[Wanted]:
-    """Returns the orders times a factor: whole copies, and a part of them by chance.
+def scaled(
+    orders: Sequence[OrderDraft], factor: float, rng: np.random.Generator
+) -> list[OrderDraft]:
+    """Returns the orders multiplied by a factor: whole copies, and a random part for the rest.
 
-    A copy comes within NEAR of the order, has as long until it is due, and a reference of its own.
+    A copy comes within NEAR of its order, has the same time until it is due, and its own reference.
     """
     whole, part = divmod(factor, 1)
     out = []
@@ -59,9 +61,9 @@ def orders_of(
     skus: Collection[str] | None,
     rng: np.random.Generator,
     capacity: float,
-) -> list[Wanted]:
-    """Returns the orders of a day of a CSV file, those of its first hour first if it is to begin
-    at work. skus: in stock; None: any. Raises DemandError."""
+) -> list[OrderDraft]:
+    """Returns the orders of a day of a CSV file, with those of its first hour before it for a
+    run-in. skus: in stock; None: any. Raises DemandError."""
     orders = read_csv(day.file, None, capacity)
     if not orders:
         raise DemandError(f"{day.file}: there is no order in it")
@@ -86,8 +88,8 @@ def drawn(
     return DrawnDays(demand, rng, day.factor, now, now + 60 * day.run_in)
 
 
-def _before(orders: Sequence[Wanted], seconds: float) -> list[Wanted]:
-    """Returns the orders of the first hour in which any come, again and again until the day."""
+def _before(orders: Sequence[OrderDraft], seconds: float) -> list[OrderDraft]:
+    """Returns the orders of the first hour with orders, repeated until the day begins."""
     begin = HOUR * (min(order.at for order in orders) // HOUR)
     first = [order for order in orders if begin <= order.at < begin + HOUR]
     out, start, number = [], seconds - HOUR, 1
@@ -101,6 +103,6 @@ def _before(orders: Sequence[Wanted], seconds: float) -> list[Wanted]:
     return out
 
 
-def _moved(order: Wanted, seconds: float) -> Wanted:
+def _moved(order: OrderDraft, seconds: float) -> OrderDraft:
     due = max(order.due + seconds, 1.0) if order.due else 0.0
     return replace(order, at=order.at + seconds, due=due)

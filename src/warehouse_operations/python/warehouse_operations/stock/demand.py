@@ -11,12 +11,12 @@ from warehouse_operations.stock import days, order_mix, orders_text
 from warehouse_operations.stock.acceptance import MOST_WAITING
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import ROOMY
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 from warehouse_operations.stock.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.stock.orders import Backlog
 from warehouse_operations.stock.orders_text import DAY
 
-FILL, FILL_A_STATION = 200, 5  # orders that wait at any time: at least, and a station
+FILL, FILL_A_STATION = 200, 5  # orders that always wait: the fewest, and those per station
 POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
@@ -25,14 +25,14 @@ LINE_SUMS /= LINE_SUMS[-1]
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
 MOST_FILL = 10_000
-AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, until the next [s]
+AT_ONCE, PAUSE = 1_000, 1.0  # most orders of a file that come together; time until the next [s]
 
 
 class DrawsOrders(Protocol):
-    """Draws orders, one after the other."""
+    """Draws orders one by one."""
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
-        """Returns the order that comes now; None if there is none."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
+        """Returns the order that comes now, or None."""
 
 
 class Customers:
@@ -41,8 +41,9 @@ class Customers:
     def __init__(self, assortment: Assortment, rng: np.random.Generator) -> None:
         self.assortment, self._rng = assortment, rng
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
-        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
+        """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
+        SKUs is."""
         rng = self._rng
         count = LINES[int(np.searchsorted(LINE_SUMS, rng.random(), side="right"))]
         lines = {}
@@ -57,7 +58,7 @@ class Customers:
         if not lines:
             return None
         due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
-        return Wanted(tuple(lines.items()), now, now + due)
+        return OrderDraft(tuple(lines.items()), now, now + due)
 
     def _draw(self) -> int:
         if not hasattr(self, "_sums"):
@@ -67,17 +68,19 @@ class Customers:
 
 
 class Fill:
-    """A constant number of orders waits at any time."""
+    """Keeps a constant number of orders waiting."""
 
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
         self.bundles_per_hour = 0.0
 
     def next_time(self) -> float:
-        """Returns inf: orders come when others leave the backlog."""
+        """Returns inf: new orders replace those that leave the backlog."""
         return float("inf")
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         for _ in range(self.waiting - len(backlog)):
             draft = self.customers.order(now, in_stock)
@@ -87,7 +90,7 @@ class Fill:
 
 
 class Poisson:
-    """Orders and bundles that come by chance (Poisson), at a mean rate [1/h]."""
+    """Orders and bundles of Poisson processes with mean rates [1/h]."""
 
     def __init__(
         self,
@@ -106,7 +109,9 @@ class Poisson:
         """Returns when the next order comes [s]."""
         return self._next
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         while self._next <= now:
             draft = self.customers.order(self._next, in_stock)
@@ -119,12 +124,12 @@ class Poisson:
 
 
 class FromFile:
-    """The orders of a CSV file: each at its time, or a little later where many come at once or
-    wait already."""
+    """The orders of a CSV file: each at its time, or a little later while many others come or
+    wait."""
 
     bundles_per_hour = 0.0
 
-    def __init__(self, drafts: Iterable[Wanted]) -> None:
+    def __init__(self, drafts: Iterable[OrderDraft]) -> None:
         self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
 
@@ -132,7 +137,9 @@ class FromFile:
         """Returns when the next order comes [s]; inf after the last."""
         return max(self._drafts[-1].at, self._more_at) if self._drafts else float("inf")
 
-    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+    def due(
+        self, now: float, backlog: Backlog, in_stock: Callable[[str], int]
+    ) -> Iterator[OrderDraft]:
         """Yields the orders that come now."""
         for _ in range(AT_ONCE):
             if self.next_time() > now:
@@ -154,8 +161,8 @@ def make_demand(
     """Returns the demand that an orders text of operations.launch or simulate means; raises
     DemandError.
 
-    assortment: None: any SKU may be asked for. stations: (picking, replenishing), how many. now:
-    when it begins [s]. capacity: pieces that all bins can hold.
+    assortment: None: any SKU may be ordered. stations: numbers of (picking, replenishing) ones.
+    now: begin of the demand [s]. capacity: pieces that all bins can hold.
     """
     customers = Customers(assortment, rng)
     name, _, value = str(text).partition(":")

@@ -23,11 +23,11 @@ import yaml
 
 from warehouse_operations.stock.acceptance import MOST_LINES
 from warehouse_operations.stock.lined_yaml import LinedYaml, Place, shown
-from warehouse_operations.stock.order_file import DemandError, Wanted
+from warehouse_operations.stock.order_file import DemandError, OrderDraft
 from warehouse_operations.stock.orders import Backlog
 
 VERSION = 1
-TRIES = 20  # of SKUs that are drawn for a line, until one is in stock
+TRIES = 20  # most SKUs drawn for a line before one is in stock
 MOST_INTERVALS = 24 * 60
 MOST_ORDERS = 1e6  # of an interval
 KEYS = {"demand", "of", "interval_s", "orders", "lines", "pieces", "due", "skus"}
@@ -36,7 +36,8 @@ FOR_READERS = {"days", "busiest", "repeated", "exponent", "classes"}
 
 @dataclass(frozen=True)
 class Due:
-    """The time that orders have until they are due. none: share of the orders without a due time.
+    """The time from an order's arrival until it is due. none: share of the orders without a due
+    time.
 
     seconds: quantiles of the others' times, evenly spaced from the least to the largest [s].
     """
@@ -45,7 +46,7 @@ class Due:
     seconds: tuple[float, ...] = ()
 
     def draw(self, now: float, rng: np.random.Generator) -> float:
-        """Returns when an order that comes now is due [s]; 0: at any time."""
+        """Draws the due time of an order that comes now [s]; 0: at any time."""
         chance, place = rng.random(2)
         if chance < self.none or not self.seconds:
             return 0.0
@@ -55,7 +56,7 @@ class Due:
 
 @dataclass(frozen=True)
 class Demand:
-    """What comes in a day: see the head of this module."""
+    """The demand of a day: see the head of this module."""
 
     of: str
     interval_s: float
@@ -65,8 +66,8 @@ class Demand:
     due: Due
     skus: Mapping[str, int]
     days: int = 1
-    busiest: float = 1.0  # orders of the busiest day, of those of an average day
-    repeated: float = 0.0  # share of the rows that ask for a SKU again that the order has
+    busiest: float = 1.0  # orders of the busiest day over those of an average day
+    repeated: float = 0.0  # share of the rows that repeat a SKU of their order
     exponent: float = 0.0  # of the popularity over the rank
     classes: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
@@ -101,7 +102,7 @@ def _mean(shares: Mapping[int, float]) -> float:
 
 
 def write(demand: Demand, path: str | Path) -> None:
-    """Writes a description. Raises DemandError where that is impossible."""
+    """Writes a description. Raises DemandError where the file can't be written."""
     content = {"demand": VERSION} | asdict(demand)
     content |= {"orders": list(demand.orders), "due": _due_json(demand.due)}
     content["skus"] = content.pop("skus")  # the longest comes last
@@ -128,7 +129,7 @@ def read(path: str | Path) -> Demand:
 
 
 class _Reader:
-    """Reads a description, and names what is wrong in it."""
+    """Reads a description, and names its faults."""
 
     def __init__(self, file: LinedYaml) -> None:
         self._file, self._content = file, file.content
@@ -213,9 +214,9 @@ class _Reader:
 class DrawnDays:
     """Orders of days that are drawn from a description, one day after the other.
 
-    They come by chance (Poisson), in each interval as many as on an average day, times a factor.
-    The number of an order and the seed decide what it asks for, as in order_mix. first: when the
-    first day begins [s]; before it the orders of its first hour come.
+    They form a Poisson process, whose rate in each interval is that of an average day times a
+    factor. An order's lines depend on its number and the seed alone, as in order_mix. first: begin
+    of the first day [s]; before it, orders come at the rate of its first hour.
     """
 
     bundles_per_hour = 0.0
@@ -248,8 +249,9 @@ class DrawnDays:
             if order:
                 yield order
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
-        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
+        """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
+        SKUs is."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
         due = self.demand.due.draw(now, rng)
@@ -262,10 +264,10 @@ class DrawnDays:
                 lines[sku] = pieces
                 if len(lines) == count:
                     break
-        return Wanted(tuple(lines.items()), now, due) if lines else None
+        return OrderDraft(tuple(lines.items()), now, due) if lines else None
 
     def rate(self, time: float) -> float:
-        """Returns how many orders come a second at a time [s], on the average."""
+        """Returns the mean rate of orders at a time [1/s]."""
         interval, since = self.demand.interval_s, time - self._first
         if since < 0:  # the first hour, before the day
             hour = max(round(3600 / interval), 1)
@@ -273,7 +275,7 @@ class DrawnDays:
         return float(self._rates[int(since // interval) % len(self._rates)])
 
     def _wait(self) -> None:
-        """Draws when the next order comes: candidates at the highest rate are thinned (Lewis and
+        """Draws the time of the next order by thinning candidates of the highest rate (Lewis and
         Shedler, 1979)."""
         highest = float(self._rates.max())
         while True:

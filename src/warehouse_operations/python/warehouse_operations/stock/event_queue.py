@@ -30,11 +30,11 @@ class EventQueue:
 
     @property
     def next_time(self) -> float:
-        """The time of the earliest event [s]; infinity where there is none."""
+        """The time of the earliest event [s]; infinity without events."""
         return self._events[0].time if self._events else math.inf
 
     def run_next(self) -> None:
-        """Takes the earliest event out and carries it out."""
+        """Removes the earliest event and carries it out."""
         event = heapq.heappop(self._events)
         event.act(event.argument)
 
@@ -47,7 +47,7 @@ class EventQueue:
 class Clock(EventQueue):
     """The simulated time of a shift, and the calls that are due.
 
-    began: when the shift began [s]. now: up to when it took in what happened [s].
+    began: begin of the shift [s]. now: time up to which it has handled all events [s].
     """
 
     def __init__(self, began: float = 0.0) -> None:

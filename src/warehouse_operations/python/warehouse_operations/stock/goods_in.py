@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Goods-in: the bundles that were ordered and have no bin yet."""
+"""Goods-in: the ordered bundles without a bin."""
 
 import itertools
 

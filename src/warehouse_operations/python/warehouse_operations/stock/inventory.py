@@ -16,27 +16,28 @@ ROOMY = 12  # pieces, of the largest bundle
 
 
 class Reason(StrEnum):
-    """Why a move was made."""
+    """The reason of a move."""
 
     INITIAL = "initial"
     PICK = "pick"
     PUT = "put"
-    SHORT = "short"  # fewer were there than the books said
+    SHORT = "short"  # fewer pieces than recorded
     DAMAGED = "damaged"
-    FELL = "fell"  # they lie on the floor, with their bin,
-    PICKED_UP = "picked up"  # or are back
+    FELL = "fell"  # they lie on the floor with their bin
+    PICKED_UP = "picked up"  # they are back with their bin
     UNDONE = "undone"  # they were picked, put in or written off by mistake
-    GONE = "gone"  # with their bin, which is not in the warehouse any more
+    GONE = "gone"  # with their bin, which has left the warehouse
 
 
 class StockError(ValueError):
-    """A move that can't be: more than there is, or another SKU's bin."""
+    """Raised for an impossible move: of more pieces than the bin has, or into another SKU's bin."""
 
 
 class Bin:
-    """A place for one SKU on a unit; `sku` is of what lies there, or is expected, or last lay.
+    """A place for one SKU on a unit; `sku` is that of its content, its expected content, or its
+    last one.
 
-    `fallen`: None, or the pieces with which it lies on the floor: they are not in stock.
+    `fallen`: the pieces in it, which are not in stock, while it lies on the floor; else None.
     """
 
     __slots__ = (
@@ -75,22 +76,22 @@ class Inventory:
         self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
         self.capacity = self.total = self.expected = 0
         self.empty: dict[int, Bin] = {}  # bins without anything, by id
-        self._kept_for = Counter(bin_.sku for bin_ in bins)  # bins by the SKU they have or had last
-        # SKUs without a bin, by the bin that is theirs once it is empty.
+        self._kept_for = Counter(bin_.sku for bin_ in bins)  # bins by present or last SKU
+        # SKUs without a bin, by the bin that they get once it is empty.
         self._heirs: dict[int, str] = {}
         # Bins with room for a bundle of any size, by SKU.
         self.roomy: dict[str, int] = defaultdict(int)
-        self.room_changed: set[str] = set()  # SKUs whose number of those has changed
+        self.room_changed: set[str] = set()  # SKUs whose number of such bins has changed
         self._roomy: set[int] = set()
         self._available: dict[str, int] = defaultdict(int)
-        # Available pieces by row, a row a bin; and of each SKU, while none comes or goes, its rows
-        # by unit with the units and where each begins.
+        # Available pieces, a row for each bin; and for each SKU, until its bins change, its rows by
+        # unit, the units, and the first row of each.
         self._row = {bin_.bin_id: row for row, bin_ in enumerate(bins)}
         self._pieces = np.zeros(len(bins), np.int32)
         self._rows_of: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         self._incoming: dict[str, int] = defaultdict(int)
         self._on_move = on_move or (lambda *_: None)
-        self.changed: set[Bin] = set()  # bins whose figures are not written down yet
+        self.changed: set[Bin] = set()  # bins whose figures are not recorded yet
         for bin_ in bins:
             self.of_unit[bin_.unit].append(bin_)
             self.capacity += bin_.capacity
@@ -102,7 +103,7 @@ class Inventory:
 
     @property
     def level(self) -> float:
-        """Pieces over room for pieces."""
+        """The number of pieces over the capacity of all bins."""
         return self.total / self.capacity if self.capacity else 0.0
 
     def available(self, sku: str) -> int:
@@ -118,8 +119,8 @@ class Inventory:
         return self._of_sku[sku].values()
 
     def by_unit(self, sku: str) -> tuple[np.ndarray, np.ndarray]:
-        """Returns (units, pieces), (n,) each: where pieces of a SKU lie that are promised to no
-        order, and how many on each unit, by ascending units."""
+        """Returns (units, pieces), (n,) each: the units with pieces of a SKU promised to no order,
+        ascending, and their numbers of these."""
         if sku not in self._rows_of:
             self._rows_of[sku] = self._sorted_rows(sku)
         rows, units, begins = self._rows_of[sku]
@@ -140,7 +141,7 @@ class Inventory:
     def takes(self, bin_: Bin, sku: str, quantity: int) -> bool:
         """Returns whether a quantity of a SKU can be put into a bin.
 
-        The last bin of a SKU is kept for it: else it could never be refilled.
+        The last bin of a SKU is kept for it, or it could never be refilled.
         """
         if bin_.bin_id in self._heirs:
             return bin_.empty and self._heirs[bin_.bin_id] == sku
@@ -172,7 +173,7 @@ class Inventory:
         return changed
 
     def reserve(self, bin_: Bin, quantity: int) -> None:
-        """Promises pieces of a bin; a negative number takes the promise back."""
+        """Promises pieces of a bin; a negative number withdraws the promise."""
         if not 0 <= bin_.reserved + quantity <= bin_.quantity:
             raise StockError(
                 f"{bin_.reserved} + {quantity} reserved of {bin_.quantity} in {bin_.item}"
@@ -183,7 +184,7 @@ class Inventory:
         self.changed.add(bin_)
 
     def pick(self, bin_: Bin, quantity: int, **context: Any) -> None:
-        """Takes reserved pieces out."""
+        """Removes reserved pieces."""
         self.reserve(bin_, -quantity)
         self.move(bin_, bin_.sku, -quantity, Reason.PICK, **context)
 
@@ -204,7 +205,7 @@ class Inventory:
         self.move(bin_, sku, quantity, Reason.PUT, **context)
 
     def fall(self, bin_: Bin) -> None:
-        """Takes a bin that lies on the floor out of stock; its promises and expectations end."""
+        """Removes a bin on the floor from stock; its promises and expectations end."""
         pieces, bin_.fallen = bin_.quantity, bin_.quantity
         if pieces:
             self.move(bin_, bin_.sku, -pieces, Reason.FELL)
@@ -218,8 +219,8 @@ class Inventory:
         self._measure(bin_)
 
     def house(self, skus: Iterable[str]) -> None:
-        """Gives each SKU that has lost all its bins a bin of a SKU with several: the emptiest,
-        which is not refilled before it is empty."""
+        """Gives each SKU that has lost all its bins the emptiest bin of a SKU with several; that
+        bin is not refilled before it is empty."""
         for sku in skus:
             if self._kept_for[sku]:
                 continue
@@ -236,7 +237,7 @@ class Inventory:
                 self._heirs[bin_.bin_id] = sku
 
     def write_off(self, bin_: Bin) -> None:
-        """Removes a bin with its pieces, of which none are promised or expected any more."""
+        """Removes a bin with its pieces; it has no promised or expected ones."""
         if bin_.fallen is not None:
             self.pick_up(bin_)
         if bin_.quantity:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads YAML files whose faults are named by line and field."""
+"""YAML files whose faults are reported by line and field."""
 
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ Place = tuple[str | int, ...]  # keys and indices from the top
 
 
 class LinedYaml:
-    """The content of a YAML file, and the line of each part. Raises `error`, a sentence."""
+    """The content of a YAML file, and the line of each part. Raises `error` with a sentence."""
 
     def __init__(self, path: str | Path, error: type[Exception]) -> None:
         self.path, self._error = path, error
@@ -46,6 +46,6 @@ class LinedYaml:
 
 
 def shown(value: Any) -> str:
-    """Returns a value as YAML has it, for a message."""
+    """Returns a value in YAML, for a message."""
     text = yaml.safe_dump(value, default_flow_style=True, width=10**9)
     return text.removesuffix("\n").removesuffix("...").strip()[:80]

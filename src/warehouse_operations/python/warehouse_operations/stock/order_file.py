@@ -27,12 +27,12 @@ from warehouse_operations.stock import acceptance
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
 MOST_FAULTS = 20
 MOST_SECONDS, DAY = 1e9, 86_400.0  # of a time of the shift [s]
-LARGE = 1e6  # numbers from which on a limit is not named to a person
-TEXT = "orders"  # what a text in place of a file is called in messages
+LARGE = 1e6  # limit above which a message doesn't name it
+TEXT = "orders"  # name in messages of a text in place of a file
 
 
 class DemandError(ValueError):
-    """Raised for orders that can't be taken; names what is wrong, or the file and line."""
+    """Raised for invalid orders; names the fault, with its file and line if it has these."""
 
 
 class Fault(NamedTuple):
@@ -52,8 +52,8 @@ class _FieldError(ValueError):
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """An order to be submitted at a time of the shift; times are [s]."""
+class OrderDraft:
+    """An order that is not submitted yet, with the time of the shift at which it comes [s]."""
 
     lines: tuple[tuple[str, int], ...]  # of (sku, pieces)
     at: float = 0.0
@@ -66,7 +66,7 @@ def read_csv(
     path: str | os.PathLike[str],
     skus: Collection[str] | None = None,
     capacity: float = float("inf"),
-) -> list[Wanted]:
+) -> list[OrderDraft]:
     """Returns the orders of a file. Raises DemandError, which names the line of each wrong row.
 
     skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
@@ -79,15 +79,15 @@ def read_csv(
 
 
 def lines_by_sku(path: str | os.PathLike[str]) -> Counter[str]:
-    """Returns how many lines of a file ask for each SKU. Raises DemandError."""
+    """Returns the number of lines by SKU of a file. Raises DemandError."""
     return Counter(sku for order in read_csv(path) for sku, _ in order.lines)
 
 
 def parse_csv(
     text: str, skus: Collection[str] | None = None, capacity: float = float("inf")
-) -> tuple[list[Wanted], list[Fault]]:
-    """Returns the orders of a text in place of a file, and what is wrong with it, of which there
-    are MOST_FAULTS at most; see read_csv."""
+) -> tuple[list[OrderDraft], list[Fault]]:
+    """Returns the orders of a text in place of a file, and its first MOST_FAULTS faults; see
+    read_csv."""
     try:
         table = CsvTable(TEXT, NEEDED, OPTIONAL, DemandError, text)
         return _read(table, skus, capacity)
@@ -99,7 +99,7 @@ def parse_csv(
 
 def _read(
     table: CsvTable, skus: Collection[str] | None, capacity: float
-) -> tuple[list[Wanted], list[Fault]]:
+) -> tuple[list[OrderDraft], list[Fault]]:
     faults: list[Fault] = []
     orders = _Orders(skus, capacity)
     for row in table:
@@ -111,7 +111,7 @@ def _read(
         faults += [Fault(table.line, getattr(e, "column", ""), str(e)) for e in errors]
         if len(faults) >= MOST_FAULTS:
             break
-    return orders.wanted(), faults[:MOST_FAULTS]
+    return orders.drafts(), faults[:MOST_FAULTS]
 
 
 class _Orders:
@@ -121,12 +121,12 @@ class _Orders:
         self._skus, self._capacity = skus, capacity
         self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
         self._pieces: Counter[str] = Counter()
-        self._unknown: set[str] = set()  # SKUs, each of which is named once
+        self._unknown: set[str] = set()  # SKUs that a fault has named
         self._dated = False  # whether times are dates
 
     def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> list[_FieldError]:
-        """Adds a row; returns what is wrong with its fields. Raises ValueError, which says what is
-        wrong with the row."""
+        """Adds a row; returns the faults of its fields. Raises ValueError with a fault of the row
+        as a whole."""
         row = fields(row)
         if not row:
             return []
@@ -194,10 +194,10 @@ class _Orders:
         self._dated = True
         return date
 
-    def wanted(self) -> list[Wanted]:
+    def drafts(self) -> list[OrderDraft]:
         """Returns the orders, in the order of their first rows."""
         orders = [
-            Wanted(tuple(lines.items()), *rest, reference)
+            OrderDraft(tuple(lines.items()), *rest, reference)
             for reference, (lines, rest) in self._rows.items()
         ]
         if not self._dated or not orders:
@@ -212,7 +212,7 @@ class _Orders:
 def _tried(
     read: Callable[[Mapping[str, str]], Any], row: Mapping[str, str], faults: list[_FieldError]
 ) -> Any:
-    """Returns what is read of a row; None, with one fault more, where it is wrong."""
+    """Returns the value read from a row; None, and adds a fault, where it is invalid."""
     try:
         return read(row)
     except _FieldError as error:
@@ -229,7 +229,7 @@ def _priority(row: Mapping[str, str]) -> Any:
 
 
 def _date(text: str) -> float | None:
-    """Returns the seconds since 1970 of a date as people write it; None for other texts."""
+    """Returns a date in ISO form as seconds since 1970; None for other texts."""
     if not re.match(r"\d{4}-\d\d-\d\d", text):
         return None
     try:
@@ -252,7 +252,7 @@ def _field(
         value = None
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
-        # Names no limit that is far above any order: it does not help after a slip of the key.
+        # A limit far above any order does not help after a typing error.
         is_near = most < LARGE or (value is not None and value > most)
         limit = f"to {most:,.0f}" if is_near else "on"
         raise _FieldError(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Orders by chance as a wish describes them: by their mean size, or like those of a file.
+"""Random orders of a wish: with a mean size, or like those of a file.
 
-The number of an order and the seed decide what it asks for. So the same orders come at the same
-moments whatever the fleet is, as long as stock is there: shifts of one seed differ by the fleet.
+An order's lines depend on its number and the seed alone. While stock suffices, any fleet gets the
+same orders at the same times: shifts of one seed differ by the fleet.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from warehouse_operations.stock.assortment import Assortment
-from warehouse_operations.stock.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
 
 DUE_SOON, DUE_SOON_SHARE, DUE_LATER = 30 * 60.0, 0.2, 2 * 3600.0
 MOST_PER_HOUR = 1e6
-TRIES = 20  # of SKUs that are drawn for a line, until one is in stock
+TRIES = 20  # most SKUs drawn for a line before one is in stock
 MOST_MEAN = 100.0
 
 
@@ -31,8 +31,9 @@ class Mixed:
         self._lines, self._pieces = lines, pieces
         self._seed, self._count = int(rng.integers(2**63)), 0
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
-        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
+        """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
+        SKUs is."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
         count = 1 + int(rng.poisson(self._lines - 1))
@@ -45,7 +46,7 @@ class Mixed:
                 lines[sku] = pieces
                 if len(lines) == count:
                     break
-        return Wanted(tuple(lines.items()), now, now + due) if lines else None
+        return OrderDraft(tuple(lines.items()), now, now + due) if lines else None
 
     def _draw(self, rng: np.random.Generator) -> str:
         at = np.searchsorted(self._sums, rng.random() * self._sums[-1], side="right")
@@ -53,19 +54,19 @@ class Mixed:
 
 
 class Alike:
-    """Draws orders among those of a file, each with the time that it had until it was due."""
+    """Draws orders from those of a file, each with its time until it is due."""
 
-    def __init__(self, orders: Sequence[Wanted], rng: np.random.Generator) -> None:
+    def __init__(self, orders: Sequence[OrderDraft], rng: np.random.Generator) -> None:
         self._orders = orders
         self._seed, self._count = int(rng.integers(2**63)), 0
 
-    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
-        """Draws an order; it comes whether its SKUs are in stock or not."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
+        """Draws an order, with its SKUs in stock or not."""
         rng = np.random.default_rng((self._seed, self._count))
         self._count += 1
         draft = self._orders[int(rng.integers(len(self._orders)))]
         due = now + draft.due - draft.at if draft.due else 0.0
-        return Wanted(draft.lines, now, due, draft.priority)
+        return OrderDraft(draft.lines, now, due, draft.priority)
 
 
 def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str:
@@ -76,7 +77,7 @@ def text_of(per_hour: float, lines: float, pieces: float, file: str = "") -> str
 def make(
     text: str, assortment: Assortment, rng: np.random.Generator, capacity: float = float("inf")
 ) -> tuple[float, Mixed | Alike]:
-    """Returns orders an hour and who draws them, of `mix:PER_HOUR:LINESxPIECES|FILE.csv`.
+    """Returns the rate [1/h] and the source of orders of `mix:PER_HOUR:LINESxPIECES|FILE.csv`.
 
     Raises DemandError.
     """

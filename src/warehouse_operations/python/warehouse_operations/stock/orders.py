@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Orders of customers, and the bundles of pieces that come to refill the stock."""
+"""Customers' orders, and the bundles that refill the stock."""
 
 import bisect
 from collections import defaultdict
@@ -35,8 +35,7 @@ class Line:
 class Order:
     """The order of a customer; times are simulated [s]. due 0: no due time.
 
-    lines: (SKU, pieces) of each line. tote: its place at the station that has it, or had it last;
-    0: none.
+    lines: (SKU, pieces) of each line. tote: its place at its present or last station; 0: without.
     """
 
     def __init__(
@@ -54,11 +53,11 @@ class Order:
         self.state, self.station = OrderState.OPEN, ""
         self.assigned = self.completed = 0.0
         self.tote = 0
-        self.stored = False  # whether a journal has it
+        self.stored = False  # whether a journal has recorded it
 
     @property
     def urgency(self) -> tuple[int, float, int]:
-        """A sort key: by priority, then by when it is due, then by age."""
+        """A sort key: by priority, due time and age."""
         return -self.priority, self.due or float("inf"), self.order_id
 
     @property
@@ -73,11 +72,11 @@ class Order:
 
 
 class Backlog:
-    """The orders that no station has yet, by age, with the pieces they ask for of each SKU."""
+    """The orders without a station, by age, with their demand for pieces of each SKU."""
 
     def __init__(self) -> None:
         self.orders: dict[int, Order] = {}  # by id
-        self.pieces: dict[Order, int] = {}  # not picked yet: asked of many at each choice
+        self.pieces: dict[Order, int] = {}  # not picked yet; cached for choices
         self.lines = 0  # of all of them
         self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
         self._by_sku: dict[str, dict[Line, int]] = defaultdict(dict)  # open pieces by line
@@ -111,7 +110,7 @@ class Backlog:
                 del self._by_sku[line.sku][line]
 
     def set_urgency(self, order: Order, priority: int, due: float) -> None:
-        """Makes an order of the backlog more or less urgent; it keeps its age. Raises KeyError."""
+        """Changes the urgency of an order in the backlog; it keeps its age. Raises KeyError."""
         if order.order_id not in self.orders:
             raise KeyError(order.order_id)
         del self._urgencies[bisect.bisect_left(self._urgencies, order.urgency)]
@@ -119,17 +118,18 @@ class Backlog:
         bisect.insort(self._urgencies, order.urgency)
 
     def by_urgency(self) -> Iterator[Order]:
-        """Returns the orders, the most urgent first; it may not change meanwhile."""
+        """Returns an iterator over the orders, the most urgent first; the backlog must not change
+        meanwhile."""
         return (self.orders[order_id] for _, _, order_id in self._urgencies)
 
     def lines_of(self, sku: str) -> Mapping[Line, int]:
-        """Returns the lines that ask for a SKU, by age of their orders, with their open pieces."""
+        """Returns the lines of a SKU, by age of their orders, with their open pieces."""
         return self._by_sku.get(sku, {})
 
     def served_by(self, stock: Mapping[str, int]) -> dict[Order, int]:
-        """Returns how many pieces each order finds in a stock, of the orders that find any.
+        """Returns the number of pieces in a stock for each order with any.
 
-        stock: pieces by SKU. Two lines of an order with the same SKU each find all of it.
+        stock: pieces by SKU, which count for each of two lines of an order with the same SKU.
         """
         served: dict[Order, int] = {}
         for sku, pieces in stock.items():
@@ -149,5 +149,5 @@ class Bundle:
     sku: str
     quantity: int
     created: float = 0.0
-    bin: Any = field(default=None, repr=False)  # the Bin that it goes to; None: not chosen yet
+    bin: Any = field(default=None, repr=False)  # its future Bin; None: not chosen yet
     sequence: int = 0  # of the task for a person, once there is a bin

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The text that says which orders come, where it names a file.
+"""The orders text of a shift, where it names a file.
 
     FILE.csv                      the orders of a file
-    mix:PER_HOUR:FILE.csv         by chance at that rate, like those of a file
+    mix:PER_HOUR:FILE.csv         random orders at that rate, like those of a file
     day:FILE.csv                  the day as it was: each order at its time
     demand:FILE.demand.yaml       days drawn from a description (demand_file)
     day:FILE.csv*1.3              either, with 1.3 times the orders
 
-`run-in:MINUTES:` before a day has the orders of its first hour come before it, so that the
-warehouse is at work when the day begins.
+`run-in:MINUTES:` before a day repeats the orders of its first hour before it, so that the warehouse
+is at work when the day begins.
 """
 
 from collections.abc import Callable
@@ -21,7 +21,7 @@ MOST_FACTOR = 1000.0
 MOST_RUN_IN = 24 * 60.0  # [min]
 EXPECTED = (
     "fill, fill:N, poisson:PER_HOUR, FILE.csv, day:FILE.csv, demand:FILE.yaml, either of these with"
-    " *1.3 for so much more, or none"
+    " *1.3 for 1.3 times the orders, or none"
 )
 
 

@@ -42,7 +42,7 @@ class Hooks(Protocol):
 
     @property
     def charging(self) -> Any:
-        """The policy that decides which robots are charged when; see policies.ChargingPolicy."""
+        """The policy that decides when robots charge; see policies.ChargingPolicy."""
 
     def park(self, kiva_id: int, cell: int) -> int | None:
         """Returns the cell to which a robot without work goes; None: it waits where it is."""
@@ -69,7 +69,7 @@ class Requests(Protocol):
         """Cancels a transport; a lifted unit is stored. Returns success and the fault."""
 
     def set_open(self, station: str, is_open: bool) -> None:
-        """Opens a station, or closes it: it gets no more units; those on the way are cancelled."""
+        """Opens a station, or closes it and cancels the units on their way there."""
 
     def take_events(self) -> list[TransportEvent]:
         """Returns what happened since the last call, in order."""

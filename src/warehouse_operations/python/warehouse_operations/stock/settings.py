@@ -10,13 +10,13 @@ UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 
 @dataclass(frozen=True)
 class Settings:
-    """The settings of stations and of what a shift asks of the fleet; defaults are RAWSim-O's."""
+    """The settings of stations and of requests to the fleet; defaults are RAWSim-O's."""
 
     slots: int = 12  # open orders a picking station
-    piece_s: float = 10.0  # from a piece to the next
+    piece_s: float = 10.0  # time from a piece to the next [s]
     piece_sd: float = 0.0  # standard deviation of piece_s from piece to piece [s]
-    pick_s: float = 3.0  # of that, until the piece is out of its bin and the unit may leave
-    line_s: float = 0.0  # more for the first piece of a line: to read it, to turn to its tote
+    pick_s: float = 3.0  # part of piece_s until it is out of its bin and the unit may leave [s]
+    line_s: float = 0.0  # extra for the first piece of a line: to read it, to turn to its tote [s]
     pickers: int = 1  # people or robots who pick from the same unit at the same time
     replenishes: bool = False  # a picking station at which stock is put in as well
     hours: tuple[tuple[float, float], ...] = ()  # when it is open, from the begin [h]; (): always
@@ -24,14 +24,14 @@ class Settings:
     roster: tuple[int, ...] = ()  # pickers hour by hour, the last for all later ones; (): pickers
     bundle_s: float = 10.0
     units_per_station: int | None = None  # at it or on their way; None: by the number of robots
-    by_station: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # exceptions, by name
+    by_station: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # exceptions by name
 
     def of(self, station: str) -> "Settings":
         """Returns the settings of the station of that name."""
         return replace(self, **self.by_station.get(station, {}))
 
     def pickers_at(self, hour: float) -> int:
-        """Returns how many pickers there are at an hour from the begin."""
+        """Returns the number of pickers at an hour from the begin."""
         if any(begin <= hour < end for begin, end in self.breaks):
             return 0
         if not self.roster:
@@ -46,9 +46,9 @@ class Settings:
         return [(hour, self.pickers_at(hour)) for hour in sorted(hours)]
 
     def units_at(self, robots: int, stations: int) -> int:
-        """Returns how many units at most are at a station or on their way to it.
+        """Returns the most units at a station or on their way to it.
 
-        Robots are shared out to stations, and a few units more are asked for than are fetched at
+        Each station has its share of the robots, and requests a few more units than these fetch at
         once.
         """
         share = round(1.5 * robots / max(stations, 1))

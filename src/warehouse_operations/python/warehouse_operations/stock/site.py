@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse before a shift: its floor, and who stands where."""
+"""A warehouse before a shift: its floor, robots, units and stock."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -37,7 +37,7 @@ class Site:
     name: str = ""
     kinematics: Kinematics = field(default_factory=Kinematics)
     settings: Settings = field(default_factory=Settings)
-    skus: int | None = None  # how many; None: by the number of bins
+    skus: int | None = None  # number of SKUs; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
     stock: Sequence[Stock] = ()  # at first, bin by bin; (): drawn by chance
 

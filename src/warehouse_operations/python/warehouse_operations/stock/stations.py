@@ -29,7 +29,8 @@ class Pick:
 
 @dataclass(eq=False)
 class Visit:
-    """A unit brought to a station: asked for, there, or leaving. Times are simulated [s]."""
+    """The visit of a unit to a station, from its request to its departure. Times are simulated
+    [s]."""
 
     visit_id: int
     transport_id: int
@@ -69,9 +70,8 @@ class Visit:
 class WorkStation:
     """A station for picking or replenishing; `place` is the floor's Station.
 
-    settings: its own. picks, replenishes: what is done there, one of them or both. began:
-    when its shift begins [s]. on_hands_free: called with the station where its people can begin
-    with something else.
+    settings: its own. picks, replenishes: the work there, one of them or both. began: begin of its
+    shift [s]. on_hands_free: called with the station when its people can begin another task.
     """
 
     def __init__(
@@ -92,16 +92,16 @@ class WorkStation:
         self.seconds_a_line, self.pickers = settings.line_s, settings.pickers_at(0.0)
         self.most_pickers = max(settings.pickers, *settings.roster, 1)
         self.piece_sd, self._rng = settings.piece_sd, np.random.default_rng(1)
-        self._picker_s, self._changed = 0.0, began  # of its pickers while it was open, until then
+        self._picker_s, self._changed = 0.0, began  # picker-seconds while open
         self.orders: dict[int, Order] = {}  # by id
         self.totes = Totes(self.capacity)
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
-        self.at_work = 0  # pieces or bundles in people's hands
-        self.reaching = 0  # of these, pieces that are still in their bins
-        self.line: Line | None = None  # of the piece that was begun last
+        self.at_work = 0  # pieces or bundles in hand
+        self.reaching = 0  # of these, pieces still in their bins
+        self.line: Line | None = None  # of the last piece begun
         self.busy_s = 0.0
-        self.attended = 0.0  # when a person last did something here [s]
-        # Lines with pieces for which no unit comes, by (order, line).
+        self.attended = 0.0  # time of a person's last action here [s]
+        # Lines with pieces without a unit on its way, by (order, line).
         self.missing: dict[tuple[int, int], Line] = {}
         self.pieces = self.visits = 0  # done here
         self.on_hands_free: list[Callable[[WorkStation], object]] = []
@@ -127,16 +127,16 @@ class WorkStation:
 
     @property
     def settings_now(self) -> Settings:
-        """Its settings with the pickers of this moment and their pace."""
+        """Its settings with its present pickers and their pace."""
         return replace(self.settings, pickers=self.pickers, piece_s=self.seconds_a_piece)
 
     def set_chance(self, rng: np.random.Generator) -> None:
-        """Sets what the times of pieces are drawn with."""
+        """Sets the generator of the times of pieces."""
         self._rng = rng
 
     def draw_times(self) -> tuple[float, float]:
-        """Returns how long a piece takes, and the part of that until it is out of its bin [s]:
-        log-normal where people differ from piece to piece."""
+        """Returns the time of a piece, and its part until the piece is out of its bin [s];
+        log-normal with a piece_sd."""
         if not self.piece_sd:
             return self.seconds_a_piece, self.pick_seconds
         spread = math.log(1 + (self.piece_sd / self.seconds_a_piece) ** 2)
@@ -147,11 +147,11 @@ class WorkStation:
         self._picker_s, self._changed = self.picker_seconds(now), now
 
     def picker_seconds(self, now: float) -> float:
-        """Returns the time of all its pickers until a time while it was open [s]."""
+        """Returns the picker-seconds until a time [s], while it was open."""
         return self._picker_s + (self.pickers * (now - self._changed) if self.is_open else 0.0)
 
     def open_seconds(self, now: float) -> float:
-        """Returns for how long it was open until a time [s]."""
+        """Returns its opening time until a time [s]."""
         return self._open_s + (now - self._opened if self.is_open else 0.0)
 
     def busy_fraction(self, now: float) -> float:
@@ -160,12 +160,12 @@ class WorkStation:
         return self.busy_s / time if time else 0.0
 
     def next_work(self) -> None:
-        """Starts what its people can do next."""
+        """Starts the next work of its people."""
         for start in self.on_hands_free:
             start(self)
 
     def take_on(self, order: Order, again: bool = False) -> None:
-        """Adds an order, in a tote of its own; `again`: in the one that it had here."""
+        """Adds an order, in a tote of its own; `again`: in its former tote here."""
         self.orders[order.order_id] = order
         (self.totes.take_again if again else self.totes.take)(order)
 
@@ -176,7 +176,7 @@ class WorkStation:
 
     @property
     def free_slots(self) -> int:
-        """The number of further orders that can be open here."""
+        """The number of free slots for orders."""
         return self.capacity - len(self.orders)
 
     @property
@@ -190,11 +190,11 @@ class WorkStation:
         return [visit for visit in self.inbound.values() if visit.released is None]
 
     def coming_for(self, replenishes: bool) -> list[Visit]:
-        """Returns those of them that bring bundles their bins, or orders their pieces."""
+        """Returns those of them for bundles, or for orders."""
         return [visit for visit in self.coming if visit.replenishes == replenishes]
 
     def waiting(self, now: float) -> float:
-        """Returns how long a task has waited for a person [s]; 0 without one."""
+        """Returns the time that a task has waited for a person [s]; 0 without a task."""
         visit = self.here
         if self.mode != StationMode.MANUAL or not visit or visit.arrived is None:
             return 0.0
@@ -208,7 +208,7 @@ class WorkStation:
         return self._stock([visit] if visit and not visit.replenishes else [])
 
     def inbound_stock(self) -> dict[str, int]:
-        """Returns the same on the unit that is here and on those on their way."""
+        """Returns the same for the unit here and those on their way."""
         return self._stock(self.coming_for(replenishes=False))
 
     def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:

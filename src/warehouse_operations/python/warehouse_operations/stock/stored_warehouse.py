@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse at rest, from which a shift goes on after the one before ended or was killed."""
+"""A warehouse at rest: the start of a shift after the last one ended or was killed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,8 +32,8 @@ class Stored:
 class Changes:
     """The differences between the bins of a warehouse and of its database.
 
-    gone: bins of the database that the warehouse has no more. new: empty bins that the database
-    does not have yet. moved: bins that are on another unit now.
+    gone: bins of the database that have left the warehouse. new: empty bins that the database
+    lacks. moved: bins on another unit than before.
     """
 
     gone: list[Bin]

@@ -15,7 +15,7 @@ class Totes:
         self._orders: dict[int, Order] = {}  # by position
 
     def take(self, order: Order) -> None:
-        """Gives an order the place that has been free for longest: its tote was changed by now."""
+        """Gives an order the place that is free for longest, whose tote has been changed."""
         order.tote = self._free.popleft() if self._free else 0
         if order.tote:
             self._orders[order.tote] = order

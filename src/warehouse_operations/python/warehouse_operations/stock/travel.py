@@ -16,8 +16,8 @@ from warehouse_layout._core import routes, ways
 from warehouse_layout.floor.floor_plan import FloorPlan
 
 HEADINGS = 4
-TABLES = 400  # kept at most, the least recently used is dropped
-PLACE_TABLES = 4000  # most tables of storage places alone: a floor of 50,000 cells has a thousand
+TABLES = 400  # most tables kept; the least recently used is dropped
+PLACE_TABLES = 4000  # most tables of storage places: a floor of 50,000 cells has a thousand
 
 _Key = TypeVar("_Key")
 _Value = TypeVar("_Value")
@@ -33,7 +33,7 @@ class Table:
         self._cells, self._heading = cells, heading
 
     def cells(self, cell: int) -> list[int]:
-        """Returns the cells of the route between the table's own cell and another, with both."""
+        """Returns the cells of the route between the table's cell and another, both included."""
         node, way = cell * HEADINGS + self._heading[cell], [cell]
         while (node := self._cells[node]) >= 0:
             if node // HEADINGS != way[-1]:
@@ -47,7 +47,7 @@ class Travel:
     def __init__(self, plan: FloorPlan, kinematics: Kinematics) -> None:
         self.plan, self.kinematics = plan, kinematics
         self.width = plan.passable.shape[1]
-        # Places in storage are ends of ways, never on the way.
+        # Storage places are ends of ways, never inside one.
         self._ends = np.asarray(plan.storage | plan.parking, np.uint8).ravel()
         self._forward, self._backward = _steps(plan, self._ends.astype(bool))
         self._tables: OrderedDict[tuple[int, bool], Table] = OrderedDict()
@@ -70,14 +70,14 @@ class Travel:
         return self._table(int(cell), False)
 
     def metres_to_places(self, cell: int, places: np.ndarray) -> np.ndarray:
-        """Returns how far it is for a loaded robot from a cell to storage places, (n,) [m]."""
+        """Returns the distances of a loaded robot from a cell to storage places, (n,) [m]."""
         seconds, steps = self._of_storage(int(cell), True)
         of = self._place[places]
         return np.where(np.isfinite(seconds[of]), steps[of] * self.plan.spacing, np.inf)
 
     def seconds_from_all(self, starts: np.ndarray, cell: int) -> np.ndarray:
-        """Returns how long a loaded robot takes to a cell from others, most often storage places,
-        (n,) [s]; anything where there is no way."""
+        """Returns the times of a loaded robot to a cell from others, most often storage places,
+        (n,) [s]; undefined without a way."""
         places = self._place[starts]
         seconds = self._of_storage(cell, False)[0][places]
         if (off := (places < 0) & (starts >= 0)).any():
@@ -85,8 +85,8 @@ class Travel:
         return seconds
 
     def _of_storage(self, cell: int, forward: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Returns (seconds, steps) of the ways to or from storage places alone, (n,) each: a
-        seventh of a floor, or less."""
+        """Returns (seconds, steps) of the ways to or from storage places, (n,) each: at most a
+        seventh of the cells."""
         key = cell, forward
         return _remembered(self._of_places, PLACE_TABLES, key, lambda: self._ways(cell, forward))
 
@@ -126,7 +126,8 @@ class Travel:
 
 
 class _Numbered:
-    """The graph of the passable cells alone, by their numbers: half of a floor around a hole."""
+    """The graph of the passable cells, numbered consecutively: around a hole, they may be half of a
+    floor."""
 
     def __init__(
         self,
@@ -152,7 +153,7 @@ class _Numbered:
 def _remembered(
     known: OrderedDict[_Key, _Value], most: int, key: _Key, make: Callable[[], _Value]
 ) -> _Value:
-    """Returns the value of a key, made where it is not known; drops the least recently used."""
+    """Returns the value of a key, which it makes if unknown; drops the least recently used."""
     if key in known:
         known.move_to_end(key)
         return known[key]
@@ -163,8 +164,8 @@ def _remembered(
 
 
 def _steps(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Returns (next, before), (cells, 4) int32 each: the cell to which a loaded robot may ever step
-    from each in each heading, and that from which it may come; or -1."""
+    """Returns (next, before), (cells, 4) int32 each, by cell and heading: the cell to which a
+    loaded robot may step, and the cell from which it may come; or -1."""
     following = np.asarray(plan.floor().edges(False)).reshape(-1, HEADINGS)
     lane = np.asarray(plan.lane, bool).ravel()
     cells, headings = np.nonzero(following >= 0)

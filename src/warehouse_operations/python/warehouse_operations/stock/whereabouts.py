@@ -11,12 +11,12 @@ from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_operations.stock.travel import Travel
 from warehouse_operations.stock.units_by_id import UnitCells
 
-WIDE = 10_000  # storage units, above which not all are worth their way to any station
-REACH = 60.0  # [s] there: so far from a station are as many units as in all of a smaller warehouse
+WIDE = 10_000  # storage units above which distant ones are not brought to a station
+REACH = 60.0  # time from a station [s] within which are as many units as in a smaller warehouse
 
 
 class Whereabouts:
-    """The cells of units and robots on a FloorPlan, by id; `units` and `robots` as they began.
+    """The cells of units and robots on a FloorPlan, by id; `units` and `robots`: at the begin.
 
     cells: where each stored unit stands now; those that are carried are not in it.
     """
@@ -40,7 +40,7 @@ class Whereabouts:
     @property
     def reach(self) -> float:
         """The longest detour of a unit to a station, against the nearest unit [s]: on a wide floor
-        there is always a better one, far away."""
+        a better unit always exists, far away."""
         return REACH if len(self.units) > WIDE else np.inf
 
     def seconds_to(self, station: str, unit: int) -> float:

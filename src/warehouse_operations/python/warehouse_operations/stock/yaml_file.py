@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads YAML files; what is wrong with one is one sentence with file and line."""
+"""Reads YAML files; a fault is a sentence with file and line."""
 
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,6 @@ def read_yaml(path: str | Path, error: type[Exception]) -> Any:
         line = f":{mark.line + 1}" if mark else ""
         said = getattr(why, "problem", None) or getattr(why, "reason", None) or why
         raise error(f"{path}{line}: {said}; YAML was expected") from why
-    # An impossible date, or a file that is not text, among others.
+    # Causes include an impossible date, or a file that is not text.
     except (ValueError, OverflowError, RecursionError) as why:
         raise error(f"{path}: {why}; YAML was expected") from why

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that a database balances: every piece exists once, nothing was done twice or half."""
+"""Checks that a database balances: every piece exists once, every task was done once and whole."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,9 +14,9 @@ from warehouse_operations.store.engines import DatabaseError, path_of, reason
 # Pieces picked from a unit or put into it, by the moves of a visit.
 DONE_TO_UNIT = """COALESCE(SUM(CASE m.reason WHEN 'undone' THEN -ABS(m.quantity)
            ELSE ABS(m.quantity) END), 0)"""
-# How often an order was completed and not opened again, by its events.
+# Number of an order's completions without those that were reopened, by its events.
 COMPLETED = "COALESCE(SUM(CASE e.kind WHEN 3 THEN 1 WHEN 7 THEN -1 ELSE 0 END), 0)"
-# Each finds rows that must not be; the columns go into the sentence.
+# Each rule selects impossible rows; their columns fill its sentence.
 RULES = (
     (
         "bin {0} ({1}) holds {2} pieces of {3}; its moves add up to {4}",
@@ -72,7 +72,7 @@ RULES = (
            <> CASE WHEN o.state = 2 THEN 1 ELSE 0 END""",
     ),
     (
-        "visit {0} tells of {1} pieces; its moves add up to {2}",
+        "visit {0} has {1} pieces; its moves add up to {2}",
         f"""SELECT v.id, v.pieces, {DONE_TO_UNIT} FROM visit v
            LEFT JOIN move m ON m.visit = v.id GROUP BY v.id, v.pieces
            HAVING v.pieces <> {DONE_TO_UNIT}""",
@@ -86,7 +86,7 @@ RULES = (
 
 
 def faults(engine: Engine, most: int = 20) -> list[str]:
-    """Returns sentences about what does not balance, up to `most` a rule; [] where all does.
+    """Returns sentences about faults, up to `most` a rule; [] without any.
 
     Raises DatabaseError where values can't be read, as after damage to the file.
     """
@@ -118,7 +118,7 @@ def summary(engine: Engine) -> dict[str, Any]:
 
 @contextmanager
 def _reading(engine: Engine) -> Iterator[Connection]:
-    """Opens a connection to read by; its errors name the database."""
+    """Opens a connection for reading; its errors name the database."""
     try:
         with engine.connect() as connection:
             yield connection

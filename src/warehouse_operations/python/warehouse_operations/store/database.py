@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The database of a warehouse: written by a thread of its own, read back after an interruption.
 
-What a shift does between two commits of its journal gets into the database together or not at all,
-and in order. The thread writes as many of them in one transaction as are there.
+The changes between two commits of a journal are written together or not at all, and in order. A
+transaction of the thread holds all commits that wait.
 """
 
 import contextlib
@@ -23,14 +23,14 @@ from warehouse_operations.store.rows import Rows
 
 __all__ = ["Database", "DatabaseError", "open_engine"]
 
-WAITING = 20_000  # commits at most that are not written yet; beyond, the shift waits
+WAITING = 20_000  # most commits that wait for the thread; the shift waits beyond it
 
 
 class Database:
     """Takes Rows from any thread and writes them in order on its own; it locks out other programs.
 
-    url: see engines.url_of. gather: the longest time that rows wait for others, with which they are
-    written at less cost [s]. Raises DatabaseError.
+    url: see engines.url_of. gather: longest time that rows wait to be written with others, which is
+    cheaper [s]. Raises DatabaseError.
     """
 
     def __init__(self, url: str, gather: float = 0.0) -> None:
@@ -53,7 +53,7 @@ class Database:
         self._queue.put(rows)
 
     def flush(self) -> None:
-        """Waits until everything that was put is in the database; raises DatabaseError."""
+        """Waits until all rows are in the database; raises DatabaseError."""
         self._hurries.set()
         self._queue.join()
         self._hurries.clear()
@@ -75,12 +75,12 @@ class Database:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[None]:
-        """Raises DatabaseError if what the database holds can't be understood."""
+        """Raises DatabaseError if the content of the database is invalid."""
         try:
             yield
         except DatabaseError:
             raise
-        except Exception as error:  # there may be anything in a file that was damaged
+        except Exception as error:  # a damaged file may raise any
             raise DatabaseError(
                 f"{self.url}: its content can't be read: {reason(error)}; use another "
                 "database, or with a copy of this one from before"

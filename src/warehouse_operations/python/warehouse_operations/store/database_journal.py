@@ -76,7 +76,7 @@ class DatabaseJournal(Journal):
         self.take_in(bins)
 
     def take_in(self, bins: Iterable[Bin], moved: Iterable[Bin] = ()) -> None:
-        """Writes bins that are new, still empty, and those that are on another unit now."""
+        """Writes new bins, still empty, and those on another unit than before."""
         for unit in dict.fromkeys(bin_.unit for bin_ in (*bins, *moved)):
             if unit not in self._units:
                 self._units.add(unit)
@@ -97,15 +97,15 @@ class DatabaseJournal(Journal):
             self._rows.update(schema.bin_, bin_.bin_id, unit=bin_.unit)
 
     def gone(self, bins: Iterable[Bin]) -> None:
-        """Writes bins that are no longer in the warehouse, and were written off."""
+        """Writes the removal of bins that have left the warehouse and were written off."""
         for bin_ in bins:
             self._rows.update(schema.bin_, bin_.bin_id, capacity=0)
 
     def resume(self, stored: Stored) -> None:
-        """Ends what an earlier run left under way: its visits, assignments and promises. The
-        orders of a Stored warehouse are this run's from now on, and so are their times."""
+        """Ends the open visits, assignments and promises of an earlier run. This run takes over the
+        orders of a Stored warehouse, with their times."""
         with self._database.engine.begin() as connection:
-            self._rows.write(connection)  # with this run
+            self._rows.write(connection)  # the row of this run
             self._rows = Rows()
             connection.execute(
                 update(schema.visit)
@@ -296,7 +296,7 @@ class DatabaseJournal(Journal):
         put(schema.heat, slot, run=self.run_id, began_s=began, maps=maps)
 
     def commit(self, now: float, bins: Collection[Bin]) -> None:
-        """Passes everything since the last call to the database, to be written together."""
+        """Passes all rows since the last call to the database as one commit."""
         for bin_ in sorted(bins, key=lambda bin_: bin_.bin_id):
             values = {"sku": bin_.sku, "quantity": bin_.quantity, "reserved": bin_.reserved}
             self._rows.update(schema.bin_, bin_.bin_id, **values)
@@ -306,7 +306,7 @@ class DatabaseJournal(Journal):
             self._rows = Rows()
 
     def flush(self) -> None:
-        """Waits until everything that was committed is in the database."""
+        """Waits until all commits are in the database."""
         self._database.flush()
 
     def end(self, now: float, bins: Collection[Bin], figures: dict[str, Any]) -> None:

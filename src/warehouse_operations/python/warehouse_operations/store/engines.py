@@ -15,11 +15,11 @@ from warehouse_operations.store import schema
 from warehouse_operations.store.locks import FileLock, InUseError, holder
 
 MAGIC = b"SQLite format 3\0"
-LOCK = 0x6B697661  # of this program among those of a server's database
+LOCK = 0x6B697661  # identifies this program's locks in a server's database
 
 
 class DatabaseError(Exception):
-    """The database can't be opened or written; the text says why."""
+    """Raised where a database can't be opened or written; says why."""
 
 
 def url_of(text: Any) -> str:
@@ -28,7 +28,7 @@ def url_of(text: Any) -> str:
 
 
 def shown(text: Any) -> str:
-    """Returns the same without a password, for messages."""
+    """Returns a URL without its password, for messages."""
     with contextlib.suppress(SQLAlchemyError):
         return make_url(text).render_as_string() if "://" in str(text) else str(text)
     return "the database"
@@ -88,7 +88,7 @@ def path_of(engine: Engine) -> Path | None:
 
 
 def reason(error: BaseException) -> str:
-    """Returns the cause in one line, without what SQLAlchemy adds."""
+    """Returns the cause in one line, without SQLAlchemy's additions."""
     text = str(getattr(error, "orig", None) or getattr(error, "strerror", None) or error)
     return " ".join(text.split()) or type(error).__name__
 
@@ -96,7 +96,7 @@ def reason(error: BaseException) -> str:
 def _sqlite(connection: Any, _record: Any) -> None:
     cursor = connection.cursor()
     cursor.execute("PRAGMA journal_mode=WAL")
-    cursor.execute("PRAGMA synchronous=NORMAL")  # nothing is lost when a program is killed
+    cursor.execute("PRAGMA synchronous=NORMAL")  # commits survive a killed program
     cursor.execute("PRAGMA foreign_keys=ON")
     cursor.execute("PRAGMA busy_timeout=30000")
     cursor.close()
@@ -106,7 +106,7 @@ def _check_file(path: Path) -> None:
     if path.is_dir():
         raise schema.SchemaError("is a folder; the path of an SQLite file was expected")
     if path.exists():
-        # Its lock, and what SQLite keeps beside it, go by the name.
+        # The lock and SQLite's companion files are named after it.
         if path.stat().st_nlink > 1:
             raise schema.SchemaError("has another name too (a hard link); a copy was expected")
         with user_file.opened(path, None) as file:
@@ -116,9 +116,9 @@ def _check_file(path: Path) -> None:
 
 
 def _make_private(path: Path) -> None:
-    """Makes a file that only its owner reads, for orders and stock are no one else's; SQLite gives
-    those beside it the same mode."""
-    with contextlib.suppress(OSError):  # of another one, SQLite says why it can't be opened
+    """Creates a file that its owner alone can read; SQLite gives its companion files the same
+    mode."""
+    with contextlib.suppress(OSError):  # SQLite reports why it can't open the file
         os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
 
 
@@ -148,8 +148,7 @@ def lock(engine: Engine, text: Any) -> contextlib.AbstractContextManager[Any]:
 
 
 def _server_lock(engine: Engine, name: str) -> contextlib.AbstractContextManager[Any]:
-    """Takes an advisory lock: the server drops it as soon as this process, or the connection, is
-    gone."""
+    """Takes an advisory lock, which the server drops when this process or its connection ends."""
     connection = engine.connect().execution_options(isolation_level="AUTOCOMMIT")
     in_schema = connection.execute(
         text("SELECT oid::int FROM pg_namespace WHERE nspname = current_schema()")

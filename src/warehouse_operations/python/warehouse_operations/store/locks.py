@@ -16,14 +16,14 @@ _HELD: "weakref.WeakSet[FileLock]" = weakref.WeakSet()
 
 
 class InUseError(Exception):
-    """Raised where another program holds the lock; says which one, where and since when."""
+    """Raised where another program holds the lock; names the program, its host and the time."""
 
 
 class FileLock:
     """Locks a file or folder until release() or the end of this process.
 
-    path: what is locked; the lock file is beside it, or in it if it is a folder. The kernel holds
-    the lock (flock): a lock file that is left behind locks nothing. Raises InUseError, OSError.
+    path: the file or folder to lock; the lock file is beside a file, or in a folder. The kernel
+    holds the lock (flock): a lock file without a process locks nothing. Raises InUseError, OSError.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -36,7 +36,7 @@ class FileLock:
 
     def _taken(self, path: Path) -> TextIO | None:
         """Returns the locked file, or None if its holder has just removed it."""
-        # Its owner's alone: who can read a file can lock it.
+        # Readable by its owner alone: any reader could lock it.
         number = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o600)
         file = os.fdopen(number, "a+", encoding="utf-8", errors="replace")
         try:
@@ -70,7 +70,7 @@ class FileLock:
             self._file = None
 
     def leave_to_parent(self) -> None:
-        """Lets go of the lock in a forked process; the parent still holds it."""
+        """Drops the lock in a forked process; the parent keeps it."""
         if self._file:
             self._file.close()
             self._file = None

@@ -12,7 +12,7 @@ from warehouse_layout.message_enums import OrderState
 from warehouse_operations.store import schema
 
 MOST_ROWS = 10_000  # in an answer
-LONGEST = 1000  # characters of a search: no order has a longer reference
+LONGEST = 1000  # most characters of a search, those of the longest reference
 LARGEST = 2**63 - 1  # the largest number that a query may hold
 
 
@@ -106,7 +106,7 @@ def find_stock(
 
 
 def matching(names: Iterable[str], search: str) -> list[str]:
-    """Returns the names that have a text in them: first those that begin with it, by number."""
+    """Returns the names that contain a text, first those that begin with it, in natural order."""
     text = search.casefold()
     matches = [name for name in names if text in name.casefold()]
     return sorted(matches, key=lambda name: (not name.casefold().startswith(text), _natural(name)))

@@ -16,7 +16,7 @@ class SiteError(ValueError):
 
 
 def layout_of(site: Site) -> list[str]:
-    """Returns the stations with their places [m], sorted: a warehouse is recognised by them."""
+    """Returns the stations with their places [m], sorted: they identify a warehouse."""
     plan = site.plan
     places = (
         (station.name, *plan.point_of(int(station.cells[station.service])))
@@ -26,7 +26,7 @@ def layout_of(site: Site) -> list[str]:
 
 
 def changes(site: Site, stored: Stored, url: str) -> Changes:
-    """Returns what changed at a Site since it was Stored, and moves bins to their units of now.
+    """Returns the changes of a Site since it was Stored, and moves bins to their present units.
 
     Raises SiteError if the database at url is of another warehouse.
     """
@@ -56,7 +56,8 @@ def _new_bins(
 
 
 def _check(layout: Sequence[str], stored: Stored, gone: int, moved: int, url: str) -> None:
-    """Raises SiteError if stations differ other than by loss or gain alone, or most bins do."""
+    """Raises SiteError if most bins differ, or the stations do otherwise than by added or by
+    removed ones."""
     other = f"{url} is of another warehouse"
     if stored.layout is not None and not (
         set(layout) <= set(stored.layout) or set(stored.layout) <= set(layout)

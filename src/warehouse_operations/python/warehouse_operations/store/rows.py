@@ -45,7 +45,7 @@ class Rows:
         self.inserts[table][key] = _without_numpy(values)
 
     def update(self, table: Table, key: Any, **values: Any) -> None:
-        """Changes values by column of a row, whether it is still to be inserted or exists."""
+        """Changes values by column of a row, pending or existing."""
         known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
         known.setdefault(key, {}).update(_without_numpy(values))
 
@@ -66,7 +66,7 @@ class Rows:
                     insert(table),
                     [_named(names, key) | row for key, row in self.inserts[table].items()],
                 )
-            # Those that change the same columns go together.
+            # Changes of the same columns are one statement.
             alike: dict[tuple[str, ...], list[dict[str, Any]]] = defaultdict(list)
             for key, row in self.updates.get(table, {}).items():
                 alike[tuple(row)].append(

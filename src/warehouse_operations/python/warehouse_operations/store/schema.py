@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of a warehouse's database, and how a database of an older version becomes a new one.
 
-Times are simulated seconds of the run that a row belongs to. Stock is the sum of moves: `bin` holds
-that sum ready, and the pieces of it that are promised.
+Times are simulated seconds of the run that a row belongs to. Stock is the sum of moves; `bin` holds
+that sum, and its promised pieces.
 """
 
 from collections.abc import Callable, Mapping
@@ -35,11 +35,11 @@ metadata = MetaData()
 
 
 class SchemaError(Exception):
-    """A database that can't be used; the text says why."""
+    """Raised for an unusable database; says why."""
 
 
 class EmptyError(SchemaError):
-    """A database without tables."""
+    """Raised for a database without tables."""
 
 
 def _id(**options: Any) -> Column:
@@ -59,7 +59,7 @@ run = Table(
     Column("seed", Integer, nullable=False),
     Column("orders", Text, nullable=False),
     Column("policies", Text, nullable=False),  # JSON
-    Column("began_s", Float, nullable=False),  # simulated time at its beginning and so far
+    Column("began_s", Float, nullable=False),  # simulated time of its begin, and the latest
     Column("simulated_s", Float, nullable=False),
     Column("kpis", Text),  # JSON
 )
@@ -84,7 +84,7 @@ bin_ = Table(
     Column("sku", ForeignKey("sku.sku"), nullable=False),
     Column("quantity", Integer, nullable=False),
     Column("reserved", Integer, nullable=False),
-    Column("capacity", Integer, nullable=False),  # 0: it is not in the warehouse any more
+    Column("capacity", Integer, nullable=False),  # 0: it has left the warehouse
     CheckConstraint("reserved >= 0 AND reserved <= quantity", name="reserved_in_stock"),
 )
 
@@ -92,7 +92,7 @@ orders = Table(
     "orders",
     metadata,
     _id(),
-    # The run of its times: in which it came, or which went on with it.
+    # The run of its times: the one in which it came, or the last one that took it over.
     Column("run", ForeignKey("run.id"), nullable=False),
     Column("reference", String(200), nullable=False, index=True),
     Column("created", Float, nullable=False),
@@ -175,7 +175,7 @@ event = Table(
     Column("text", Text, nullable=False),
 )
 
-# Where robots drove and waited in the last hour, a row a twelfth of it; rows are used again.
+# Robots' drives and waits in the last hour, a row for each twelfth of it; rows are reused.
 heat = Table(
     "heat",
     metadata,
@@ -185,7 +185,7 @@ heat = Table(
     Column("maps", LargeBinary, nullable=False),  # FloorHeat's of that time, compressed
 )
 
-# Reports of people at stations that had an id (code): one that comes again gets its answer.
+# Reports of people at stations with an id (code): a repetition gets the same answer.
 report = Table(
     "report",
     metadata,
@@ -219,12 +219,12 @@ def prepare(
 ) -> None:
     """Creates the tables, or brings those of an older version up to date; raises SchemaError.
 
-    makes: whether a database that has none gets them.
+    makes: whether to create them in a database without any.
     """
     migrations = MIGRATIONS if migrations is None else migrations
     tables = set(inspect(connection).get_table_names())
     if schema_version.name not in tables:
-        # A file is of one program; the database of a server may be shared.
+        # A file belongs to one program; a server's database may be shared.
         is_file = connection.dialect.name == "sqlite"
         taken = sorted(tables if is_file else tables & set(metadata.tables))
         if taken:

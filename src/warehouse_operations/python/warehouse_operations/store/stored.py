@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse as a database has it: what a shift goes on with after it ended or was killed."""
+"""A warehouse as its database holds it: the start of a shift after the last one ended or was
+killed."""
 
 import json
 from collections import defaultdict
@@ -51,7 +52,7 @@ def _layout(connection: Connection) -> list[Any] | None:
 
 def transports_left(engine: Engine) -> tuple[set[int], int | None]:
     """Returns (ids, last): the transports that a killed run left open, and the last one that it is
-    known to have asked for; None if it asked for none."""
+    known to have requested, or None."""
     visit = schema.visit.c
     last = select(visit.transport_id).order_by(visit.id.desc()).limit(1)
     with engine.connect() as connection:
@@ -64,13 +65,13 @@ def throughput(
 ) -> tuple[float, dict[int, int], dict[int, int], dict[int, int]]:
     """Returns (begin, picked, stored, completed) of the runs before one that begins at `now`.
 
-    begin: their first moment. The counts are those of tally.Tally in each INTERVAL from `since`
-    on, by its number. Times are those of the run that begins [s]."""
+    begin: of the first run. The counts are those of tally.Tally by number of the INTERVAL, from
+    `since` on. Times are those of the run that begins [s]."""
     move, order, begin = schema.move.c, schema.orders.c, now
     picked: dict[int, int] = defaultdict(int)
     stored: dict[int, int] = defaultdict(int)
     completed: dict[int, int] = defaultdict(int)
-    # What was taken back counts against it, at its own time.
+    # A piece that was taken back counts negative, at the time of that.
     of_line, undone = move.order_id.is_not(None), move.reason == Reason.UNDONE.value
     taken_out = and_(undone, move.visit.is_not(None), ~of_line)
     done = (
@@ -102,7 +103,7 @@ def throughput(
 
 
 def reports(engine: Engine, most: int) -> list[tuple[Report, Answer]]:
-    """Returns what people at stations reported under ids, the last ones, the oldest first."""
+    """Returns the last reports of people that had ids, the oldest first."""
     rows = select(schema.report).order_by(schema.report.c.id.desc()).limit(most)
     with engine.connect() as connection:
         newest = list(connection.execute(rows))
@@ -115,7 +116,7 @@ def _report(row: Any) -> Report:
 
 
 def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:
-    """Returns what was kept of the FloorHeat: pairs (begin, maps as bytes).
+    """Returns the stored FloorHeat: pairs (begin, maps as bytes).
 
     begin: in the time of a run that begins at `now` [s]."""
     with engine.connect() as connection:
@@ -126,8 +127,8 @@ def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:
 
 
 def _rows(connection: Connection, table: Table, query: Any) -> list[Any]:
-    """Returns the rows of a query on a table. Raises ValueError for a value that is not of its
-    column's type, which SQLite allows."""
+    """Returns the rows of a query on a table. Raises ValueError for a value of another type than
+    its column's, as SQLite allows."""
     rows = connection.execute(query).all()
     kinds = [(column.name, column.type.python_type, column.nullable) for column in table.c]
     for row in rows:
@@ -188,9 +189,9 @@ def _orders(connection: Connection, now: float) -> list[Order]:
 
 
 def _shifts(connection: Connection, now: float) -> dict[int, float]:
-    """Returns, by run, what to add to its times to get those of a run that begins at `now` [s].
-
-    Nothing if simulated time went on; if it began again or went back, the next run follows at once.
+    """Returns, by run, the offset from its times to those of a run that begins at `now` [s]. The
+    offset is 0 if simulated time went on; if it began again or went back, the next run follows at
+    once.
     """
     rows = connection.execute(select(schema.run).order_by(schema.run.c.id.desc()))
     result, begins, by = {}, now, 0.0

@@ -29,7 +29,7 @@ RATE = 400.0
 class Hub:
     """Simulations, what-if, editor and documentation; run() serves until it is stopped.
 
-    tokens: the one that every client needs, "" for none, and another that serves as well.
+    tokens: the token that every client needs, "": without, and an alternative one.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class Hub:
 
 
 class _HubServer(Server):
-    """Ends the simulations before it ends; a second signal does not wait for them."""
+    """Ends the simulations first; a second signal does not wait for them."""
 
     def __init__(
         self,

@@ -26,22 +26,22 @@ Headers = list[tuple[bytes, bytes]]
 
 @dataclass(frozen=True)
 class Permission:
-    """Who may have an assistant change something: all who use the hub, or who brings a token."""
+    """The clients whose assistants may change something: all of the hub, or those with a token."""
 
     everybody: bool = False
-    token: str = ""  # "": no request holds it
+    token: str = ""  # "": no request has permission
 
     def holds(self, headers: Headers) -> bool:
-        """Returns whether a request with these headers has it."""
+        """Returns whether a request with these headers has permission."""
         scheme, _, token = dict(headers).get(b"authorization", b"").partition(b" ")
         brings = scheme.lower() == b"bearer" and hmac.compare_digest(token, self.token.encode())
         return self.everybody or bool(self.token and brings)
 
 
 class Assistant:
-    """The assistant's process, which ends with this program; none runs without `python`.
+    """The assistant's process, which ends with this program; without `python` there is no process.
 
-    hub: the address that it asks, with `token` where that needs one.
+    hub: the address of its requests, with `token` where the hub needs one.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class Assistant:
         self._permission = permission
         self._popen: subprocess.Popen | None = None
         self._port, self._answers = 0, False
-        # The port is any program's of this machine; only the hub knows the key.
+        # Any program of this machine can reach the port; the hub alone knows the key.
         self._key = secrets.token_hex(16)
         if python and python.exists():
             self._port = free_port()
@@ -72,7 +72,7 @@ class Assistant:
             self.reason = f"the assistant's environment has no {python}: `make serve` makes it"
 
     def headers(self, headers: Headers, client: str) -> Headers:
-        """Returns a request's headers as its server expects them, with what its sender may do."""
+        """Returns a request's headers for its server, with the permissions of the sender."""
         own = [(KEY, self._key.encode()), (CLIENT, client.encode())]
         if self._permission.holds(headers):
             own.append((ALLOW, b"commands"))
@@ -90,7 +90,7 @@ class Assistant:
                 await asyncio.sleep(0.1)
 
     def fault(self) -> str:
-        """Returns why it can't answer; "" if it can."""
+        """Returns the reason why it can't answer; "" if it can."""
         if self._popen is None:
             return self.reason
         code = self._popen.poll()

@@ -10,11 +10,12 @@ from warehouse_sim.hub.simulation import TIMEOUT, Simulation, State
 from warehouse_sim.hub.wish import Wish, WishError
 from warehouse_viewer.server.hub_link import ask
 
-PATIENCE = 10.0  # with pages that do not answer, before it is taken off the list [s, wall]
+PATIENCE = 10.0  # time without answers of its pages after which it leaves the list [s, wall]
 
 
 class Guest(Simulation):
-    """Its pages are at `viewer`, of this machine. The hub neither starts nor stops it."""
+    """A simulation with pages at `viewer`, an address of this machine. The hub neither starts nor
+    stops it."""
 
     def __init__(self, name: str, viewer: object) -> None:
         """Raises WishError for an address that is not one of this machine."""
@@ -33,7 +34,7 @@ class Guest(Simulation):
         return time.monotonic() - self._heard > PATIENCE
 
     def look(self, most_memory: int) -> None:
-        """Takes in how it is (`most_memory` is not the hub's to bound)."""
+        """Updates its state; the hub does not limit its memory (`most_memory`)."""
         with suppress(OSError, ValueError, KeyError):
             self._warehouse = ask("GET", f"{self.viewer}/api/v1/warehouse", timeout=TIMEOUT)
             self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING

@@ -18,7 +18,7 @@ IN_THE_WAY = 3  # exit code of insert_world
 
 
 class InTheWay(RuntimeError):  # noqa: N818 (an answer)
-    """What stands where something was to be inserted."""
+    """Raised where the running world refuses the models, as for an overlap; says why."""
 
 
 def insert(simulation: Simulation, body: Mapping[str, Any]) -> str:

@@ -15,10 +15,10 @@ from typing import IO, Any
 
 from warehouse_sim.hub.wish import Wish
 
-PATIENCE = 8.0  # for roslaunch to end what it started [s, wall]
+PATIENCE = 8.0  # for roslaunch to end its nodes [s, wall]
 TIMEOUT = 2.0  # for the master to answer [s, wall]
 COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\]2;[^\x07]*\x07")
-# Lines of roslaunch that name no cause.
+# Lines of roslaunch without a cause.
 NOISE = re.compile(
     r"\s*$|.*(log file|logging to|done checking|press ctrl-c|started roslaunch|REQUIRED process|"
     r"Initiating shutdown|shutting down|killing on exit|shutting down processing monitor|^done$|"
@@ -28,14 +28,14 @@ NOISE = re.compile(
 
 
 def free_port() -> int:
-    """Returns a port of this machine that nothing listens at."""
+    """Returns a free port of this machine."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
 
 
 class Process:
-    """A roslaunch that runs: it ends with this program, also where that is killed."""
+    """A running roslaunch, which ends with this program, even if that is killed."""
 
     def __init__(self, wish: Wish, folder: Path, environment: Mapping[str, str]) -> None:
         """Starts it. Raises OSError."""
@@ -57,7 +57,7 @@ class Process:
     def _start(self, wish: Wish, port: int, folder: Path, log: IO[bytes]) -> subprocess.Popen:
         arguments = {**wish.arguments, "viewer": "true", "viewer_port": "0"}
         words = [f"{name}:={text}" for name, text in arguments.items()]
-        # roslaunch gets SIGTERM when this program ends in any way, and then ends its nodes.
+        # roslaunch gets SIGTERM at any end of this program, and ends its nodes.
         dies_with_us = ["setpriv", "--pdeathsig", "TERM"]
         options = ["-p", str(port), "--sigint-timeout=4", "--sigterm-timeout=2"]
         return subprocess.Popen(
@@ -75,12 +75,12 @@ class Process:
         return self._popen.poll()
 
     def ask_to_end(self) -> None:
-        """Asks it to end; what it started ends with it."""
+        """Asks it to end with its nodes."""
         if self.exit_code() is None:
             self._popen.send_signal(signal.SIGINT)
 
     def end(self) -> None:
-        """Waits until it has ended, and kills what is left after PATIENCE."""
+        """Waits until it has ended, and kills remaining processes after PATIENCE."""
         tree = descendants(self._popen.pid)
         self.ask_to_end()
         try:
@@ -102,12 +102,12 @@ class Process:
         return ""
 
     def memory(self) -> int:
-        """Returns the memory of all that it started [bytes]; shared pages count for each."""
+        """Returns the memory of its processes [bytes]; shared pages count for each."""
         page = os.sysconf("SC_PAGE_SIZE")
         return sum(_resident(number) * page for number in (self._popen.pid, *self.tree()))
 
     def tree(self) -> dict[int, str]:
-        """Returns the processes that it started, as descendants() does."""
+        """Returns its processes as descendants() does."""
         return descendants(self._popen.pid)
 
     def reason(self) -> str:

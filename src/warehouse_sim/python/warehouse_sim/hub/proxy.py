@@ -18,8 +18,8 @@ PIECE = 64 * 1024  # of a body [bytes]
 PATIENCE = 5.0  # to connect [s, wall]
 GONE = 1012  # close code of a WebSocket whose server went (RFC 6455's registry: service restart)
 MOST_MESSAGE = 64 << 20  # from a simulation [bytes]
-# Headers of one connection (RFC 9110, section 7.6.1), and those that are for this server alone:
-# names, origins and tokens were checked here.
+# Headers of one connection (RFC 9110, section 7.6.1), and headers for this server alone: it has
+# checked names, origins and tokens.
 HOP = frozenset(
     b"connection keep-alive proxy-connection te trailer transfer-encoding upgrade host origin"
     b" authorization cookie referer".split()
@@ -29,9 +29,9 @@ Headers = list[tuple[bytes, bytes]]
 
 
 class Proxy:
-    """ASGI application: answers with what the server at `target` (http://HOST:PORT) answers.
+    """ASGI application: passes requests on to the server at `target` (http://HOST:PORT).
 
-    `prefix` is the path beneath which that server's paths lie here; redirects follow it.
+    `prefix` is the path of that server here; redirects get it.
     """
 
     def __init__(self, target: str, prefix: str) -> None:
@@ -80,7 +80,7 @@ class Proxy:
             finally:
                 sending.cancel()
         except (h11.ProtocolError, OSError):
-            # Nothing more can be said where the answer has begun.
+            # No other status can follow once the answer has begun.
             with suppress(RuntimeError):
                 answer = JSONResponse({"detail": "the simulation broke the connection"}, 502)
                 await answer(scope, receive, send)
@@ -128,7 +128,7 @@ class _Exchange:
             await self._writer.drain()
 
     async def events(self) -> AsyncIterator[Any]:
-        """Yields what comes, to the end of the answer. Raises h11.ProtocolError."""
+        """Yields the events of the answer to its end. Raises h11.ProtocolError."""
         while True:
             event = self._state.next_event()
             if event is h11.NEED_DATA:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hub's HTTP API: simulations, their logs, and all that lies beneath /s/NAME/."""
+"""The hub's HTTP API: simulations, their logs, and their pages beneath /s/NAME/."""
 
 import asyncio
 import json
@@ -51,7 +51,7 @@ def routes(simulations: Simulations, assistant: Callable[[], Assistant]) -> list
 
 
 def _answered(action: Endpoint) -> Endpoint:
-    """Returns an endpoint whose refusals are answers: 404, 409, 422, 400, 503."""
+    """Returns an endpoint that answers errors with 404, 409, 422, 400 or 503."""
 
     async def endpoint(request: Request) -> Response:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One simulation of the hub: what was asked for, its process, and its state."""
+"""One simulation of the hub: its wish, its process and its state."""
 
 import enum
 import json
@@ -16,10 +16,10 @@ TIMEOUT = 3.0  # for the pages of a simulation to answer [s, wall]
 
 
 class State(enum.Enum):
-    """How far a simulation is.
+    """The state of a simulation.
 
-    STOPPED -> STARTING at start(); STARTING -> RUNNING <-> PAUSED as its pages say; all three ->
-    FAILED when its process ends by itself, or takes too much; any -> STOPPED at stop().
+    STOPPED -> STARTING at start(); STARTING -> RUNNING <-> PAUSED by its pages; these three ->
+    FAILED when its process ends by itself, or exceeds its memory; any -> STOPPED at stop().
     """
 
     STARTING = "STARTING"
@@ -30,7 +30,7 @@ class State(enum.Enum):
 
 
 class Simulation:
-    """Its files lie in `folder`: simulation.json, log.txt, recordings, databases.
+    """A simulation with its files in `folder`: simulation.json, log.txt, recordings, databases.
 
     Methods block; one thread at a time may call them, but row() and its fields any.
     """
@@ -38,15 +38,15 @@ class Simulation:
     def __init__(self, wish: Wish, folder: Path) -> None:
         self.wish, self.folder = wish, folder
         self.state, self.reason = State.STOPPED, ""
-        self.viewer = ""  # the address of its pages, "" while there are none
+        self.viewer = ""  # address of its pages; "" until these are served
         self.process: Process | None = None
-        self.used = time.monotonic()  # when its pages were last asked for [s, wall]
+        self.used = time.monotonic()  # time of the last request to its pages [s, wall]
         self._begun = 0.0  # [s, wall]
         self._warehouse: dict[str, Any] = {}
 
     @property
     def lives(self) -> bool:
-        """Whether a process of it runs."""
+        """Whether its process runs."""
         return self.state in (State.STARTING, State.RUNNING, State.PAUSED)
 
     def row(self) -> dict[str, Any]:
@@ -79,14 +79,14 @@ class Simulation:
         self.state = State.STARTING
 
     def stop(self, state: State = State.STOPPED, reason: str = "") -> None:
-        """Ends its process, cleanly if that is quick; it is STOPPED or FAILED then."""
+        """Ends its process, cleanly if that is quick; its state becomes STOPPED or FAILED."""
         if self.process:
             self.process.end()
         self.process, self.viewer = None, ""
         self.state, self.reason = state, reason
 
     def look(self, most_memory: int) -> None:
-        """Takes in how it is. One that takes more than `most_memory` [bytes] is ended."""
+        """Updates its state; ends it above `most_memory` [bytes]."""
         if not self.lives or self.process is None:
             return
         if (code := self.process.exit_code()) is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All simulations of the hub: limits, persistence, and the look at each once a second."""
+"""All simulations of the hub: limits, persistence, and a check of each once a second."""
 
 import asyncio
 import shutil
@@ -16,7 +16,7 @@ from warehouse_sim.hub.guest import Guest
 from warehouse_sim.hub.simulation import Simulation, State
 from warehouse_sim.hub.wish import NAME, Wish
 
-INTERVAL, INTERVAL_STARTING = 1.0, 0.2  # between two looks [s, wall]
+INTERVAL, INTERVAL_STARTING = 1.0, 0.2  # between two checks [s, wall]
 MOST_KEPT = 200  # simulations that are listed, STOPPED ones included
 
 
@@ -24,20 +24,20 @@ T = TypeVar("T")
 
 
 class Conflict(RuntimeError):  # noqa: N818 (an answer)
-    """What stands in the way of a request."""
+    """Raised for a request that conflicts with the present state; says why."""
 
 
 class Missing(LookupError):  # noqa: N818 (an answer)
-    """There is no simulation of that name."""
+    """Raised for an unknown simulation."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What the simulations of a hub may take together and each."""
+    """The limits of a hub's simulations, together and each."""
 
-    most: int = 4  # that run at once
-    memory: int = 8000 << 20  # of each [bytes]
-    idle: float = 24 * 3600.0  # without a look at its pages before it is stopped [s, wall]
+    most: int = 4  # simulations that run at once
+    memory: int = 8000 << 20  # of each simulation [bytes]
+    idle: float = 24 * 3600.0  # without requests to its pages before it is stopped [s, wall]
 
 
 class Simulations:
@@ -51,7 +51,7 @@ class Simulations:
         self._environment = dict(environment)
         self._all: dict[str, Simulation] = {}
         self._locks: dict[str, asyncio.Lock] = {}
-        # Looks and stops wait for processes; requests for pages have the loop's own threads.
+        # Checks and stops wait for processes; requests for pages have the loop's own threads.
         self._threads = ThreadPoolExecutor(limits.most + 4, thread_name_prefix="simulation")
         folder.mkdir(parents=True, exist_ok=True)
         for file in sorted(folder.glob("*/simulation.json")):
@@ -61,7 +61,7 @@ class Simulations:
                     self._all[known.name] = Simulation(known, file.parent)
 
     def rows(self) -> list[dict[str, Any]]:
-        """Returns all simulations as the API lists them, those that live first."""
+        """Returns all simulations as the API lists them, running ones first."""
         ordered = sorted(self._all.values(), key=lambda s: (not s.lives, s.wish.name))
         return [simulation.row() for simulation in ordered]
 
@@ -163,7 +163,7 @@ class Simulations:
             return await self._in_thread(insertion.insert, simulation, body)
 
     async def watch(self) -> None:
-        """Looks at all simulations until it is cancelled."""
+        """Checks all simulations until it is cancelled."""
         while True:
             await asyncio.gather(*map(self._look, [*self._all.values()]))
             starting = any(s.state is State.STARTING for s in self._all.values())

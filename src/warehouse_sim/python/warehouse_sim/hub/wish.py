@@ -17,14 +17,14 @@ from warehouse_sim.launch_arguments import ARGUMENTS, OF_THE_SHIFT, Place
 NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
 FILES = {"shift": "operations.launch", "empty": "empty_world.launch"}
 DEFAULT_FILE = "warehouse.launch"
-# Arguments that the hub sets itself, or that need a screen of the machine on which it runs.
+# Arguments that the hub sets itself, or that need a screen.
 OWN = ("viewer", "viewer_port", "viewer_host", "viewer_token_file", "rviz")
 MOST_TEXT = 1_000_000  # characters of a layout or a world that is sent as text
 MOST_VALUE = 4000  # characters of any other value
 
 
 class WishError(ValueError):
-    """What is wrong with a request: the field, the reason, and the nearest right value or ""."""
+    """Raised for an invalid request: the field, the reason, and the nearest valid value or ""."""
 
     def __init__(self, field_name: str, reason: str, nearest: str = "") -> None:
         super().__init__(f"{field_name}: {reason}")
@@ -33,7 +33,7 @@ class WishError(ValueError):
 
 @dataclass(frozen=True)
 class Wish:
-    """A simulation as it was asked for; `texts` are files to write into its folder, by argument."""
+    """The request for a simulation; `texts` are files to write into its folder, by argument."""
 
     name: str
     file: str = DEFAULT_FILE
@@ -144,7 +144,7 @@ def _check(wish: Wish, folder: Path) -> None:
 
 
 def _nearest(reason: str) -> str:
-    """Returns the nearest right value that a reason proposes, "" if it proposes none."""
+    """Returns the nearest valid value that a reason proposes, or ""."""
     proposed = re.search(r"\(did you mean '([^']*)'\?\)", reason)
     return proposed[1] if proposed else ""
 
@@ -152,7 +152,7 @@ def _nearest(reason: str) -> str:
 def written(wish: Wish, folder: Path) -> Wish:
     """Returns the Wish with its texts as files of `folder`.
 
-    Raises WishError for a layout in which no fleet can work, and for a world that is no SDF.
+    Raises WishError for a layout in which no fleet can work, and for a world that is not SDF.
     """
     names = {"layout": f"{wish.name}{SUFFIX}", "world": f"{wish.name}.sdf"}
     arguments = dict(wish.arguments)

@@ -115,7 +115,7 @@ class CodecV3(CodecV2):
         return value
 
     def of_json(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
-        """Returns an object of 3.0.0 as 2.1.0 would have it."""
+        """Converts an object of 3.0.0 to 2.1.0."""
         names = {new: old for old, new in NAMES[kind].items()}
         values = {key: {new: old for old, new in pairs.items()} for key, pairs in VALUES.items()}
         for key, pairs in NEAREST.items():

@@ -50,7 +50,7 @@ class RemoteFleet:
             vehicle.take_connection(message.state, now)
 
     def messages(self, now: float) -> Iterator[tuple[Identity, VehicleOrder | InstantActions]]:
-        """Yields what is to be sent now, and to which vehicle."""
+        """Yields the messages to send, with the vehicle of each."""
         for vehicle in self._vehicles.values():
             for message in vehicle.messages(now):
                 yield vehicle.robot.identity, message

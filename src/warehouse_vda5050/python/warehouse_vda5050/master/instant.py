@@ -35,7 +35,7 @@ class InstantRequests:
         return action.id
 
     def forget(self, *kinds: str) -> None:
-        """Sends actions of these types no more: one that is wanted now must not be undone."""
+        """Stops sending actions of these types, which would undo a newer one."""
         self._pending = {
             name: request
             for name, request in self._pending.items()
@@ -43,7 +43,7 @@ class InstantRequests:
         }
 
     def due(self, now: float) -> InstantActions | None:
-        """Returns what is to be sent now."""
+        """Returns the actions to send."""
         pending = [request for request in self._pending.values() if not request.is_given_up]
         due = [request for request in pending if request.due <= now]
         for request in due:
@@ -51,14 +51,14 @@ class InstantRequests:
         return InstantActions(tuple(request.action for request in due)) if due else None
 
     def is_pending(self, name: str) -> bool:
-        """Returns whether the vehicle has not answered an action yet, and it is still sent."""
+        """Returns whether an action is unanswered and is still sent."""
         return name in self._pending and not self._pending[name].is_given_up
 
     def is_given_up(self, name: str) -> bool:
-        """Returns whether the vehicle did not answer an action however often it was sent."""
+        """Returns whether an action remained unanswered after all its repetitions."""
         return name in self._pending and self._pending[name].is_given_up
 
     def take(self, state: VehicleState) -> None:
-        """Takes in a state: what it answers is sent no more."""
+        """Removes the actions that a state answers."""
         for action in state.actions:
             self._pending.pop(action.id, None)

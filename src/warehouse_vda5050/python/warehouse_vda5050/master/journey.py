@@ -37,7 +37,7 @@ class Journey:
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
 
     def change(self, command: Follow) -> None:
-        """Takes in what is released or planned now. Raises RefusedError, with nothing changed."""
+        """Applies a command's releases and plan. Raises RefusedError, with nothing changed."""
         if command.released < self.released:
             raise RefusedError(
                 f"{self.released} points are released; over VDA 5050 none can be taken back"

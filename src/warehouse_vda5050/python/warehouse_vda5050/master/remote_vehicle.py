@@ -31,7 +31,7 @@ from warehouse_vda5050.model import (
 
 ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 UNIT = re.compile(r"(?:storage_unit)?([0-9]{1,9})")  # other names are a vehicle's own
-NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand, and to its path while it drives
+NEAR = 0.5  # largest distance from point 0 at the start, and from the path while driving [cells]
 BACK_OFF = (1.0, 30.0)  # the first and the longest wait after an order that was refused [s]
 
 
@@ -136,7 +136,7 @@ class RemoteVehicle:
         self._end_foreign(state)
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
-        """Takes in whether the vehicle is there."""
+        """Notes whether the vehicle is connected."""
         self.view.take_connection(state, now)
         if state is ConnectionState.ONLINE:  # states of the meantime are lost
             self._ask_for_state()
@@ -144,7 +144,7 @@ class RemoteVehicle:
     # --- out
 
     def messages(self, now: float) -> list[VehicleOrder | InstantActions]:
-        """Returns what is to be sent now."""
+        """Returns the messages to send."""
         if not self.view.hears:
             return []
         self._insist()
@@ -173,7 +173,7 @@ class RemoteVehicle:
 
     @property
     def waits(self) -> bool:
-        """Whether it stands at the end of what is released, on a path that goes on."""
+        """Whether it stands at the end of the released part of a longer path."""
         way = self._journey
         return way is not None and self.reached >= way.released and not self.view.driving
 
@@ -369,8 +369,8 @@ class RemoteVehicle:
         if failed:
             self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
             return
-        is_told = way.is_whole and all(name in states for name in mine)
-        if is_told and all(act.status.is_over for act in states.values()):
+        is_reported = way.is_whole and all(name in states for name in mine)
+        if is_reported and all(act.status.is_over for act in states.values()):
             self._finish(way)
 
     def _finish(self, way: Journey) -> None:

@@ -24,9 +24,9 @@ class VehicleView:
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
     def take_state(self, state: VehicleState, now: float) -> bool:
-        """Takes in a state. Returns False for one that is older than the one before.
+        """Adopts a state. Returns False for one that is older than the one before.
 
-        Older is what both the time and the number of its header say to be: clocks are set back,
+        A state is older if both the time and the number of its header are: clocks are set back,
         and numbers begin again at 0.
         """
         time, number = stamp = state.header.timestamp, state.header.header_id
@@ -41,7 +41,7 @@ class VehicleView:
         return True
 
     def take_connection(self, connection: ConnectionState, now: float) -> None:
-        """Takes in whether the vehicle is there. One that comes back, be it unseen, may have
+        """Notes whether the vehicle is connected. One that comes back, even unnoticed, may have
         another clock and count from 0."""
         if connection == ConnectionState.ONLINE:
             self._stamp, self.heard_at = ("", 0), now
@@ -54,7 +54,7 @@ class VehicleView:
 
     @property
     def hears(self) -> bool:
-        """Whether the vehicle is connected, as far as it is known."""
+        """Whether the vehicle is connected, by the last message about it."""
         return self.connection in (None, ConnectionState.ONLINE)
 
     def is_silent(self, now: float) -> bool:

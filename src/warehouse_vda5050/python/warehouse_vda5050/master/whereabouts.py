@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from warehouse_vda5050.driver import Point
 from warehouse_vda5050.master.frame import Pose
 
-JUMP = 1.0  # between two states that no vehicle drives, beside what its time allows [m]
+JUMP = 1.0  # largest distance between two states beyond what the time allows [m]
 FASTEST = 3.0  # that a vehicle drives [m/s]
-NEAR = 0.05  # of a place where it has to stand exactly [m]
-SQUARE = 0.05  # of a heading [rad]
+NEAR = 0.05  # largest distance from a place where it has to stand exactly [m]
+SQUARE = 0.05  # largest error of a heading [rad]
 
 
 def jumped(before: Pose, now: Pose, seconds: float) -> str:
@@ -25,7 +25,7 @@ def jumped(before: Pose, now: Pose, seconds: float) -> str:
 
 
 def left_way(pose: Pose, points: Sequence[Point], within: float) -> str:
-    """Returns how far a vehicle is off its path, '' if that is at most `within` [m]."""
+    """Returns the text of a vehicle's distance from its path; '' up to `within` [m]."""
     off = distance(pose, points)
     if off <= within:
         return ""

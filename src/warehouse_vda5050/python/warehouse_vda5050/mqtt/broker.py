@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import time
 
-WAIT = 10.0  # for it to come up [s]
+WAIT = 10.0  # timeout of its start [s]
 
 
 class BrokerStartError(RuntimeError):

@@ -16,7 +16,7 @@ from warehouse_vda5050.mqtt.client import begin_connecting, cut, listen, make_cl
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 
 BACK_OFF = (0.2, 5.0)  # the first and the longest wait before a further attempt [s]
-PATIENCE = 10.0  # for a broker's answer to a connection [s]
+PATIENCE = 10.0  # timeout of a connection to a broker [s]
 
 
 class Outgoing(NamedTuple):
@@ -100,7 +100,7 @@ class Link:
         return bool(self._client.want_write())
 
     def read(self) -> None:
-        """Takes in what came."""
+        """Reads the messages that arrived."""
         self._client.loop_read()
 
     def write(self) -> None:
@@ -176,7 +176,7 @@ class MqttLoop:
         return link
 
     def remove(self, link: Link) -> None:
-        """Looks after a link no more."""
+        """Stops serving a link."""
         self.links.remove(link)
 
     def poll(self, timeout: float = 0.0) -> None:

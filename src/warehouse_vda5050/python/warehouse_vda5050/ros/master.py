@@ -16,8 +16,7 @@ from warehouse_client.engine import Engine, EngineError
 from warehouse_client.services import is_offered
 from warehouse_client.warehouse import WarehouseClient
 from warehouse_layout.message_enums import EventKind as Kind
-from warehouse_layout.message_enums import FailureKind
-from warehouse_layout.message_enums import RobotMode as Mode
+from warehouse_layout.message_enums import FailureKind, RobotMode
 from warehouse_layout.models import models
 from warehouse_msgs.msg import Event, FleetState, Scenery, Vda5050
 from warehouse_msgs.srv import SetRobotMode
@@ -36,7 +35,7 @@ from warehouse_vda5050.topics import Identity
 SET_MODE = "warehouse/set_robot_mode"
 PERIOD = 0.1  # of shadows [s, wall]
 Send = Callable[[Identity, VehicleOrder | InstantActions], None]
-MODES = {True: Mode.AUTOMATIC, False: Mode.MANUAL}  # by whether the vehicle takes orders
+MODES = {True: RobotMode.AUTOMATIC, False: RobotMode.MANUAL}  # by whether the vehicle takes orders
 
 
 class Master:

@@ -172,7 +172,7 @@ def _deviation(value: Any, sheet: Factsheet) -> str:
 
 
 def radius(value: Any) -> float | None:
-    """Returns the least that a deviation allows [m]; None for what is none."""
+    """Returns the smallest radius of an allowed deviation [m]; None for an invalid value."""
     axes: list[Any] = [value.get("a"), value.get("b")] if isinstance(value, dict) else [value]
     for axis in axes:
         if isinstance(axis, bool) or not isinstance(axis, (int, float)) or axis < 0:

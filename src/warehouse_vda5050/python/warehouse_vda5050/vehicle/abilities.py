@@ -22,7 +22,7 @@ LIFTING = (
 def _at_node(
     type: str, text: str, parameters: tuple[tuple[str, str, bool, str], ...] = ()
 ) -> SupportedAction:
-    """A lift comes to its end once it has begun, and stands still while the robot is paused."""
+    """A lift that has begun is completed; it stands still while the robot is paused."""
     return SupportedAction(type, ("NODE",), text, parameters, ANY, can_pause=bool(parameters))
 
 
@@ -41,7 +41,7 @@ ACTIONS = (
     _instant("trigger", "ends waitForTrigger"),
     _instant(
         "cancelOrder",
-        "stops at the next grid point; a lift comes to its end",
+        "stops at the next grid point; a lift is completed",
         ("orderId", "STRING", True, "the order that is meant; left out: whichever is under way"),
     ),
     _instant("startPause", "stops as hard as the robot can"),

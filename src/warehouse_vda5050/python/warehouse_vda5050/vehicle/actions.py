@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The actions of an order: which begins when, by their blocking types, and how far each is."""
+"""The actions of an order: which begins when, by their blocking types, and the progress of each."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class ActionQueue:
             self._states.setdefault(action.id, state)
 
     def keep_only(self, nodes: Iterable[Node]) -> None:
-        """Forgets waiting actions of a horizon that was replaced: of nodes that are no more."""
+        """Drops waiting actions of a replaced horizon, whose nodes no longer exist."""
         known = {action.id for node in nodes for action in node.actions}
         known |= {action.id for action in [*self._due, *self.running]}
         waiting = ActionStatus.WAITING
@@ -117,7 +117,7 @@ class ActionQueue:
         return [s for s in self._states.values() if s.status is ActionStatus.FAILED]
 
     def states(self, paused: bool) -> tuple[ActionState, ...]:
-        """Returns how far all are; running ones of a paused robot are PAUSED."""
+        """Returns the states of all; running ones of a paused robot are PAUSED."""
         return tuple(
             replace(state, status=ActionStatus.PAUSED)
             if paused and state.status is ActionStatus.RUNNING

@@ -5,7 +5,7 @@ from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.model import Action
 from warehouse_vda5050.vehicle.actions import ActionQueue
 
-PATIENCE = 3.0  # until a lift that is not heard is asked for again [s]
+PATIENCE = 3.0  # a lift that has not begun within this is commanded again [s]
 ATTEMPTS = 20
 
 

@@ -38,7 +38,7 @@ class Commanded(Protocol):
         ...
 
     def set_paused(self, paused: bool) -> None:
-        """Stops the robot, or lets it go on."""
+        """Pauses or resumes the robot."""
         ...
 
     def request_state(self) -> None:
@@ -55,7 +55,7 @@ class Commanded(Protocol):
 
 
 class InstantDesk:
-    """Begins instant actions of one vehicle, and reports how far each has come.
+    """Begins instant actions of one vehicle, and reports the progress of each.
 
     Masters repeat what they don't find in the state, so an actionId that is known is not done
     again; others name all their pauses "pause", so some time later it is.
@@ -93,7 +93,7 @@ class InstantDesk:
                 self._states[state.id] = ended
 
     def states(self) -> tuple[ActionState, ...]:
-        """Returns how far all have come."""
+        """Returns the states of all."""
         return tuple(self._states.values())
 
     def _set(self, action: Action, status: ActionStatus, result: str = "") -> None:
@@ -194,7 +194,7 @@ def _number(action: Action, key: str) -> float:
     return number
 
 
-# Each returns what came of it if it is over at once, else RUNS. Raises ActionError.
+# Each returns its result if it ends at once, else RUNS. Raises ActionError.
 ACTIONS: dict[str, Begin] = {
     "cancelOrder": _cancel,
     "startPause": _pause,

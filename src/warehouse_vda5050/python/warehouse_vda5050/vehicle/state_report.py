@@ -62,12 +62,12 @@ class StateReporter:
         self._factsheet_due = True
 
     def take_factsheet(self) -> Factsheet | None:
-        """Returns the factsheet if it is to be sent."""
+        """Returns the factsheet if it is due."""
         due, self._factsheet_due = self._factsheet_due, False
         return self._sheet if due else None
 
     def take(self, situation: Situation, now: float) -> VehicleState | None:
-        """Returns the state if something happened, it is time, or it was asked for."""
+        """Returns the state after an event, when it is due, or on request."""
         if situation.report is None:
             return None
         state = self.state(situation)

@@ -2,7 +2,7 @@
 """One vehicle: takes orders and instant actions, drives by a Driver, reports its state.
 
 vehicle = Vehicle(driver, grid)
-vehicle.on_order(order, now)       # as they come; now is any clock that goes on [s]
+vehicle.on_order(order, now)       # as they come; now is any monotonic clock [s]
 vehicle.update(now)                # ten times a second
 state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 """
@@ -109,10 +109,10 @@ class Vehicle:
         self.request_state()
         self.complaints.note(error)
 
-    # What goes on.
+    # --- progress
 
     def update(self, now: float) -> None:
-        """Takes in the driver's report and carries on with the order."""
+        """Reads the driver's report and continues the order."""
         self.report = self.driver.report()
         if self.report is None or not self.report.answers:
             return
@@ -211,7 +211,7 @@ class Vehicle:
         self.actions.make_due(order.nodes[:1])
 
     def extend(self, nodes: tuple[Node, ...]) -> None:
-        """Goes on with an order that an update brought more nodes of."""
+        """Extends the order by the nodes of an update."""
         assert self.order
         if self.is_free:
             self._go_to(Phase.WORKING)
@@ -250,7 +250,7 @@ class Vehicle:
         self.grid = self.wheels.grid = grid
 
     def set_paused(self, paused: bool) -> None:
-        """Stops the robot, or lets it go on."""
+        """Pauses or resumes the robot."""
         self.paused = paused
         self.driver.stop(paused)
         if not paused:
@@ -303,5 +303,5 @@ class Vehicle:
         return self.complaints.all(self.report, of_order(order, fault, self.actions.failed))
 
     def take_factsheet(self) -> Factsheet | None:
-        """Returns the factsheet if it is to be sent: at first, and when it was asked for."""
+        """Returns the factsheet if it is due: at first, and on request."""
         return self._reporter.take_factsheet()

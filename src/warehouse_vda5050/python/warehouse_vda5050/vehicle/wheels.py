@@ -13,7 +13,7 @@ from warehouse_vda5050.vehicle.actions import holds_at
 from warehouse_vda5050.vehicle.progress import OrderProgress
 
 PATIENCE = 3.0  # until a command that is not heard is sent again [s]
-RETRY = 5.0  # after a refusal [s]
+RETRY = 5.0  # time from a refusal to the next attempt [s]
 
 
 @dataclass
@@ -48,7 +48,7 @@ class Wheels:
         self.fault, self._retry_at, self._cancelled_at = "", 0.0, None
 
     def count(self, report: Report, now: float) -> int:
-        """Returns how many further nodes the robot has come to; ends a leg that is over."""
+        """Returns the count of nodes reached since the last call; ends a leg that is over."""
         leg = self._leg
         if leg is None:
             return 0

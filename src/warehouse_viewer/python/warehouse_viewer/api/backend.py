@@ -96,7 +96,7 @@ class ApiBackend:
         raise HTTPException(503, "the world is being rebuilt; ask again")
 
     def stations(self, message: StationStates) -> list[dict[str, Any]]:
-        """Returns the stations of a message as JSON has them."""
+        """Returns the stations of a message as JSON."""
         rows = operations_json.stations(message)
         return [row | self.monitor.station(station) for row, station in zip(rows, message.stations)]
 

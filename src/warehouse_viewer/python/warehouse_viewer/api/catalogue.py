@@ -108,7 +108,7 @@ def at_broker(message: Vda5050) -> list[Vda5050Robot]:
 
 
 def plain_coordinator(state: CoordinatorState, fleet: FleetState | None = None) -> dict[str, Any]:
-    """Returns a CoordinatorState as JSON has it; `fleet` as for coordinator()."""
+    """Returns a CoordinatorState as JSON; `fleet` as for coordinator()."""
     return json.loads(as_json(coordinator(state, fleet)))
 
 

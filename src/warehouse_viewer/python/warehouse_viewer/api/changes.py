@@ -42,10 +42,10 @@ ROWS = {
     "orders": operations_json.order,
     "stock": operations_json.plain,
     "transports": dict,
-}  # each as JSON has it
-OF_MONITOR = ("alarms", "figures")  # noted as JSON has them
+}  # each as JSON
+OF_MONITOR = ("alarms", "figures")  # noted as JSON
 WHOLE = (*operations_json.SHOWN, *OF_MONITOR, "coordinator")
-WITHOUT_SHIFT = ("notices", "alarms")  # such as why there is none
+WITHOUT_SHIFT = ("notices", "alarms")  # for example, why there is none
 TOPICS = (*ROWS, *WHOLE)
 
 
@@ -207,7 +207,7 @@ class _Reader:
             await self._send(topic, **{topic: self._shown(topic, rows[-1])})
 
     def _shown(self, topic: str, row: Any) -> object:
-        """A row of the book as JSON has it."""
+        """A row of the book as JSON."""
         if topic in OF_MONITOR:
             return row
         describe = self._backend.stations if topic == "stations" else operations_json.SHOWN[topic]

@@ -58,7 +58,7 @@ TRANSPORT_STATES = ("open", "under_way")
 
 
 class Metrics(Collector):
-    """Figures of a Feed and of the operations, as of when they are asked for."""
+    """Figures of a Feed and of the operations, read on each request."""
 
     def __init__(self, feed: Feed, operations: OperationsClient) -> None:
         self._feed, self._operations, self._shift = feed, operations, operations.feed

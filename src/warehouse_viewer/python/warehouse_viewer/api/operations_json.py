@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of a shift as JSON has them."""
+"""The messages of a shift as JSON."""
 
 from collections.abc import Callable
 from typing import Any
@@ -12,7 +12,7 @@ from warehouse_viewer.api.schemas.operations import MODES, STATES
 
 
 def plain(message: Any) -> Any:
-    """Returns a message as JSON has it, without its header."""
+    """Returns a message as JSON, without its header."""
     if isinstance(message, genpy.Message):
         return {n: plain(getattr(message, n)) for n in message.__slots__ if n != "header"}
     if isinstance(message, list | tuple):
@@ -21,7 +21,7 @@ def plain(message: Any) -> Any:
 
 
 def order(status: msg.OrderStatus) -> dict[str, Any]:
-    """Returns an OrderStatus as JSON has it."""
+    """Returns an OrderStatus as JSON."""
     lines = zip(status.lines, status.picked)
     out = plain(status)
     del out["picked"]
@@ -32,7 +32,7 @@ def order(status: msg.OrderStatus) -> dict[str, Any]:
 
 
 def past_event(event: msg.OrderEvent) -> dict[str, Any]:
-    """Returns an OrderEvent as JSON has it."""
+    """Returns an OrderEvent as JSON."""
     return {
         "time": round(event.header.stamp.to_sec(), 1),
         "kind": OrderEventKind(event.kind).name,
@@ -45,7 +45,7 @@ def past_event(event: msg.OrderEvent) -> dict[str, Any]:
 
 
 def stations(message: msg.StationStates) -> list[dict[str, Any]]:
-    """Returns the stations of StationStates as JSON has them."""
+    """Returns the stations of StationStates as JSON."""
     return [plain(station) | {"mode": MODES[station.mode]} for station in message.stations]
 
 

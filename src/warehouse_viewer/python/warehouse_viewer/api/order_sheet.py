@@ -27,7 +27,7 @@ TIMES = ("created", "due", "completed")  # [s], simulated
 
 
 def rows(orders: Iterable[dict[str, Any]]) -> Iterator[list[Any]]:
-    """Yields the COLUMNS of each line of orders as JSON has them; an unset time is empty."""
+    """Yields the COLUMNS of each line of orders as JSON; an unset time is empty."""
     for order in orders:
         head = [order[name] or "" if name in TIMES else order[name] for name in COLUMNS[:-3]]
         for line in order["lines"]:

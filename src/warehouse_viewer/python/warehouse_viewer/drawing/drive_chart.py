@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The figure of a plan that was driven with bodies: how it goes on, and what robots do."""
+"""The figure of a plan that was driven with bodies: its progress, and what robots do."""
 
 from pathlib import Path
 from typing import Any

@@ -56,7 +56,7 @@ def floor(bounds: Sequence[float], spacing: float = 1.0) -> list[Shape]:
 
 
 def _borders(low: float, high: float, spacing: float) -> np.ndarray:
-    """Midway between grid points, of which one is at 0."""
+    """Midway between grid points, one of which is at 0."""
     return np.arange(np.ceil(low / spacing - 0.5) + 0.5, high / spacing + 1e-6) * spacing
 
 

@@ -26,7 +26,7 @@ def text_of(error: LayoutFileError) -> str:
 
 
 def _lanes_found(file: LayoutFile) -> dict[str, list[Cell]]:
-    """Returns the lanes of stations of which queue or exit is not drawn, in driving order."""
+    """Returns the lanes of stations whose queue or exit is not drawn, in driving order."""
     open_ended = {s.name: s.key for s in file.stations if not (s.queue and s.exit)}
     if not open_ended:
         return {}

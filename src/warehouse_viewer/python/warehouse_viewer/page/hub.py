@@ -71,7 +71,7 @@ class Keeper(Protocol):
     """Keeps what was shown, whether a page is open or not."""
 
     def take(self) -> None:
-        """Takes in what the model shows now."""
+        """Reads the model's present contents."""
 
     def gap(self, factor: float) -> float:
         """Returns how long it may wait for the next [s, wall], at a real-time factor."""

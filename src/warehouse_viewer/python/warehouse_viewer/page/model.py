@@ -196,13 +196,13 @@ class Model:
 
 
 def _limits(fleet: FleetState) -> np.ndarray:
-    """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
+    """Largest acceleration of robots with loads [m/s²]; 0: not limited."""
     limits = np.asarray(fleet.load_limit, np.float32)
     return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
 
 
 def _look_alike(a: Scenery | None, b: Scenery | None) -> bool:
-    """Whether two sceneries differ in no more than poses."""
+    """Whether two sceneries differ only in poses."""
     if a is b or a is None or b is None:
         return a is b
     return a.models == b.models and a.model_look == b.model_look and a.looks == b.looks

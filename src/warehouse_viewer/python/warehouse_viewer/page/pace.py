@@ -23,7 +23,7 @@ class Pace:
         self._measure = (0.0, time.monotonic(), 0.0)  # simulated and wall of the last one, factor
 
     def wait(self, now: float) -> None:
-        """Returns as soon as simulated time may go on from `now` [s]."""
+        """Waits until simulated time may advance from `now` [s]."""
         with self._change:
             self._measure_factor(now)
             while not self._ended:
@@ -40,7 +40,7 @@ class Pace:
         self._set(paused=True, _allowed=0.0)
 
     def resume(self) -> None:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
         self._set(paused=False)
 
     def run_at(self, factor: float) -> None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a page shows and controls: a warehouse behind ROS, or a world of this process.
 
-The server knows no more of a warehouse than a Source. Behind ROS `ros.feed.Feed` and
+The server sees a warehouse only through a Source. Behind ROS `ros.feed.Feed` and
 `ros.simulation.Simulation` fill it; `world_source.source_of` makes one for a world of this process.
 """
 
@@ -39,7 +39,7 @@ class Feed(Protocol):
         ways          warehouse_msgs/CoordinatorPaths, with numpy arrays
         frames        tf2_msgs/TFMessage, where the lasers are mounted
         scan<id>      sensor_msgs/LaserScan of that robot
-        requested     numbers of the storage units that those who learn are asked for
+        requested     numbers of the storage units that learning robots are asked for
 
     paths, ways, frames and scans come only after subscribe_extras() has asked for them, if at all.
     """
@@ -88,7 +88,7 @@ class Simulation(Protocol):
         """Stops simulated time."""
 
     def resume(self) -> str:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
 
     def step(self, steps: int) -> str:
         """Advances a paused simulation by a number of physics steps."""

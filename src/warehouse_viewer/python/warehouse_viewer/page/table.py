@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rows that remember when they last changed, so that each reader gets just what is new to it."""
+"""Rows that remember when they last changed, so that a reader gets only what is new to it."""
 
 from typing import Any
 

@@ -189,7 +189,7 @@ class WorldSimulation:
         return ""
 
     def resume(self) -> str:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
         self._pace.resume()
         return ""
 
@@ -205,7 +205,7 @@ class WorldSimulation:
 
 
 def source_of(world: World, name: str, pace: Pace) -> tuple[Source, WorldFeed]:
-    """Returns a Source for a kiva_plugin_cpp.World, and its feed to update as the world goes on."""
+    """Returns a Source for a kiva_plugin_cpp.World, and its feed, to be updated with the world."""
     feed = WorldFeed(world, pace)
     return Source(feed, WorldSimulation(world, name, pace), Journal()), feed
 

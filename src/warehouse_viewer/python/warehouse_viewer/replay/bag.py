@@ -53,7 +53,7 @@ class _Conversion:
         self._parts: dict[str, Any] = {}
         self._figures: dict[str, Any] = {}
         self._wall: float | None = None
-        self.recorder = Recorder(writer, self._model, self._journal, self._told, lambda: self._wall)
+        self.recorder = Recorder(writer, self._model, self._journal, self._read, lambda: self._wall)
         self.count = 0  # of states
 
     def take(self, topic: str, message: Message, wall: float) -> None:
@@ -80,5 +80,5 @@ class _Conversion:
         self.recorder.take()
         self.count += 1
 
-    def _told(self) -> dict[str, Any] | None:
+    def _read(self) -> dict[str, Any] | None:
         return shown(self._figures) or None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A recording in a file, written as time goes on and read a chunk at a time."""
+"""A recording in a file, written continuously and read a chunk at a time."""
 
 import math
 import secrets

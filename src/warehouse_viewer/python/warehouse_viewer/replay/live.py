@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The last hour of a running warehouse, recorded as it goes on."""
+"""The last hour of a running warehouse, recorded continuously."""
 
 from collections.abc import Callable
 from typing import Any

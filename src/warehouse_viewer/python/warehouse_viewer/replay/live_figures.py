@@ -21,8 +21,7 @@ SHOWN: dict[str, Callable[[Any], Any]] = {
 
 
 def shown(messages: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns Kpis, StationStates and CoordinatorState, as far as there are any, as JSON has
-    them."""
+    """Returns those of Kpis, StationStates and CoordinatorState that there are, as JSON."""
     return {name: SHOWN[name](message) for name, message in messages.items() if message is not None}
 
 
@@ -33,6 +32,6 @@ class LiveFigures:
         self._feed, self._shift = feed, shift
 
     def read(self) -> dict[str, Any] | None:
-        """Returns them as JSON has them; None where neither coordinator nor shift runs."""
+        """Returns them as JSON; None where neither coordinator nor shift runs."""
         messages = {name: self._shift[name] for name in ("kpis", "stations")}
         return shown(messages | {"fleet": self._feed.coordinator}) or None

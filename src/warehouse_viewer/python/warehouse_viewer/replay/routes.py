@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a page asks to play a recording, whether it still goes on or lies in a file."""
+"""The routes by which a page plays a recording, whether it still grows or lies in a file."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import astuple
@@ -37,7 +37,7 @@ class Recording(Protocol):
 
 
 class RecordingRoutes:
-    """Serves a Recording. newest: returns the chunk to which is still added, where it goes on."""
+    """Serves a Recording. newest: returns the chunk that still grows, if there is one."""
 
     def __init__(
         self, recording: Recording, newest: Callable[[], Chunk | None] | None = None

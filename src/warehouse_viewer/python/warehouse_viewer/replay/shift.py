@@ -85,7 +85,7 @@ def figures(ops: Operations) -> dict[str, Any]:
 
 
 def coordinator(fleet: WorldFleet, objects: SimpleNamespace) -> dict[str, Any]:
-    """Returns the state of a WorldFleet's coordinator, as JSON has it; `objects` as
+    """Returns the state of a WorldFleet's coordinator as JSON; `objects` as
     RunFeed.objects."""
     watch = SimpleNamespace(by_hand=(), collisions=fleet.collisions, objects=objects, reasons={})
     return catalogue.plain_coordinator(state_message(fleet.controller, watch, 0, ""))

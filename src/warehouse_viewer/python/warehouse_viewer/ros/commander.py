@@ -81,7 +81,7 @@ async def _follow(
     kinds: Collection[str],
     command: int | None = None,
 ) -> None:
-    """Takes in events, those of one command alone if it is known, until one of these kinds."""
+    """Reads events, only those of one command if it is known, until one of these kinds."""
     while True:
         entry = await events.get()
         if command is not None and entry["command"] != command:

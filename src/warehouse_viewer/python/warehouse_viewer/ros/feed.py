@@ -39,7 +39,7 @@ TOPICS = {
 }
 SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
 KEPT = ("fleet", "coordinator")  # always subscribed, because pages show their history
-LINGER = 10.0  # for which subscriptions outlast their last use [s, wall]
+LINGER = 10.0  # subscriptions end this long after their last use [s, wall]
 
 
 class Feed:

@@ -51,8 +51,8 @@ class ShiftFeed:
         return self._subscribers["stations"].get_num_connections() > 0
 
     def __getitem__(self, name: str) -> Any:
-        is_told = self.runs or name == "notices"  # such as why there is no shift
-        return self._messages.get(name) if is_told else None
+        is_current = self.runs or name == "notices"  # such as why there is no shift
+        return self._messages.get(name) if is_current else None
 
     def _keep(self, message: Message, name: str) -> None:
         self._messages[name] = message

@@ -93,7 +93,7 @@ class Simulation:
         return self._do("pause")
 
     def resume(self) -> str:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
         return self._do("resume")
 
     def reset(self, time_too: bool = True) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 FIELD = math.pi / 4  # RViz's vertical field of view [rad]
-ASPECT = 1.0  # of its picture at the least, beside the panels
+ASPECT = 1.0  # least of its picture, beside the panels
 PITCH, YAW = 0.9, -math.pi / 2  # it looks along y, downwards [rad]
 MARGIN = 2.0  # around what stands [m]
 NEAREST = 8.0  # [m]
@@ -23,7 +23,7 @@ def around(points: np.ndarray, fallback: Sequence[float]) -> tuple[float, ...]:
 
 
 def distance(bounds: Sequence[float]) -> float:
-    """Returns how far from the middle of the bounds the camera sees all of them [m]."""
+    """Returns the distance from the bounds' centre at which the camera sees all of them [m]."""
     x0, x1, y0, y1 = bounds
     high = math.tan(FIELD / 2)  # of the picture's upper half, at a distance of 1
     half_x, half_y = (x1 - x0) / 2, (y1 - y0) / 2

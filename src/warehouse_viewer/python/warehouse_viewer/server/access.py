@@ -224,7 +224,7 @@ async def _refuse(scope: Scope, send: Send, refusal: Refusal) -> None:
 
 
 async def _ask(scope: Scope, send: Send, to: str | None = None, wrong: bool = False) -> None:
-    """The page that asks for the token, and leads to what was asked for."""
+    """The page that asks for the token, and leads on to the requested page."""
     own = {
         b"content-security-policy": token_page.CONTENT,
         b"referrer-policy": b"same-origin",  # else a browser posts the form as of no origin

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pages' font: Inter, of which only the characters that pages show go over the network."""
+"""The pages' font: Inter, reduced to the characters that pages show."""
 
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response

@@ -52,7 +52,7 @@ def page_of_fault(text: str) -> str:
 
 
 def fault_of(skus: Sequence[str]) -> str:
-    """Returns what is wrong with the SKUs of which labels are asked for, "": nothing."""
+    """Returns what is wrong with the SKUs of requested labels; "": nothing."""
     if len(skus) > MOST_SKUS:
         return f"{len(skus)} SKUs are asked for; {MOST_SKUS} at most were expected"
     wrong = [sku for sku in skus if not 0 < len(sku) <= LONGEST_SKU or not sku.isprintable()]

@@ -40,7 +40,7 @@ DOCS = Page("/docs/", "Docs", "", is_there=documentation.is_built)
 
 
 class Site:
-    """The pages that a server has, each of which leads to the others."""
+    """The pages of a server, which link to each other."""
 
     def __init__(self, *pages: Page, folder: Path = WEB) -> None:
         self._pages, self._files = pages, FreshFiles(directory=folder)

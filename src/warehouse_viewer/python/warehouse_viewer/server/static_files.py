@@ -83,7 +83,7 @@ class Files(StaticFiles):
 
 
 class FreshFiles(Files):
-    """Such that a browser asks for again, so that page and server are of one version."""
+    """Files that a browser revalidates, so that page and server are of one version."""
 
     CACHED = "no-cache"
 

@@ -13,7 +13,7 @@ from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
 KEPT = 500  # alarms that have ended
 MOST_ACTIONS = 50  # of an alarm
 REPAIRED = "ROBOT_BROKEN"  # alarms whose mean duration is the time to repair
-# Kinds of which a robot has one alarm, whichever it is now.
+# Kinds that share one alarm for each robot.
 OF_ROBOT = ("ROBOT_BROKEN", "ROBOT_LOST", "ROBOT_STALLED", "ROBOT_BLOCKED", "COLLISION")
 
 
@@ -21,7 +21,7 @@ class Trouble(NamedTuple):
     """Something of a kind in KINDS that holds now.
 
     subject: whom it concerns. since [s], simulated: when it began, if that is known better than by
-    its first mention. consequences: sentences of which the part before a colon is the short one.
+    its first mention. consequences: sentences, each with its short form before the colon.
     queue: how many robots wait for it.
     """
 
@@ -68,7 +68,7 @@ class Alarm:
         return now - self.since >= KINDS[self.trouble.kind].after
 
     def as_json(self, remedies: Iterable[Any] = ()) -> dict[str, Any]:
-        """Returns the alarm as JSON has it; `remedies`: named tuples."""
+        """Returns the alarm as JSON; `remedies`: named tuples."""
         trouble, about = self.trouble, KINDS[self.trouble.kind]
         return {
             "id": self.number,
@@ -100,7 +100,7 @@ class AlarmBook:
         self._remedies, self._now = remedies, 0.0
 
     def update(self, now: float, troubles: Iterable[Trouble]) -> None:
-        """Takes in all that is wrong at `now` [s]: what is left out has ended."""
+        """Updates from all troubles at `now` [s]: those that are left out have ended."""
         with self._lock:
             before, self._alarms, self._now = self._alarms, {}, now
             for trouble in troubles:
@@ -117,7 +117,7 @@ class AlarmBook:
                     self._ended.append(alarm.as_json() | until)
 
     def as_json(self) -> list[dict[str, Any]]:
-        """Returns the alarms as JSON has them, the worst first, of those the oldest first."""
+        """Returns the alarms as JSON, the worst first, of those the oldest first."""
         with self._lock:
             due = [
                 alarm.as_json(self._remedies(alarm.trouble))
@@ -127,7 +127,7 @@ class AlarmBook:
         return sorted(due, key=lambda row: (SEVERITIES.index(row["severity"]), row["since"]))
 
     def history(self) -> list[dict[str, Any]]:
-        """Returns the alarms that have ended as JSON has them, the newest first."""
+        """Returns the alarms that have ended as JSON, the newest first."""
         with self._lock:
             return list(reversed(self._ended))
 

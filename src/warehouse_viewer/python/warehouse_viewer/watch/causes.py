@@ -142,7 +142,7 @@ LABELS = {
     "CLOSE": "Close",
     "MOMENT": "Go to the moment",
 }
-LINKS = ("SHOW", "MOMENT")  # that a page does by itself
+LINKS = ("SHOW", "MOMENT")  # actions that need no request to the server
 
 
 def _fits(action: str, name: str, mode: str) -> bool:

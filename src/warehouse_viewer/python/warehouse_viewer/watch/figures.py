@@ -37,7 +37,7 @@ class Figures:
         self._samples: deque[Sample] = deque()
 
     def update(self, now: float, kpis: Kpis, available: float) -> None:
-        """Takes in Kpis, and the share of robots that are available, at `now` [s]."""
+        """Updates from Kpis, and the share of robots that are available, at `now` [s]."""
         if self._samples and now < self._samples[-1].time:
             self._samples.clear()
         if not self._samples or now - self._samples[-1].time >= MINUTE:
@@ -50,7 +50,7 @@ class Figures:
     def as_json(
         self, kpis: Kpis, throughput: Throughput, available: float, robots: int
     ) -> dict[str, Any]:
-        """Returns the four figures as JSON has them; `throughput` a Throughput, `robots` how many
+        """Returns the four figures as JSON; `throughput` a Throughput, `robots` how many
         there are."""
         bound = kpis.item_upper_bound_per_hour
         times = [sample.time for sample in self._samples]

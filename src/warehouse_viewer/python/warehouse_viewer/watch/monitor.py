@@ -66,7 +66,7 @@ class Monitor:
             await asyncio.sleep(PERIOD)
 
     def look(self) -> None:
-        """Takes in what has come since the last look."""
+        """Processes the messages since the last call."""
         fleet, stations = self._feed["fleet"], self._shift["stations"]
         if fleet is None and stations is None:
             return
@@ -153,7 +153,7 @@ class Monitor:
             self._book.note(topic, topic, row)
 
     def figures(self) -> dict[str, Any] | None:
-        """Returns the four figures as JSON has them; None before the first of a shift."""
+        """Returns the four figures as JSON; None before the first of a shift."""
         return self._noted.get("figures")
 
     def station(self, station: StationState) -> dict[str, Any]:

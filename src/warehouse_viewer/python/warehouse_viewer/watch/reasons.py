@@ -33,7 +33,7 @@ UNDER_WAY = [f"is {work}" for work in MOVES]
 
 @dataclass(frozen=True)
 class Reason:
-    """Why a robot or station does not go on, or what it does; times are simulated [s].
+    """Why a robot or station waits, or what it does; times are simulated [s].
 
     text: the sentence without its subject. errand: where a robot goes, for which unit and order.
     behind: the robot directly ahead. cause: the robot or station that the wait comes from, itself
@@ -58,7 +58,7 @@ class Reason:
         return f"{self.name} " + "; ".join(part for part in parts if part)
 
     def as_json(self) -> dict[str, Any]:
-        """Returns the reason as JSON has it."""
+        """Returns the reason as JSON."""
         return {
             "name": self.name,
             "text": self.text,
@@ -97,7 +97,7 @@ class Reasons:
         starved: Mapping[str, float],
         assigned: Mapping[int, tuple[int, str]],
     ) -> None:
-        """Takes in what is known at `now` [s]. `starved`: since when stations with orders have
+        """Updates from the messages at `now` [s]. `starved`: since when stations with orders have
         had no unit; `assigned`: the unit and the station of each robot with a transport."""
         if now < self._now:
             self._past = {}
@@ -164,7 +164,7 @@ class Reasons:
         return min(passed) if ahead else robot
 
     def fault(self, robot: int) -> str:
-        """Returns what keeps a robot from driving by itself, as "broken (drive)"; else empty."""
+        """Returns why a robot can't drive autonomously, as "broken (drive)"; else empty."""
         return self._faults.get(robot, "")
 
     def waiting(self) -> dict[int, list[int]]:

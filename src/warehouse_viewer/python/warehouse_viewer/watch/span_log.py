@@ -20,7 +20,7 @@ from warehouse_viewer.json_text import dumps
 
 HOUR = 3600.0  # that is kept [s, simulated]
 MOST_CHANGES = 1_000_000  # that are kept, at four bytes each
-GONE = 7  # the state of a row of which nothing is known
+GONE = 7  # the state of an unknown row
 STATES = 8  # of three bits
 
 Row = tuple[str, str]  # ("robot" or "station", its name)
@@ -64,7 +64,7 @@ class SpanLog:
         self._moments: deque[Moment] = deque()
 
     def update(self, now: float, kind: str, names: Sequence[str], states: np.ndarray) -> None:
-        """Takes in the states, (n,) below GONE, of all rows of a kind at `now` [s]."""
+        """Updates from the states, (n,) below GONE, of all rows of a kind at `now` [s]."""
         if now < self.now or not self.rows:
             self._forget(now)
         self.now = now

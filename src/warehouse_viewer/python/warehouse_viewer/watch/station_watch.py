@@ -58,7 +58,7 @@ class StationWatch:
         self.now = 0.0
 
     def update(self, now: float, stations: Iterable[Any], fleet: FleetState) -> None:
-        """Takes in the StationState of all stations and a FleetState, or None, at `now` [s]."""
+        """Updates from the StationState of all stations and a FleetState, or None, at `now` [s]."""
         if now < self.now:
             self._past, self.starved, self._still = {}, {}, {}
         self.now = now

@@ -143,7 +143,7 @@ def comparison(
         cells: list[dict[str, Any]] = [_estimate(by_seed, figure.key) for by_seed in figures]
         for i in range(1, len(cells)):
             if difference := known.get((figure.key, i)):
-                cells[i].update(_told(difference.corrected(corrected[figure.key, i]), figure))
+                cells[i].update(_as_json(difference.corrected(corrected[figure.key, i]), figure))
         rows.append(_shown(figure) | {"cells": cells})
     if costs:
         rows += _cost_rows(scenarios, costs)
@@ -185,7 +185,7 @@ def _difference(
     return difference_of(a, b)
 
 
-def _told(difference: Difference, figure: Figure) -> dict[str, Any]:
+def _as_json(difference: Difference, figure: Figure) -> dict[str, Any]:
     estimate = difference.estimate
     return {
         "difference": {"mean": estimate.mean, "half": _finite(estimate.half)},

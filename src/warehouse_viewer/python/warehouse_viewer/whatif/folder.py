@@ -42,7 +42,7 @@ COSTS = "costs.yaml"  # beside the scenarios, of all of them
 
 
 class Folder:
-    """Scenarios by their names, each of which is that of a folder. Paths never lead out of it."""
+    """Scenarios by name, a folder each. Paths never lead out of it."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

@@ -25,7 +25,7 @@ class QueueError(ValueError):
 
 
 class Job(NamedTuple):
-    """A run: of which scenario, by its name, and of which file."""
+    """A run: the name of its scenario, and its file."""
 
     scenario: str
     seed: int
@@ -63,7 +63,7 @@ OnEnd = Callable[[Job, Outcome], object]
 
 
 def processors() -> int:
-    """Returns how many runs go on at a time: one processor is left to all else."""
+    """Returns the count of runs at a time: one processor is left to all else."""
     return max(1, len(os.sched_getaffinity(0)) - 1)
 
 
@@ -179,7 +179,7 @@ def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
     assert process.stdout and process.stdin
     with process.stdout:
         for line in process.stdout:
-            news = _told(line)
+            news = _parsed(line)
             if news is None:
                 said.append(line.rstrip())
             elif "of" in news:
@@ -194,8 +194,8 @@ def _followed(active: Active, process: "subprocess.Popen[str]") -> Outcome:
     return Outcome(text=last.get("error") or f"the run ended early ({_ended(code)}){_tail(said)}")
 
 
-def _told(line: str) -> dict[str, Any] | None:
-    """Returns what a line of JSON says; None of other lines."""
+def _parsed(line: str) -> dict[str, Any] | None:
+    """Returns the object of a line of JSON; None for other lines."""
     try:
         news = json.loads(line) if line.startswith("{") else None
     except ValueError:

@@ -79,7 +79,7 @@ def run(planned: Planned, run: Run | None, active: Active | None, waits: bool, s
 
 
 def state(each: Sequence[Json]) -> str:
-    """Returns the state of a scenario of which these are the runs."""
+    """Returns the state of a scenario from the states of its runs."""
     states = {row["state"] for row in each}
     for state in ("runs", "waits", "failed", CUT, "cancelled"):
         if state in states:

@@ -19,7 +19,7 @@ LARGE = ("traffic", "waiting", "floor", "throughput_s")  # of run.json, which on
 
 
 class Planned(NamedTuple):
-    """A run as it is to be: its folder, and the configuration that decides its outcome."""
+    """A planned run: its folder, and the configuration that decides its outcome."""
 
     seed: int
     folder: Path

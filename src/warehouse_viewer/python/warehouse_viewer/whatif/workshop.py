@@ -68,7 +68,7 @@ class Workshop:
 
     # --- what is shown
     def about(self) -> Json:
-        """Returns what there is to choose from."""
+        """Returns the choices."""
         return {
             "folder": str(self.folder.path.resolve()),
             "layouts": self.folder.layouts(),
@@ -180,7 +180,7 @@ class Workshop:
             raise ScenarioError(f"no run of '{name}' has ended yet")
         return complete
 
-    # --- what is asked for
+    # --- queries
     def create(self, name: str, settings: object) -> Json:
         """Makes a scenario."""
         with self._lock:
@@ -238,7 +238,7 @@ class Workshop:
         return {"runs": len(fresh)}
 
     def cancel(self, name: str) -> Json:
-        """Ends the runs of a scenario that wait or go on; those that are over stay."""
+        """Cancels the waiting and running runs of a scenario; completed ones stay."""
         self.folder.of(name)
         self._queue.cancel(name)
         return {"name": name}

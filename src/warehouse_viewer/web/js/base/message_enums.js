@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The constants of messages; written by scripts/message_enums from the messages of warehouse_msgs.
-// Numbers where the server tells numbers, names where the API tells names.
+// Numbers where the server sends numbers, names where the API sends names.
 
 /** The status of a robot. */
 export const Status = Object.freeze({

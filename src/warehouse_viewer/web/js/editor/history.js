@@ -17,7 +17,7 @@ export class History {
     if (this.past.length > most) this.past.shift();
   }
 
-  /** Forgets the last drawing that was kept: nothing came of the change. */
+  /** Drops the last drawing that was kept: the change had no effect. */
   forget() {
     return this.past.pop();
   }

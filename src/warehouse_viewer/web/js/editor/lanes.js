@@ -5,7 +5,7 @@ import { FLOOR, isStreet } from './characters.js';
 import { besides, same } from './drawing.js';
 import { lineCells } from './shapes.js';
 
-/** The path that a pointer has drawn, after it has come to a cell; going back takes cells back. */
+/** The path that a pointer has drawn up to a cell; going back takes cells back. */
 export function extended(path, cell) {
   let out = path.length ? path : [cell];
   for (const next of lineCells(out.at(-1), cell).slice(1)) {

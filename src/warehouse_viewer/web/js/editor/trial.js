@@ -34,7 +34,7 @@ export class Trial {
     if (this.abort === abort) this.abort = null;
   }
 
-  /** A line of the server: how far it is, or how it ended. */
+  /** A line of the server: the progress, or the result. */
   take({ time, of, pieces, waiting, result, error }, origin) {
     if (error) this.phase('failed', error);
     else if (result) this.end(result, origin);

@@ -86,7 +86,7 @@ export class Alarms {
     }
   }
 
-  /** The alarms that have ended, once they are asked for. */
+  /** The alarms that have ended, fetched on demand. */
   async showPast() {
     if (!$('alarm-past').open) return;
     const { showPast } = await import('./alarm_past.js');

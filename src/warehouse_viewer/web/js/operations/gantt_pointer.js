@@ -58,7 +58,7 @@ export class GanttPointer {
     if (event.pointerType === 'touch') this.showTip(event, found);
   }
 
-  /** How far two fingers are apart [px]; 0: there are no two. */
+  /** Distance of two fingers [px]; 0 without two. */
   spread() {
     const [a, b] = [...this.pointers.values()];
     return b ? Math.max(10, Math.abs(a[0] - b[0])) : 0;

@@ -56,7 +56,7 @@ export class GanttView {
     Object.assign(this, { from: null, length: null });
   }
 
-  /** Begins at a time [s]; at the end it goes on with the time. */
+  /** Begins at a time [s]; at the end it follows the time. */
   moveTo(time) {
     if (this.isWhole) return;
     const latest = this.begin + this.whole - this.span;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of orders, of which only the rows in sight exist and were asked for. Rows stand still: a
+// The list of orders: only the rows in sight exist and are fetched. Rows stand still: a
 // row keeps its place until the person asks for another list, whatever comes or goes meanwhile.
 
 import { get } from '../base/api.js';
@@ -8,7 +8,7 @@ import { ROOT } from '../base/root.js';
 import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in control.css
-const AROUND = 30; // rows beside those in sight that are asked for too
+const AROUND = 30; // rows beside those in sight that are fetched too
 const TYPING = 200; // after a key [ms]
 
 export class OrderList {
@@ -55,7 +55,7 @@ export class OrderList {
     this.shift = 0; // rows by which the server's list, where new ones come first, is ahead of this one
   }
 
-  /** What is asked for, beside limit and offset. */
+  /** The query, without limit and offset. */
   get query() {
     const query = new URLSearchParams(this.filter);
     if (this.text) query.set('search', this.text);

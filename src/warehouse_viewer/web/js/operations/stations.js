@@ -10,7 +10,7 @@ import { waitsOf } from '../base/station_waits.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
-const CHIPS = 8; // of a queue that are shown
+const CHIPS = 8; // most robots of a queue that are shown
 const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
 export class Stations {

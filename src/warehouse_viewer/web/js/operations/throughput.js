@@ -4,7 +4,7 @@
 import { axis, faint, font, Plot } from '../base/charts.js';
 import { $, token } from '../base/dom.js';
 
-const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
+const PARTIAL = 15; // shortest part of the present interval that has a rate [s]
 const HOUR = 60; // [min]
 const SMOOTHED = 5; // intervals
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of robots, those that need help first, of which only the rows in sight exist; and the search.
+// The list of robots, those that need help first: only the rows in sight exist; and the search.
 
 import { $, make, on, press, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';

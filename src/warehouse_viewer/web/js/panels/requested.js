@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Storage units that robots which learn are asked for: named where they are.
+// Labels at the storage units that learning robots are asked for.
 
 const ABOVE = 0.4; // of a label over the unit's place [m]
 

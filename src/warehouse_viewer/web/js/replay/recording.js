@@ -18,7 +18,7 @@ export class Recording {
     Object.assign(this, { id: '', live: false, begin: 0, end: 0, open: 0, about: {}, cut: '' });
   }
 
-  /** Asks what there is; false if the server keeps no recording. */
+  /** Fetches the index; false if the server keeps no recording. */
   async refresh() {
     const answer = await this.ask('/recording/index');
     if (answer.status === 404 || answer.status === 409) return false;
@@ -59,7 +59,7 @@ export class Recording {
   load({ number, end }) {
     if (!this.loaded.has(number)) {
       const coming = this.get(`chunks/${number}`, 'arrayBuffer').then((buffer) => until(read(buffer), end));
-      coming.catch(() => this.loaded.delete(number)); // it is asked for again
+      coming.catch(() => this.loaded.delete(number)); // it is requested again
       this.loaded.set(number, coming);
       while (this.loaded.size > KEPT) this.loaded.delete(this.loaded.keys().next().value);
     }

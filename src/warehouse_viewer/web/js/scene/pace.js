@@ -7,7 +7,7 @@ export const MOST = 2 / 3; // the same where the simulation keeps its speed all 
 export const CROWD = 2000; // robots from which SHARE is the limit, or the page would take a core
 export const HURRIED = 1 / 2; // the same while the camera is moved, at least
 const KEPT = 0.97; // of the speed that is wanted: it is kept
-const MORE = 1.25, LESS = 0.5; // how the share changes from one look at the speed to the next
+const MORE = 1.25, LESS = 0.5; // factors of the share at each look at the speed
 const ADAPT = 1000; // between two looks at the speed [ms]
 const HURRY = 500; // after it was [ms]
 const SLOWEST = 500; // from one picture to the next [ms]

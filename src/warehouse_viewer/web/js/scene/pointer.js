@@ -4,7 +4,7 @@
 import { on } from '../base/dom.js';
 
 const STILL = { mouse: 6, touch: 14 }; // [px]; further, it was a drag
-const FINGER = 22; // how far beside a robot a finger may be [px]
+const FINGER = 22; // largest distance of a finger from a robot [px]
 
 export class Pointer {
   /** `page` has choose(name), details, world and take(cell), which may want the next cell. */

@@ -54,7 +54,7 @@ export class Robots {
     });
   }
 
-  /** How far a robot's tower is up [m]. */
+  /** Height of a robot's tower [m]. */
   towerOf(i) {
     const load = this.world.loadOf(i);
     return load < 0 ? 0 : Math.max(0, this.world.unitPose[7 * load + 2]);

@@ -5,7 +5,7 @@ import * as THREE from '/three/build/three.module.js';
 
 const SIDE = 32; // of the picture [px]
 const HEIGHT = 0.006; // over the floor [m]
-const SOFT = 0.28; // how far it reaches beyond the thing [m]
+const SOFT = 0.28; // its reach beyond the thing [m]
 const DARK = 0.5; // where it is darkest
 const UNDER_ALL = -1; // drawn first of what is transparent
 

@@ -30,7 +30,7 @@ export class Trails {
     this.positions.needsUpdate = true;
   }
 
-  /** Takes in where these robots are. */
+  /** Adds the positions of these robots. */
   note(robots) {
     if (!this.object.visible) return;
     for (const i of robots) {

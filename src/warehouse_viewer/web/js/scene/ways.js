@@ -50,7 +50,7 @@ export class Ways {
   }
 }
 
-/** Adds segments from [x, y] on along points x y in a row, of which the first is where the robot was. */
+/** Adds segments from [x, y] on along points x y in a row; the first is where the robot was. */
 export function addSolid(out, [x, y], points) {
   for (let at = 2; at < points.length; at += 2) {
     out.push(x, y, HEIGHT, points[at], points[at + 1], HEIGHT);

@@ -44,7 +44,7 @@ export class Where {
     this.places = new Map();
     if (sku) {
       const answer = await get(`/stock?limit=${MOST}&sku=${encodeURIComponent(sku)}`).catch((error) => error);
-      if (sku !== this.sku) return; // another one was asked for
+      if (sku !== this.sku) return; // another one was requested since
       if (answer instanceof Error) {
         this.sku = '';
         this.fail(`where is ${sku}? ${answer.message}`);

@@ -6,7 +6,7 @@ import { PickOutcome, StationMode } from '../base/message_enums.js';
 import { meaningOf } from './codes.js';
 import { newId } from './outbox.js';
 
-const FLASH = 6000; // how long a tote shows that it is complete [ms]
+const FLASH = 6000; // duration for which a tote shows that it is complete [ms]
 const COMPLETE = 'take away, set up a new one';
 const WRITE_OFF_UNDO = 10_000; // how long a write-off can be taken back [ms]
 
@@ -32,7 +32,7 @@ export class Bench {
     return new Map([...this.settled, ...kept]);
   }
 
-  /** What is to be done with the unit that is there, the next first. */
+  /** The tasks at the present unit, the next first. */
   get tasks() {
     if (this.state?.mode !== StationMode.MANUAL) return [];
     const { pending } = this;
@@ -121,7 +121,7 @@ export class Bench {
     return no(`${code} is wrong: ${expected}`);
   }
 
-  /** What is to be scanned next, in words. */
+  /** The next thing to scan, in words. */
   expected({ sku, quantity, tote }) {
     const { hand, placed } = this.counted;
     if (!hand || !tote) return `expected ${sku}`;

@@ -4,7 +4,7 @@
 const GAP = 60; // between two keys of a scanner, at most [ms]; a person takes longer
 const SHORTEST = 2; // characters of a code
 const LONGEST = 200;
-const LOST = 3000; // without its Enter, a code with a prefix is given up [ms]
+const LOST = 3000; // a code with a prefix is dropped if no Enter follows within this [ms]
 
 export class Scanner {
   /** take(code) is called for each; prefix: one key, such as '~' or 'F8', or '' for none. */
@@ -12,7 +12,7 @@ export class Scanner {
     Object.assign(this, { take, prefix, text: null, before: -Infinity });
   }
 
-  /** Takes a key in at a time [ms]. Returns whether it belongs to a code, so that it must do nothing
+  /** Handles a key at a time [ms]. Returns whether it belongs to a code, so that it must do nothing
    *  else: its Enter would press the button that has the focus. */
   key(key, now) {
     if (this.prefix && key === this.prefix) return this.begin(now);

@@ -43,7 +43,7 @@ export class UnitDrawing {
   }
 }
 
-/** The inside of an <svg>: a unit's front with its bins, of which one is lit. */
+/** The inside of an <svg>: a unit's front with its bins, one of which is lit. */
 function front(bins, lit, quantity) {
   const draw = (className, x, y, width, height) => (
     `<rect class="${className}" x="${SCALE * (x - width / 2)}" y="${-SCALE * (y + height)}" width="${SCALE * width}" height="${SCALE * height}"/>`);

@@ -86,7 +86,7 @@ export class View {
     put('by-hand', button);
   }
 
-  /** [text, what to do, the button's text] where nothing is to be done. */
+  /** [text, what to do, the button's text] where there is no task. */
   idle(state) {
     const { bench, link } = this, kept = bench.outbox.entries.length;
     if (!state) return [link === 'live' ? `There is no station ${bench.name}.` : 'Nothing is known yet.', '', ''];

@@ -13,7 +13,7 @@ import { Picks } from './picks.js';
 import { ask, pathOf, queryOf } from './server.js';
 import { duration, plural } from './words.js';
 
-const SOON = 1000, LATER = 5000; // [ms] until scenarios are asked for again, while some run and else
+const SOON = 1000, LATER = 5000; // interval between requests for scenarios, while some run and else [ms]
 const MOST_FILE = 5e6; // [bytes]
 
 class Page {
@@ -219,7 +219,7 @@ class Page {
     $('upload').click();
   }
 
-  /** Sends files to the server, stock before layouts, and chooses what was asked for. */
+  /** Sends files to the server, stock before layouts, and chooses the requested one. */
   async upload(files) {
     try {
       for (const file of [...files].sort((a, b) => a.name.endsWith('.yaml') - b.name.endsWith('.yaml'))) {

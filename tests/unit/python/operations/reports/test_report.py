@@ -257,7 +257,7 @@ def test_intervals_and_differences_are_students():
     lines = list(report.verdicts(comparison.grouped([a[0], b[0]])))
     assert lines == [
         "orders: b: +10.0 % pieces an hour against orders: a"
-        " (1 run: chance can't be told apart; 3 seeds or more can)"
+        " (1 run: too few to exclude chance; simulate 3 seeds or more)"
     ]
 
 

@@ -98,7 +98,7 @@ def test_two_seeds_have_no_interval_and_no_significance():
     sentences = list(report.verdicts(configurations))
     assert sentences == [
         "orders: b: +0.0 % pieces an hour against orders: a"
-        " (2 runs: chance can't be told apart; 3 seeds or more can)"
+        " (2 runs: too few to exclude chance; simulate 3 seeds or more)"
     ]
 
 

@@ -11,14 +11,14 @@ import pytest
 from warehouse_operations.slotting import sku_master
 from warehouse_operations.slotting.proposal import Lot, Pairs, propose
 from warehouse_operations.slotting.sku_master import Sku, SkuMasterError
-from warehouse_operations.stock.order_file import Wanted
+from warehouse_operations.stock.order_file import OrderDraft
 
 SLOT = paths.ROOT / "src" / "warehouse_operations" / "nodes" / "slot"
 HEAD = "sku,weight_kg,length_m,width_m,height_m,pieces_a_bin,class\n"
 
 
 def orders(*orders_of):
-    return [Wanted(tuple((sku, 1) for sku in skus.split())) for skus in orders_of]
+    return [OrderDraft(tuple((sku, 1) for sku in skus.split())) for skus in orders_of]
 
 
 def units_of(slots):

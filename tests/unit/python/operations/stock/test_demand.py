@@ -8,7 +8,7 @@ import pytest
 
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.demand import Customers, Poisson, make_demand
-from warehouse_operations.stock.order_file import DemandError, Wanted, parse_csv, read_csv
+from warehouse_operations.stock.order_file import DemandError, OrderDraft, parse_csv, read_csv
 
 GOOD = "reference,sku,quantity,at,due,priority\n"
 
@@ -52,8 +52,8 @@ def test_a_file_of_orders(tmp_path):
     path = tmp_path / "orders.csv"
     path.write_text(GOOD + "A,sku-1,2,5,60,1\nB,sku-1,1,,,\nA,sku-2,1,5,60,1\nA,sku-1,1,5,60,1\n")
     assert read_csv(path) == [
-        Wanted((("sku-1", 3), ("sku-2", 1)), 5.0, 60.0, 1, "A"),
-        Wanted((("sku-1", 1),), 0.0, 0.0, 0, "B"),
+        OrderDraft((("sku-1", 3), ("sku-2", 1)), 5.0, 60.0, 1, "A"),
+        OrderDraft((("sku-1", 1),), 0.0, 0.0, 0, "B"),
     ]
 
 
@@ -94,7 +94,7 @@ COLUMNS, ROWS = "reference;sku;quantity;at\r\n", "Müller;sku-1;2;1,5\r\n;;;\r\n
 def test_files_as_spreadsheets_write_them(tmp_path, data):
     path = tmp_path / "orders.csv"
     path.write_bytes(data)
-    assert read_csv(path) == [Wanted((("sku-1", 2),), 1.5, 0.0, 0, "Müller")]
+    assert read_csv(path) == [OrderDraft((("sku-1", 2),), 1.5, 0.0, 0, "Müller")]
 
 
 @pytest.mark.parametrize(

@@ -101,7 +101,7 @@ def test_a_wrong_file_is_refused_with_the_reason(sent, reason):
 
 
 @pytest.mark.parametrize("body", [None, [], {"txt": ""}, {"text": 3}])
-def test_a_wrong_request_is_told(body):
+def test_a_wrong_request_is_reported(body):
     assert ask("/layout/check", body)[0] == 422
 
 

@@ -68,7 +68,7 @@ def test_the_limit_that_a_robot_keeps_for_its_load():
     assert world.model.robots.rows["load_limit"].tolist() == [0, 0]
 
 
-def test_an_item_that_fell_lies_where_it_is_told():
+def test_an_item_that_fell_lies_where_it_is_reported():
     world = World()
     world.turn()
     fallen = objects()

@@ -46,7 +46,7 @@ def test_the_screen_knows_the_codes_that_are_printed():
     assert re.findall(r"'(\w+)'", result.group(1)) == list(labels.COMMANDS)
 
 
-def test_a_name_of_no_station_is_told():
+def test_a_name_of_no_station_is_reported():
     answer = get("/station/<x>/labels")
     assert answer.status == 404 and "there is no station &#x27;&lt;x&gt;&#x27;" in (
         answer.body.decode()

@@ -91,7 +91,7 @@ def test_the_coordinators_sentences_are_understood(text, kind, subject):
     assert troubles.of_sentence(text)[:2] == (kind, subject)
 
 
-def test_a_robot_that_waits_for_long_is_told_with_its_reason():
+def test_a_robot_that_waits_for_long_is_reported_with_its_reason():
     state = CoordinatorState(
         waiting_kiva=[1, 2, 3],
         waiting_since=[0.0, 190.0, 0.0],
@@ -103,7 +103,7 @@ def test_a_robot_that_waits_for_long_is_told_with_its_reason():
     ]
 
 
-def test_robots_that_need_help_are_told():
+def test_robots_that_need_help_are_reported():
     message = fleet()
     message.failures, message.last_end = bytes([0, 2]), bytes([EventKind.BLOCKED] * 2)
     kinds = [(trouble.kind, trouble.subject) for trouble in troubles.of_fleet(message)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Admits units to stations: lifts those for which there is room."""
+"""Admits units to stations: lifts those whose station has room."""
 
 from collections.abc import Mapping
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes in arrivals: beneath a unit, at a destination, at a storage place."""
+"""Handles arrivals: beneath a unit, at a destination, at a storage place."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,7 @@ DRIVES = np.isin(np.arange(len(Step) + 1), (FETCHING, BRINGING, STORING))  # by 
 
 class Arrival:
     """Brings transports whose robots have arrived to the next step; `on_delivered` is called with
-    each whose unit has come to its destination."""
+    each whose unit has arrived at its destination."""
 
     def __init__(
         self,
@@ -38,7 +38,7 @@ class Arrival:
         self._lifts, self._on_delivered = lifts, on_delivered
 
     def run(self) -> None:
-        """Goes on with each robot that stands at its goal."""
+        """Begins the next step of each robot that stands at its goal."""
         for robot in self._journeys.take_arrived(DRIVES[self._book.step_of]):
             transport = self._book.of_robot[robot]
             if transport.step == FETCHING:

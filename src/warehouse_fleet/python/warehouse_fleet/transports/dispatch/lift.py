@@ -20,7 +20,7 @@ from warehouse_fleet.transports.transport_book import (
 from warehouse_layout.message_enums import Status
 
 IDLE = int(Status.IDLE)
-LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]
+LIFT_PATIENCE = 3.0  # a lift that has not begun within this is commanded again [s]
 LIFT_ATTEMPTS = 8  # of ten messages one may be lost, and thousands of units are lifted
 
 
@@ -50,7 +50,7 @@ class LiftWatch:
             self._look_at(robot, int(reports["shelf_id"][robot]))
 
     def _look_at(self, robot: int, shelf: int) -> None:
-        """Goes on with an idle robot. shelf: the unit that it carries, 0: none."""
+        """Checks the lift of an idle robot. shelf: the unit that it carries, 0: none."""
         transport = self._book.of_robot[robot]
         robots, is_up = self._robots, transport.step == LIFTING
         if shelf == (transport.shelf if is_up else 0):

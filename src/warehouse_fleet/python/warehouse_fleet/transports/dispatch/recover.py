@@ -9,11 +9,10 @@ from warehouse_fleet.transports.contracts import Roads
 from warehouse_fleet.transports.storing import Storing
 from warehouse_fleet.transports.transport_book import READY, STORING, Kind, Leave, TransportBook
 from warehouse_fleet.transports.unit_map import UnitMap
-from warehouse_layout.message_enums import RobotMode as Mode
-from warehouse_layout.message_enums import Status
+from warehouse_layout.message_enums import RobotMode, Status
 
 IDLE = int(Status.IDLE)
-DEAD = 30.0  # after which a robot that does not move loses its transport [s]
+DEAD = 30.0  # a robot that does not move loses its transport after this duration [s]
 URGENT = 255  # the highest priority
 
 
@@ -63,9 +62,9 @@ class Recovery:
             return "its robot was removed from the world"
         if robots.broken[robot]:
             return "its robot is broken"
-        if robots.mode[robot] == Mode.AUTOMATIC:
+        if robots.mode[robot] == RobotMode.AUTOMATIC:
             return "its robot does not move"
-        return f"its robot is {Mode(robots.mode[robot]).name} now"
+        return f"its robot is {RobotMode(robots.mode[robot]).name} now"
 
     def _adopt_loaded(self, reports: Reports) -> None:
         robots, shelf = self._robots, reports["shelf_id"]

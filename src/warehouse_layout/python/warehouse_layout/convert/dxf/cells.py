@@ -26,8 +26,8 @@ from warehouse_layout.file import layout_file as lf
 from warehouse_layout.file.layout_file import Cell, LayoutFile
 
 ONE = 1.5  # cells: what is no longer and no wider is one place
-AGREE = 0.9  # of places that lie on a grid
-NEAR = 2.0  # how far from a station its name may be written [cells]
+AGREE = 0.9  # least share of places that lie on a grid
+NEAR = 2.0  # largest distance of a name from its station [cells]
 EDGE = 1e-6  # cells: what lies on an edge belongs to the upper one, in spite of rounding
 
 # By layer, in the order of painting.

@@ -9,7 +9,7 @@ import numpy as np
 
 PLACES = ("belts", "storage", "parking", "charging", "stations", "replenish", "robots", "keep_out")
 OUTLINED = (*PLACES, "floor")  # what lines can enclose; walls and streets are lines themselves
-JOIN = 0.01  # how far apart ends may lie that meet [m]
+JOIN = 0.01  # largest gap between ends that count as joined [m]
 
 
 @dataclass(frozen=True, eq=False)

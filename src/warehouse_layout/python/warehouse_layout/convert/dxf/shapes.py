@@ -18,7 +18,7 @@ from warehouse_layout.convert.dxf.outlines import PLACES, Shape
 
 MILLIMETRE = 0.001
 SMALL = 2.0  # edge of a hall that was not drawn in millimetres [m]
-FINE = 0.02  # how far a curve's parts may be from it [m]
+FINE = 0.02  # largest distance between a curve and its polyline [m]
 DEEP = 8  # blocks within blocks, at most
 MOST_SHAPES = 1_000_000
 FAR = 1e6  # [m] from the origin, at most

@@ -21,7 +21,7 @@ from warehouse_layout.file.layout_reader import LEAST_SPACING, MOST_SPACING
 from warehouse_layout.floor.floor_plan import ALL_EXITS, FloorPlan
 from warehouse_layout.floor.stations import STEPS
 
-AGREE = 0.95  # of nodes that lie on a grid
+AGREE = 0.95  # least share of nodes that lie on a grid
 OFF = 0.25  # cells that a node may be off the middle of its own, without a word
 LONGEST = 50  # cells of a lane
 LONG = 2.0  # edges from this length on are several cells [m]

@@ -54,7 +54,7 @@ def floor_of(
 class _Cells:
     def __init__(self, path: PathName, picture: Picture, angle: float, spacing: float) -> None:
         self._picture, self._angle, self._spacing = picture, angle, spacing
-        # Pixels larger than half a cell are counted in parts, so that no cell is missed.
+        # Pixels larger than half a cell are subdivided, so that no cell is missed.
         self._parts = math.ceil(2 * picture.resolution / spacing - 1e-9)
         self._in_a_cell = (spacing / picture.resolution * self._parts) ** 2  # parts of pixels
         self._low, (width, height) = self._extent()

@@ -67,7 +67,7 @@ def _entry(path: PathName, instance: Instance, station: Station) -> StationEntry
 
 
 def _items(path: PathName, instance: Instance) -> int:
-    """Returns how many items the pods hold, a bin each; no more than our units have places."""
+    """Returns the count of items in the pods, a bin each; at most the places of our units."""
     held = [round(number_of(path, pod, "Capacity", 5 * BIN) / BIN) for pod in instance.pods]
     return sum(min(max(1, count), shelves.CAPACITY) for count in held)
 

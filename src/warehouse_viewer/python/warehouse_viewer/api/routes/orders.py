@@ -71,7 +71,7 @@ async def exported(
     late: bool = LATE,
     backend: ApiBackend = BACKEND,
 ) -> list[Any]:
-    """Returns all orders of a search as JSON has them; 409 if they are more than a sheet should
+    """Returns all orders of a search as JSON; 409 if they are more than a sheet should
     have."""
     which = ANY if state is None else STATES.index(state)
     orders: list[Any] = []

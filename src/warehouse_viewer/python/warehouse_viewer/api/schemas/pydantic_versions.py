@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the API takes from pydantic, of which Debian 12 has version 1 and Debian 13 version 2."""
+"""The API's imports from pydantic: Debian 12 has version 1, Debian 13 version 2."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any
