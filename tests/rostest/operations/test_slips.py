@@ -13,7 +13,7 @@ ORDERS = 30
 ROWS = """[...document.querySelectorAll('.order-rows .order')]
   .map((row) => [row.children[0].textContent, row.offsetTop])"""
 MIDDLE = """(({x, y, width, height}) => [x + width / 2, y + height / 2])(
-  ROW.querySelector('button').getBoundingClientRect())"""
+  ROW.querySelector('button:not(.order-name)').getBoundingClientRect())"""
 HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
 SIZES = ((1440, 900), (1024, 768), (390, 844))  # of windows [px]
 PANELS = ["bar", "list-panel", "fleet-panel", "log-panel", "heat-panel", "pace"]
