@@ -507,7 +507,7 @@ class ViewerPage(PageTest):
         self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
 
     def test_the_dialog_begins_with_what_stands_here_and_says_what_is_lost(self):
-        self.page.click_on("build")
+        self.open_builder()
         self.page.until("document.getElementById('size').value === 'small'")
         self.assertTrue(self.page.read("document.getElementById('plan-loss').hidden"))
         self.page.driver.find_element("css selector", "#plan .answers button").click()
@@ -517,7 +517,7 @@ class ViewerPage(PageTest):
             "(page.builder.present = () =>"
             " ({robots: 5, shelves: 24, items: 96, isWorking: true}), 0)"
         )
-        self.page.click_on("build")
+        self.open_builder()
         self.page.until("document.getElementById('own-robots').value === '5'")
         self.page.until("document.getElementById('size').value === ''")
         self.assertIn("5 robots are at work here", self.page.text("plan-loss"))
@@ -535,8 +535,12 @@ class ViewerPage(PageTest):
         self.page.driver.find_element("css selector", "#plan .answers button").click()
         self.page.until("!document.getElementById('builder').open")
 
-    def build(self, size, **counts):
+    def open_builder(self):
         self.page.click_on("build")
+        self.page.until("document.getElementById('builder').open")
+
+    def build(self, size, **counts):
+        self.open_builder()
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)
         for name, count in counts.items():
             self.page.type(Keys.BACKSPACE * 4 + str(count), f"own-{name}")

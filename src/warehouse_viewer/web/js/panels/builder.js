@@ -31,7 +31,6 @@ export class Builder extends Placer {
     const { isWorking, ...counts } = this.present();
     $('plan-loss').hidden = !isWorking;
     $('plan-loss').textContent = `${counts.robots} robots are at work here. Their transports are lost, and a shift ends: its stock lies on storage units that go.`;
-    $('builder').showModal();
     try {
       this.sizes = await get('/warehouse/sizes');
     } catch (error) {
@@ -45,6 +44,7 @@ export class Builder extends Placer {
       field.parentElement.querySelector('span').textContent = `at most ${limit.toLocaleString('en')}`;
     }
     this.showCounts();
+    $('builder').showModal(); // not before: what a quick hand chose meanwhile would be overwritten
   }
 
   /** Begins with the size of what stands here. */
