@@ -72,7 +72,7 @@ std::vector<double> waysToRoom(const WorldSettings& settings, const PlanarPose& 
   return ways;
 }
 
-/// Searches a way for one robot: the points to which it drives straight. Empty if there is none.
+/// Searches a way for one robot: the points to which it drives straight; empty if no way exists.
 class ReturnSearch {
  public:
   ReturnSearch(const Scene& world, int robot, std::vector<Point> goals, double margin)
@@ -118,8 +118,8 @@ class ReturnSearch {
     return way;
   }
 
-  /// Returns the first goal to which the robot can drive from there and turn square; null if there
-  /// is none.
+  /// Returns the first goal to which the robot can drive from there and turn square; null if it can
+  /// reach no goal.
   const Point* findGoal(const PlanarPose& from, const TurnRoom& room) const {
     for (const Point& goal : goals_) {
       const StraightWay way = straightWay(from, goal);

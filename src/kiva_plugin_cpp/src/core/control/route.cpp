@@ -94,7 +94,7 @@ MotionSegment Route::makeDrive(State state) const {
   return segment;
 }
 
-/// Plans the way back to the grid. If there is none, a robot that stands a little off its line goes
+/// Plans the way back to the grid. Without a way, a robot that stands a little off its line goes
 /// on: the next drive leads it back to the line.
 void Route::recover(const Point* back) {
   Point from{here_.x, here_.y};

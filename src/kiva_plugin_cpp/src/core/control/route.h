@@ -45,7 +45,8 @@ void checkMotion(const FleetState& fleet, int robot);
 class Route {
  public:
   /// Starts at the robot's pose. A robot off the grid first returns to it: to the grid point `back`
-  /// if that is near and free, otherwise to the nearest free one. Throws Refusal if there is none.
+  /// if that is near and free, otherwise to the nearest free one. Throws Refusal if no point is
+  /// free.
   Route(const Scene& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }

@@ -30,8 +30,8 @@ std::vector<std::filesystem::path> libraryFolders() {
   return out;
 }
 
-/// Returns the library's path; empty, with the reason, if there is none. An untrusted document may
-/// name the library, so it can't choose the folder.
+/// Returns the library's path; empty, with the reason, if no file is found. An untrusted document
+/// may name the library, so it can't choose the folder.
 std::string locate(const std::string& filename, std::string* why) {
   if (filename.find('/') != std::string::npos) {
     *why = "'" + filename + "' is a path; a library's name was expected";

@@ -24,7 +24,7 @@ ScopedName splitScoped(const std::string& name);
 std::optional<ScopedName> findEntity(const kiva::World& world, const std::string& name);
 
 /// Returns the model of a joint and its name there. The joint is given as `model::joint`, or by its
-/// name alone for the first model that has it. Returns nothing if there is none.
+/// name alone for the first model that has it. Returns nullopt for an unknown joint.
 std::optional<ScopedName> findJoint(const kiva::World& world, const std::string& name);
 
 /// Returns whether a frame is the world's own.

@@ -70,7 +70,7 @@ ModelPaths foldersFor(const std::string& uri, const fs::path& folder, const Mode
 /// Returns the folder, or the current one for a file without a folder.
 fs::path folderOr(const std::string& folder) { return folder.empty() ? "." : folder; }
 
-/// Returns the file at `path`, or one whose ending differs in case; empty if there is none.
+/// Returns the file at `path`, or one whose ending differs in case; empty if no such file exists.
 std::string existing(const fs::path& path) {
   if (isFile(path)) return path.lexically_normal().string();
   for (const bool upper : {false, true}) {

@@ -8,12 +8,12 @@
 
 namespace kiva {
 
-/// Returns the folder or file that the uri of an include names; empty if there is none. The uri is
-/// an absolute path, with or without `file://`; or `model://name`, `model://name/file` or a
+/// Returns the folder or file that the uri of an include names; empty if nothing is found. The uri
+/// is an absolute path, with or without `file://`; or `model://name`, `model://name/file` or a
 /// relative path, which is searched for in the paths.
 std::string findModel(const std::string& uri, const ModelPaths& paths);
 
-/// Returns the file that the uri of a mesh names; empty if there is none. The uri is an absolute
+/// Returns the file that the uri of a mesh names; empty if no file is found. The uri is an absolute
 /// path; `model://` or `package://`, searched for in the paths; or a relative path, with or without
 /// `file://`, searched for in `folder`, in its parents, in the paths and in the parents of these.
 /// The ending may differ in case.

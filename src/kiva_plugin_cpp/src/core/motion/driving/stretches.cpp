@@ -109,8 +109,8 @@ void brakeFor(RobotView& world, int i) {
   }
 }
 
-/// Begins the next arc of the way back to the line. Returns false if there is none: straight on
-/// then.
+/// Begins the next arc of the way back to the line. Returns false if no arc is left: the
+/// robot drives straight on then.
 bool nextArc(RobotView& world, int i, double along) {
   Stretch& stretch = world.fleet.localisation[i].stretch;
   if (stretch.next_length == 0) return false;

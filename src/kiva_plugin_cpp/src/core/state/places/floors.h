@@ -39,7 +39,7 @@ class FloorCover {
   /// Returns whether the square around (x, y) with edges of twice `half` [m] lies on them.
   bool covers(double x, double y, double half) const;
   /// Returns the Coulomb coefficient of the uppermost surface at (x, y). Of surfaces of one height,
-  /// such as a slab set into a floor, the smallest counts. Returns `otherwise` where there is none.
+  /// such as a slab set into a floor, the smallest counts. Returns `otherwise` off all floors.
   double frictionAt(double x, double y, double otherwise) const;
   /// Returns the smallest coefficient of the surfaces that a rectangle meets, or `otherwise` if
   /// that is smaller.

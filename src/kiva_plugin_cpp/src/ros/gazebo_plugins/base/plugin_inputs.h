@@ -91,7 +91,8 @@ class PluginInput {
   explicit PluginInput(std::shared_ptr<TypedInputTopic<Message>> topic)
       : topic_(std::move(topic)), taken_revision_(topic_->revision()) {}
 
-  /// Returns the message that took effect at this step; null if there is none since the last call.
+  /// Returns the message that took effect at this step; null if no message came since the last
+  /// call.
   const Message* take() {
     if (!topic_ || topic_->revision() == taken_revision_) return nullptr;
     taken_revision_ = topic_->revision();
