@@ -6,7 +6,6 @@ Functions `of_…` judge one part by its last messages.
 
 import time
 import urllib.error
-import urllib.request
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -18,6 +17,7 @@ from gazebo_msgs.srv import GetPhysicsProperties
 from warehouse_client.message_check import subscribe
 from warehouse_client.message_names import STATUS, failures_of
 from warehouse_msgs.msg import FleetState, KivaStatus, Vda5050
+from warehouse_viewer.server.hub_link import open_here
 
 PERIOD = 1.0  # between two messages [s, wall]
 SILENCE = 5.0  # age at which a message is stale [s, wall]
@@ -107,8 +107,9 @@ class Heard:
     """The last message of a topic, for SILENCE seconds. `ros` is rospy."""
 
     def __init__(self, ros: Any, topic: str, kind: Any) -> None:
-        self._message, self._at = None, 0.0
-        subscribe(ros, topic, kind, self._take)
+        self._message, self._at = None, time.monotonic()
+        self._subscriber = subscribe(ros, topic, kind, self._take)
+        self.close = self._subscriber.unregister
 
     def _take(self, message: Any) -> None:
         self._message, self._at = message, time.monotonic()
@@ -117,6 +118,11 @@ class Heard:
     def message(self) -> Any:
         """The message; None if none came within SILENCE."""
         return self._message if time.monotonic() - self._at < SILENCE else None
+
+    @property
+    def is_known(self) -> bool:
+        """Whether a message came, or none within SILENCE."""
+        return self._message is not None or time.monotonic() - self._at >= SILENCE
 
 
 class Watch:
@@ -128,7 +134,18 @@ class Watch:
         self._fleet = Heard(ros, "warehouse/fleet", FleetState)
         self._brokers: dict[int, Vda5050] = {}  # by direction
         self._physics = ros.ServiceProxy("gazebo/get_physics_properties", GetPhysicsProperties)
-        subscribe(ros, "warehouse/vda5050", Vda5050, self._take_broker)
+        self._vehicles = subscribe(ros, "warehouse/vda5050", Vda5050, self._take_broker)
+
+    def close(self) -> None:
+        """Ends the subscriptions."""
+        self._speed.close()
+        self._fleet.close()
+        self._vehicles.unregister()
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether world and robots have been heard, or for long enough not."""
+        return self._speed.is_known and self._fleet.is_known
 
     def _take_broker(self, message: Vda5050) -> None:
         self._brokers[message.direction] = message
@@ -156,9 +173,8 @@ class Watch:
 
 def fault_of(address: str) -> str:
     """Returns why no server answers at a URL of this machine, empty where one does."""
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
     try:
-        opener.open(address, timeout=PERIOD).close()
+        open_here(address, PERIOD).close()
     except urllib.error.HTTPError:
         return ""  # it answers, and asks for a token
     except OSError as error:
@@ -169,10 +185,16 @@ def fault_of(address: str) -> str:
 def follow(ros: Any) -> None:
     """Publishes once a second until shutdown, while there is a subscriber. `ros` is rospy."""
     publisher = ros.Publisher("diagnostics", DiagnosticArray, queue_size=1)
-    watch = Watch(ros)
+    watch = None  # without a subscriber: robots report ten times a second
     while not ros.is_shutdown():
         time.sleep(PERIOD)
-        if publisher.get_num_connections():
+        if not publisher.get_num_connections():
+            if watch:
+                watch.close()
+            watch = None
+        elif watch is None:
+            watch = Watch(ros)
+        elif watch.is_ready:
             # By wall time: the simulated time of a paused or ended world stands still.
             stamp = ros.Time.from_sec(time.time())
             publisher.publish(DiagnosticArray(Header(stamp=stamp), list(watch.statuses())))

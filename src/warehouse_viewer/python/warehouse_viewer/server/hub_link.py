@@ -5,6 +5,7 @@ import json
 import re
 import urllib.request
 from contextlib import suppress
+from typing import Any
 
 TIMEOUT = 2.0  # [s, wall]
 API = "/api/v1/simulations"
@@ -32,6 +33,11 @@ def ask(method: str, url: str, body: dict | None = None, timeout: float = TIMEOU
     """Returns the JSON that a server of this machine answers. Raises OSError, ValueError."""
     data = None if body is None else json.dumps(body).encode()
     request = urllib.request.Request(url, data, method=method)
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    with opener.open(request, timeout=timeout) as answer:
+    with open_here(request, timeout) as answer:
         return json.loads(answer.read())
+
+
+def open_here(request: urllib.request.Request | str, timeout: float) -> Any:
+    """Returns the answer of a server of this machine, which no proxy leads to. Raises OSError."""
+    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+    return opener.open(request, timeout=timeout)
