@@ -27,7 +27,7 @@ import numpy as np
 
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_operations.design.candidate import Candidate, Judge, beats, front, robots_of
-from warehouse_operations.design.plans import MANY_ROBOTS, Chosen, Space
+from warehouse_operations.design.plans import POLICY, Chosen, Space
 from warehouse_operations.sizing import point as shift
 from warehouse_operations.sizing import sites
 from warehouse_operations.sizing.costs import Bill, Costs
@@ -49,7 +49,7 @@ SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days; short shifts h
 UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
 ASKED = 500  # batches of trials a round, at most
 # Layouts with the same stations: most in a batch, and late ones that rule out the others.
-SAME, HOPELESS = 2, 8
+SAME, HOPELESS = 2, 12
 PARENTS = 3  # layouts whose neighbours are tried
 SHORT, WHOLE = "short shifts", "whole days"
 WORST = 1e12  # price, and cost a piece, of a layout without room
@@ -203,13 +203,13 @@ class Search:
 
     def _is_refuted(self, each: Candidate) -> bool:
         """Returns whether whole days rule a layout out: all with the same stations were late, and
-        one of them had no fewer robots, or more of them would not help."""
+        these are many, or one of them had the same policies and no fewer robots."""
         alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
-        if not alike or any(day.late <= self.late for day in alike):
+        if any(day.late <= self.late for day in alike):
             return False
-        most = max(day.robots for day in alike)
-        is_hopeless = len(alike) >= HOPELESS or most >= MANY_ROBOTS * each.stations
-        return is_hopeless or each.robots <= most
+        return len(alike) >= HOPELESS or any(
+            day.robots >= each.robots and _policies_of(day) == _policies_of(each) for day in alike
+        )
 
     def _judge_short(self, chosen: Sequence[Chosen]) -> None:
         """Judges parameters that are new by a short shift each."""
@@ -406,6 +406,10 @@ def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
 
 def _stations_of(candidate: Candidate) -> tuple[int, int]:
     return candidate.stations, int(candidate.chosen["replenish"])
+
+
+def _policies_of(candidate: Candidate) -> dict[str, Any]:
+    return {name: what for name, what in candidate.chosen.items() if name.startswith(POLICY)}
 
 
 def _importance(study: Any) -> dict[str, float]:
