@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/motion/driving/dead_reckoning.h"
 #include "core/state/progress/tasks.h"
 #include "core/state/world/random_stream.h"
 
@@ -102,6 +103,7 @@ void track(TaskView& world, int robot) {
     l.slip_for -= l.roll(f.wheel_angle[0][robot], f.wheel_angle[1][robot]);
     if (l.slip_for <= 0) drawSlip(world, robot, kSlipLength);
   }
+  if (f.tasks[robot].isSteered()) return growUncertainty(world, robot);  // its client locates it
   readCode(world, robot, false);
   checkLost(world, robot);
 }
@@ -129,7 +131,10 @@ void readCode(RobotView& world, int robot, bool stands) {
   l.lost = false;
 }
 
-Odometry odometryOf(const Scene& world, int robot) {
+namespace {
+
+/// Returns the odometry in world, by the estimate that codes correct.
+Odometry estimateOf(const Scene& world, int robot) {
   const Fleet& fleet = world.fleet;
   const FleetState& f = world.fleet;
   Odometry out;
@@ -155,6 +160,14 @@ Odometry odometryOf(const Scene& world, int robot) {
             out.twist_covariance.data());
   out.speed = speeds[0];
   out.turn_rate = speeds[1];
+  return out;
+}
+
+}  // namespace
+
+Odometry odometryOf(const Scene& world, int robot) {
+  Odometry out = estimateOf(world, robot);
+  if (world.fleet.tasks[robot].isSteered()) makeLocal(world.fleet, robot, &out);
   return out;
 }
 
