@@ -88,8 +88,9 @@ class Search:
     _stage: str = SHORT
 
     def run(self) -> list[Candidate]:
-        """Searches; returns the layouts judged by whole days, the cheapest within the limit first;
-        [] where no layout has room for a fleet."""
+        """Searches; returns the front of the layouts judged by whole days, LAST at most: the
+        cheapest within the limit first, after them those whose simulated robots touched. [] where
+        no layout has room for a fleet."""
         study, rng = self._study(), np.random.default_rng(self.seed)
         for number in range(ROUNDS):
             proposes = self.is_random or number < PROPOSING
@@ -103,17 +104,14 @@ class Search:
             if any(each.late <= self.late for each in self._days.values()):
                 break
             self._judge_days(self._least_late())
-        best = sorted(
-            self._days.values(),
-            key=lambda each: (each.late > self.late, each.bill.a_piece, each.number),
-        )
-        chosen = front(best, self.late)[:LAST]
+        days = sorted(self._days.values(), key=lambda each: (each.bill.a_piece, each.number))
+        chosen = front(days, self.late)[:LAST]
         if self.physics_hours:
             self._stage = "physics"
             self._with_physics(chosen)
         self._stage = "unseen seeds"
         self.test(chosen)
-        return best
+        return sorted(chosen, key=lambda each: bool(each.contacts))
 
     @cached_property
     def judge(self) -> Judge:
