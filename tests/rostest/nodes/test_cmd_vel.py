@@ -152,9 +152,7 @@ class CmdVel(unittest.TestCase):
 
     def test_the_coordinator_leaves_it_alone(self):
         latched("/warehouse/coordinator", CoordinatorState, lambda m: 1 in m.manual_kiva)
-        answer = call(
-            "/warehouse/set_robot_mode", SetRobotMode, 1, SetRobotMode._request_class.AUTOMATIC
-        )
+        answer = call("/warehouse/set_robot_mode", SetRobotMode, 1, SetRobotModeRequest.AUTOMATIC)
         self.assertFalse(answer.success)
         self.assertIn("kiva1 is driven by /kiva1/cmd_vel", answer.message)
 
