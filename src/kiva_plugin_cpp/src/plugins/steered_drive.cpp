@@ -102,7 +102,8 @@ void report(TaskView& world, int i, bool is_slowed, double room, double braking)
   const Steering& s = f.steering(i);
   const bool was_blocked = f.status[i] == Status::kBlocked;
   if (is_slowed && !was_blocked) {
-    const std::string& name = world.models[s.obstacle]->name;
+    const Model* obstacle = world.models[s.obstacle];
+    const std::string name = obstacle ? obstacle->name : "something that was there";
     setStatus(world, i, Status::kBlocked, State::kBlocked);
     reportCommand(world, world.log, Event::Kind::kBlocked, i, name, name + " is in the way");
   }
@@ -140,12 +141,15 @@ void drive(TaskView& world, int i) {
   const double dt = world.clock.dt;
   s.silence += dt;
   s.since_look += dt;
+  s.since_measured += dt;
   if (s.silence > kSilence) s.asked = DriveVelocity();
   if (s.bumped) return holdBumped(world, i);
   const Limits limits = limitsOf(world, i);
   const double room = roomNow(world, i, limits.acceleration);
   const bool is_slowed = advance(world, i, limits, speedBefore(room, limits, dt));
-  s.room = std::max(0.0, s.room - std::max(0.0, s.command.speed) * dt);
+  const double way = std::max(0.0, s.command.speed) * dt;
+  s.room = std::max(0.0, s.room - way);
+  s.measured -= way;
   if (s.asked.speed <= 0 && s.command.speed <= 0) {
     s.room = 0;  // it looks before it drives on
     s.obstacle = -1;

@@ -321,7 +321,7 @@ void checkSteerings(const WorldState& world) {
     const int robot = f.find(s.kiva_id);
     const bool fits = robot >= 0 && f.tasks[robot].isSteered() && ids.insert(s.kiva_id).second;
     require(fits, "fleet.steerings", i, "kiva_id", "it leads to a robot that is not steered");
-    require(s.obstacle == -1 || modelAt(world, s.obstacle), "fleet.steerings", i, "obstacle",
+    require(isInOrNone(s.obstacle, world.models.size()), "fleet.steerings", i, "obstacle",
             "there is no such model");
   }
   const auto steered = static_cast<std::size_t>(std::count_if(

@@ -275,10 +275,10 @@ void describe(A& a, DriveVelocity& v) {
 
 template <class A>
 void describe(A& a, Steering& s) {
-  DESCRIBED(Steering, 13);
+  DESCRIBED(Steering, 15);
   FIELDS(s.kiva_id, s.asked, s.silence, s.command, s.lagged, within(s.room, 0, kEndless),
-         s.obstacle, s.looks, within(s.curvature, -kEndless, kEndless), s.approach, s.since_look,
-         s.bumped, s.origin);
+         s.obstacle, s.looks, s.since_look, s.approach, within(s.curvature, -kEndless, kEndless),
+         within(s.measured, -kEndless, kEndless), s.since_measured, s.bumped, s.origin);
 }
 
 template <class A>

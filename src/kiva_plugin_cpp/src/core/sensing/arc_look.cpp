@@ -38,8 +38,7 @@ struct Met {
 
 double curvatureOf(const DriveVelocity& velocity) { return velocity.turn_rate / velocity.speed; }
 
-/// Returns the margin to a model, negative if it does not stop the robot: what it sees of an item
-/// that lies in a storage unit is above its way.
+/// Returns the margin to a model [m]; negative if it does not stop the robot.
 double marginTo(const Scene& world, const Model& model, int robot) {
   if (model.kind == ModelKind::kStorageUnit) return kBesideUnits;
   return model.owner->stops(world, model, robot) ? kBesideOthers : -1;
@@ -62,14 +61,17 @@ Met nearestOn(double curvature, const Scene& world, const RayFan& fan, const Fan
   return nearest;
 }
 
-/// Returns the speed at which an obstacle comes nearer by itself; 0 if that is not known [m/s].
-double approachOf(const Steering& before, const Met& now, double curvature, double least_time) {
-  const bool is_same = now.model >= 0 && now.model == before.obstacle &&
-                       before.since_look >= least_time &&
-                       std::abs(curvature - before.curvature) < kSameWay;
-  if (!is_same) return 0;
-  const double speed = (before.room - (now.way - kStandOff)) / before.since_look;
-  return speed > kApproaches && speed < kTopApproach ? speed : 0;
+/// Measures the speed at which the obstacle comes nearer by itself, from two looks that are at
+/// least `least_time` [s] apart; 0 if it is another one, or on another way.
+void measureApproach(const Met& met, double curvature, double least_time, Steering* s) {
+  const bool is_same =
+      met.model >= 0 && met.model == s->obstacle && std::abs(curvature - s->curvature) < kSameWay;
+  if (is_same && s->since_measured < least_time) return;
+  const double speed = is_same ? (s->measured - met.way) / s->since_measured : 0;
+  s->approach = speed > kApproaches && speed < kTopApproach ? speed : 0;
+  s->measured = met.way;
+  s->since_measured = 0;
+  s->curvature = curvature;
 }
 
 }  // namespace
@@ -101,11 +103,9 @@ void lookAlongArc(RobotView& world, const Scans& scans, int robot) {
   const double present = s.command.speed > kSlow ? curvatureOf(s.command) : curvature;
   if (std::abs(present - curvature) > kSameWay) look(present);
   const double period = static_cast<double>(scanPeriod(world.clock, r)) * world.clock.dt;
-  const bool is_early = s.since_look < period / 2 && met.model == s.obstacle;
-  if (!is_early) s.approach = approachOf(s, met, curvature, period / 2);
+  measureApproach(met, curvature, period / 2, &s);
   s.room = std::max(0.0, met.way - kStandOff);
   s.obstacle = met.model;
-  s.curvature = curvature;
   s.since_look = 0;
   s.looks = false;
 }

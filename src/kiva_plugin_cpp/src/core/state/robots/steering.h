@@ -22,15 +22,15 @@ struct Steering {
   double silence = 0;     ///< Time since then [s].
   DriveVelocity command;  ///< The motors' command, which follows `asked` at limited accelerations.
   DriveVelocity lagged;   ///< What the motors make of it; differs only if motors lag.
-  double room =
-      0;  ///< Way ahead up to a clearance before the next obstacle, where that was seen [m].
-  int obstacle = -1;  ///< That obstacle's index in the world's models.
-  bool looks =
-      false;  ///< It is to look ahead at the end of this step, not only when a scan is due.
-  double curvature = 0;   ///< Curvature of the way at the last look [1/m].
-  double approach = 0;    ///< Speed at which the obstacle itself came nearer [m/s].
+  double room = 0;        ///< Way ahead, up to a clearance before the obstacle seen last [m].
+  int obstacle = -1;      ///< Its index in the world's models, where it may be gone; -1 = none.
+  bool looks = false;     ///< It is to look ahead in this step, before a scan is due.
   double since_look = 0;  ///< Time since the last look [s].
-  bool bumped = false;    ///< It was in a collision, and stands until the client asks it to stop.
+  double approach = 0;    ///< Speed at which the obstacle itself came nearer [m/s].
+  double curvature = 0;   ///< Curvature of the way on which that was measured [1/m],
+  double measured = 0;    ///< way to the obstacle from there, less what it drove since [m],
+  double since_measured = 0;  ///< and time since then [s].
+  bool bumped = false;  ///< It was in a collision, and stands until the client asks it to stop.
   /// Pose in world, as the robot believes, of the frame in which its wheels count its way.
   PlanarPose origin;
 

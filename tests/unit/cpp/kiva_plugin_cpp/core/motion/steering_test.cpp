@@ -345,6 +345,33 @@ TEST_F(Steered, AreTakenOnlyWhileIdle) {
   EXPECT_PRED2(contains, whyNot([&] { w.world.beginSteering(2); }), "it carries out a command");
 }
 
+TEST_F(Steered, MayLoseTheObstacleBeforeThem) {
+  w.spawn("wall", "wall", 4, 0);
+  w.runUntil([&] {
+    w.world.steer(1, 1, 0);
+    return w.x(1) > 1.9;
+  });
+  w.world.remove("wall");
+  drive(1, 0, 0.05);
+  Warehouse other(Floorplan{40});
+  other.world.restore(w.world.checkpoint());
+  drive(1, 0, 2);
+  EXPECT_NEAR(w.speed(1), 1, 1e-6);
+}
+
+TEST_F(Steered, DriveOnRealWheelJointsAsWell) {
+  WorldOptions options;
+  options.drive = Drive::kJointed;
+  Warehouse other(Floorplan{40, 1, 0.001, "", options});
+  other.spawn("kiva", "kiva1", 0, 0);
+  other.world.beginSteering(1);
+  other.run(3, [&] { other.world.steer(1, 1, 0.2); });
+  EXPECT_NEAR(other.speed(1), 1, 0.02);
+  EXPECT_NEAR(other.world.fleet().yaw_rate[0], 0.2, 0.01);
+  other.run(2);
+  EXPECT_LT(other.speed(1), 1e-3);
+}
+
 TEST_F(Steered, MayBeDeleted) {
   drive(1, 0, 1);
   w.spawn("kiva", "kiva2", 0, 5);
