@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import pytest
 from asgi import request
@@ -298,6 +299,35 @@ def test_layouts_are_kept_and_must_name_no_files_elsewhere(workshop):
             workshop.add_layout("x.layout.yaml", text)
     with pytest.raises(ScenarioError, match="NAME.layout.yaml was expected"):
         workshop.add_layout("../x.layout.yaml", SMALL)
+
+
+@pytest.mark.parametrize(
+    ("event", "fault"),
+    [
+        ({"close": "pick9"}, r"events\[0\]: close is pick9; there are pick1, pick2"),
+        ({"picker": {"station": "pick9", "pickers": 2}}, r"events\[0\]: picker is pick9"),
+        ({"fail": "robot 99"}, r"events\[0\]: fail is robot 99; there are 1 to 4"),
+        ({"sku_out": "green"}, r"events\[0\]: sku_out is green; the stock has no such SKU"),
+    ],
+)
+def test_events_of_what_does_not_exist_are_refused_by_the_form(workshop, event, fault):
+    settings = SHORT | {"events": [{"at": 60, **event}]}
+    for ask_for in (workshop.estimate, lambda chosen: workshop.create("x", chosen)):
+        with pytest.raises(ScenarioError, match=fault):
+            ask_for(settings)
+    assert workshop.scenarios()["scenarios"] == []
+
+
+def test_orders_of_skus_that_the_stock_lacks_are_refused_by_the_form(workshop):
+    workshop.add_stock("stock.csv", "sku,quantity,storage_unit\nred,20,1\n")
+    file = replace(generator.of_request(PRESETS["small"], "own"), items=0, stock="stock.csv")
+    layout = workshop.add_layout("own.layout.yaml", layout_file.text_of(file))["name"]
+    for sku, orders in (("green", "bad.csv"), ("red", "good.csv")):
+        workshop.add_orders(orders, f"reference,sku,quantity\na,{sku},1\n")
+    settings = SHORT | {"layout": layout}
+    with pytest.raises(ScenarioError, match="orders/bad.csv.*green"):
+        workshop.estimate(settings | {"orders": "bad.csv"})
+    assert workshop.estimate(settings | {"orders": "good.csv"})["robots"] == 4
 
 
 def test_a_damaged_file_is_told_and_hinders_no_other(workshop):
