@@ -102,7 +102,7 @@ def test_a_search_finds_a_front(found):
     workshop, seen = found
     done = seen[-1]
     assert done["state"] == "done"
-    assert "On 5 days that the search did not see" in done["answer"]["text"]
+    assert " days that the search did not see" in done["answer"]["text"]
     folder = workshop.folder.path / "designs" / "hall"
     rows = list(csv.DictReader((folder / "front.csv").read_text().splitlines()))
     assert [row["layout"] for row in done["front"]] == [row["layout"] for row in rows]
@@ -130,7 +130,7 @@ def test_a_search_is_what_the_program_does(found):
         command, shell=True, cwd=folder, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    assert "On 5 days that the search did not see" in done.stdout
+    assert " days that the search did not see" in done.stdout
     assert (folder / "front.csv").read_text() == front
     workshop.designs.delete("hall")
     assert workshop.scenarios()["designs"] == [] and not folder.exists()

@@ -17,9 +17,8 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFileError
 from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generator, layout_choice
-from warehouse_operations.runs import early_check
+from warehouse_operations.runs import early_check, sweep
 from warehouse_operations.runs import run_files as runs
-from warehouse_operations.runs import sweep
 from warehouse_operations.runs.run_files import Run
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.whatif import figures
