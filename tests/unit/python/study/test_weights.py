@@ -16,8 +16,8 @@ from warehouse_layout.models import world_export
 from warehouse_layout.place import placement
 from warehouse_operations.fleets import availability
 from warehouse_operations.fleets.consumption import ITEM, UNIT
+from warehouse_operations.fleets.loads import ITEM_KG
 from warehouse_operations.runs.simulation import Description, open_operations
-from warehouse_operations.stock.loads import ITEM_KG
 
 UNITS, BINS = 24, 12  # storage units of the layout, and bins on each, of SKUs of its own
 SKUS = [f"sku-{i}" for i in range(1, UNITS * BINS + 1)]

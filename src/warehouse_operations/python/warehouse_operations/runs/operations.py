@@ -13,10 +13,10 @@ import numpy as np
 from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.fleets.consumption import ITEM, MassOfItems
 from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.fleets.loads import Loads
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.minute_log import MinuteLog
 from warehouse_operations.runs.opening import open_shift
-from warehouse_operations.stock.loads import Loads
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site
 
