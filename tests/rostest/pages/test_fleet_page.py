@@ -77,8 +77,8 @@ class FleetPage(PageTest):
         self.page.click_on("ways")
         transport = self.submit(5, station="pick1")
         # Released ways are drawn, and planned ones as well.
-        self.page.until("page.overlays.ways.released.visible")
-        self.page.until("page.overlays.ways.planned.visible")
+        self.page.until("page.routes?.released.visible")
+        self.page.until("page.routes?.planned.visible")
         robot = self.wait_for(transport, "LIFTED")["robot"]
         # Another page comes, and gets the scenery again: the coordinator goes on.
         Listener("/warehouse/scenery", Scenery).until()
@@ -96,7 +96,7 @@ class FleetPage(PageTest):
         status, state = ask("/coordinator")
         self.assertEqual((status, state["robots"]["automatic"]), (200, 4))
         self.page.click_on("ways")
-        self.page.until("!page.overlays.ways.released.visible")
+        self.page.until("!page.routes?.released.visible")
 
     def test_a_robot_is_given_to_a_person_and_back(self):
         self.page.read("page.select('kiva3')")

@@ -196,7 +196,7 @@ class OperationsPage(WorkPageTest):
         shown = lambda: dict(self.page.read("[...page.where.units]"))  # noqa: E731
         wait_until(lambda: shown() == pieces("sku-5"), "the page shows where pieces are")
         self.page.click_on("heat")
-        self.page.until("Boolean(page.heat.object)")
+        self.page.until("Boolean(page.heat?.object)")
         self.click("[data-heat=waiting]")
         self.page.until("document.getElementById('heat-text').textContent.includes('waited')")
         self.page.read("page.select('kiva1')")
