@@ -3,6 +3,7 @@
 
 import asyncio
 import base64
+import json
 import re
 
 import pytest
@@ -39,6 +40,52 @@ def test_ten_questions(talk, transport):
     assert replies["find"].startswith('"kiva2": ')
     assert "in all" in replies["list_orders"] and "call more with key" in replies["list_orders"]
     assert "how-to/" in replies["search_documentation"]
+
+
+@pytest.mark.parametrize("transport", TRANSPORTS)
+def test_changes_stand_in_the_hubs_journal_with_who_asked(talk, hub, transport):
+    async def conversation(assistant):
+        await assistant.done("set_time", action="speed", factor=1)
+        return await assistant.done("list_changes", limit=1)
+
+    last = talk(conversation, transport)
+    assert "set_time" in last and "assistant" in last
+    entry = hub.ask("GET", "/api/v1/journal")[1]["entries"][-1]
+    assert (entry["kind"], entry["action"], entry["done"]) == ("assistant", "set_time", True)
+    assert ("over stdio" in entry["who"]) == (transport == "stdio")
+    assert (" at 127.0.0.1" in entry["who"]) == (transport == "http")
+    assert json.loads(entry["arguments"]) == {"action": "speed", "factor": 1}
+    assert (hub.home / "warehouse/hub/journal.jsonl").read_text().splitlines()
+
+    async def refused(assistant):
+        await assistant.refused("set_time", action="pause")
+
+    talk(refused, transport, commands=False)
+    entry = hub.ask("GET", "/api/v1/journal")[1]["entries"][-1]
+    assert not entry["done"] and "--allow commands" in entry["outcome"]
+
+
+def test_a_world_is_saved_and_inserted(talk, hub):
+    async def conversation(assistant):
+        text = await assistant.done("save_world", name=NAME, world="kept", replace=True)
+        assert "models" in text
+        text = await assistant.refused("insert_world", name=NAME, world="kept")
+        assert "would stand in" in text
+        assert "another name" in await assistant.refused("save_world", name=NAME, world="paper")
+
+    talk(conversation)
+    assert "kept" in [row["name"] for row in hub.ask("GET", "/api/v1/worlds")[1]["worlds"]]
+
+
+def test_reports_are_resources(talk):
+    async def conversation(assistant):
+        read = assistant.client.read_resource
+        listed = (await read("warehouse://reports")).contents[0].text
+        assert f"warehouse://reports/shift/{NAME}" in listed.splitlines()
+        return (await read(f"warehouse://reports/shift/{NAME}")).contents[0].text
+
+    report = json.loads(talk(conversation))
+    assert set(report) == {"kpis", "figures", "stations"} and report["kpis"]["items_picked"] >= 0
 
 
 @pytest.mark.parametrize("transport", TRANSPORTS)
@@ -164,7 +211,11 @@ def test_layouts_and_pages_are_resources(talk):
     async def conversation(assistant):
         client = assistant.client
         uris = [r.uri for r in (await client.list_resources()).resources]
-        assert {str(uri) for uri in uris} == {"warehouse://layouts", "warehouse://docs"}
+        assert {str(uri) for uri in uris} == {
+            "warehouse://layouts",
+            "warehouse://reports",
+            "warehouse://docs",
+        }
         small = (await client.read_resource("warehouse://layouts/small")).contents[0].text
         page = (await client.read_resource("warehouse://docs/how-to/http")).contents[0].text
         return small, page

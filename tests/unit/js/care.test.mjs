@@ -23,13 +23,14 @@ test('a station says why it waits, its unit, its queue and what is on its way', 
   assert.deepEqual(there.unit, [link('storage_unit7'), ' 2 to pick']);
 });
 
+const boundsOf = () => ({ min: [-0.3, -1.2, 0], max: [0.3, 0.3, 1] });
+
 test('what stands on a cell, or across two, takes it', () => {
   const places = { unit: [[0, 0, 0, 0]], robot: [[1, 0, 0, 0]], scenery: [[2, 1, 0, Math.PI / 2]] };
   const world = {
     scene: { grid: 1, floor: [-0.5, 3.5, -0.5, 1.5], units: ['storage_unit1'], robots: [1], scenery: ['belt'] },
     placeOf: ({ kind, index }) => places[kind][index],
   };
-  const boundsOf = () => ({ min: [-0.3, -1.2, 0], max: [0.3, 0.3, 1] });
   const free = freeCells(world, boundsOf).map(String);
   // The belt lies along x once it is turned: from 1.7 to 3.2.
   assert.deepEqual(free, ['0,1', '1,1', '2,0', '3,0']);

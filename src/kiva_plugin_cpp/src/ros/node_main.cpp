@@ -24,6 +24,8 @@
 #include "ros/services/models/joint_services.h"
 #include "ros/services/models/light_services.h"
 #include "ros/services/models/link_services.h"
+#include "ros/services/models/model_sources.h"
+#include "ros/services/models/source_service.h"
 #include "ros/services/models/spawn_services.h"
 #include "ros/services/models/state_services.h"
 #include "ros/services/simulation/checkpoint_services.h"
@@ -122,7 +124,9 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   PhysicsServices physics_services(node, world, simulation);
   PerformanceTopic performance_topic(node, simulation);
   VisualizationTopics visualization_topics(root, simulation);
-  SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
+  ModelSources sources(settings.world_file, description);
+  SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths, sources);
+  SourceService source_service(root, simulation, sources);
   MapService map_service(root, simulation);
   FailureService failure_service(root, simulation);
   ModeService mode_service(node, simulation);

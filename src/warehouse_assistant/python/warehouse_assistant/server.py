@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The server: tools and resources, permissions, bounded replies, and a log of changes."""
+"""The server: tools and resources, permissions, bounded replies, and a journal of changes."""
 
 import hmac
 import json
 import sys
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import uvicorn
@@ -17,7 +18,7 @@ from pydantic import ValidationError
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from warehouse_assistant import resources
-from warehouse_assistant.hub_client import HubClient, Trouble
+from warehouse_assistant.hub_client import JOURNAL, HubClient, Trouble
 from warehouse_assistant.library import Library
 from warehouse_assistant.toolbox import Toolbox
 from warehouse_assistant.tools import (
@@ -68,7 +69,7 @@ class AssistantServer(MCPServer):
     async def call_tool(
         self, name: str, arguments: dict[str, Any], context: Context | None = None
     ) -> Any:
-        """Calls a tool: checks arguments and permission, bounds the reply, logs changes."""
+        """Calls a tool: checks arguments and permission, bounds the reply, writes changes down."""
         changes = name in self._box.changing
         try:
             self._check(name, arguments, context)
@@ -76,15 +77,34 @@ class AssistantServer(MCPServer):
         except ToolError as error:
             text = self._box.replies.bounded(_cause(name, error))
             if changes:
-                _note(context, name, arguments, text)
+                await self._note(context, name, arguments, text, False)
             raise ToolError(text) from error
         if isinstance(result, CallToolResult):
             for part in result.content:
                 if isinstance(part, TextContent):
                     part.text = self._box.replies.bounded(part.text)
             if changes:
-                _note(context, name, arguments, _text(result))
+                await self._note(context, name, arguments, _text(result), True)
         return result
+
+    async def _note(
+        self,
+        context: Context | None,
+        tool: str,
+        arguments: Mapping[str, Any],
+        outcome: str,
+        is_done: bool,
+    ) -> None:
+        """Writes a change and its client into the hub's journal, and to the log."""
+        who, asked = _who(context), plain(json.dumps(arguments, default=str), 300)
+        now = time.strftime("%Y-%m-%d %H:%M:%S")
+        text = f"{now} assistant: {who}: {tool} {asked}: {quoted(outcome, 200)}"
+        print(text, file=sys.stderr, flush=True)
+        simulation = plain(arguments.get("simulation") or arguments.get("name") or "", 40)
+        entry = {"who": who, "action": plain(tool, 80), "arguments": asked, "done": is_done}
+        entry |= {"simulation": simulation, "outcome": plain(outcome, 300)}
+        with suppress(Trouble):  # the hub may be gone, or of another version
+            await self._box.hub.send("POST", JOURNAL, entry)
 
     def _check(self, name: str, arguments: Mapping[str, Any], context: Context | None) -> None:
         """Raises Trouble for unknown tools and arguments, and where permission is missing."""
@@ -126,14 +146,6 @@ def _text(result: CallToolResult) -> str:
     return next((part.text for part in result.content if isinstance(part, TextContent)), "")
 
 
-def _note(context: Context | None, tool: str, arguments: Mapping[str, Any], outcome: str) -> None:
-    """Writes a change and its client to the log, which is the hub's if the hub started it."""
-    asked = plain(json.dumps(arguments, default=str), 300)
-    now = time.strftime("%Y-%m-%d %H:%M:%S")
-    text = f"{now} assistant: {_who(context)}: {tool} {asked}: {quoted(outcome, 200)}"
-    print(text, file=sys.stderr, flush=True)
-
-
 def _who(context: Context | None) -> str:
     """Returns the client: its program's name, and its address at the hub."""
     if context is None:
@@ -143,7 +155,7 @@ def _who(context: Context | None) -> str:
     info = getattr(params, "client_info", None)
     name = getattr(info, "name", "") or headers.get("user-agent", "") or "unknown"
     address = headers.get(CLIENT, "")
-    return quoted(name, 60) + (f" at {plain(address, 60)}" if address else "")
+    return quoted(name, 60) + (f" at {plain(address, 60)}" if address else " over stdio")
 
 
 class _KeyCheck:

@@ -15,6 +15,7 @@ from gazebo_msgs.srv import (
     SpawnModel,
 )
 from warehouse_layout.floor import poses
+from warehouse_msgs.srv import WorldSources
 
 WAIT = 30.0  # for the world to come up [s, wall]
 
@@ -69,6 +70,14 @@ class Engine:
         """Returns the nav_msgs/OccupancyGrid of the floor, a cell for each grid point: cells of
         other models are occupied."""
         return self._call("warehouse/map", GetMap).map
+
+    def sources(self) -> Any:
+        """Returns the WorldSourcesResponse: texts of all models, and where these stand. Raises
+        EngineError."""
+        answer = self._call("warehouse/sources", WorldSources)
+        if not answer.success:
+            raise EngineError(answer.message)
+        return answer
 
     def spawn(self, xml: str, name: str = "") -> None:
         """Adds all models of an SDF text, or none. Raises EngineError.

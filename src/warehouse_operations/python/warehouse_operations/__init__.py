@@ -25,9 +25,28 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     ros       the nodes
 """
 
-from warehouse_operations.policies import Policies, PolicyError
-from warehouse_operations.runs.operations import Operations
-from warehouse_operations.shift.shift import Settings, Shift
-from warehouse_operations.stock.site import Site
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from warehouse_operations.policies import Policies, PolicyError
+    from warehouse_operations.runs.operations import Operations
+    from warehouse_operations.shift.shift import Settings, Shift
+    from warehouse_operations.stock.site import Site
 
 __all__ = ["Operations", "Policies", "PolicyError", "Settings", "Shift", "Site"]
+_HOMES = {
+    "Operations": "runs.operations",
+    "Policies": "policies",
+    "PolicyError": "policies",
+    "Settings": "shift.shift",
+    "Shift": "shift.shift",
+    "Site": "stock.site",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Imports what is asked for: who needs one room alone does not pay for all (30 MB)."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -15,7 +15,7 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check
 from warehouse_operations.design.building import Building, BuildingError, rectangles
 from warehouse_operations.design.candidate import Candidate, Judge, front
-from warehouse_operations.design.plans import MANY_ROBOTS, OUTLINE, POLICIES, Space
+from warehouse_operations.design.plans import OUTLINE, POLICIES, Space
 from warehouse_operations.design.search import HOPELESS, Search, _mixed
 from warehouse_operations.sizing.costs import Bill, Costs, Thing
 from warehouse_operations.sizing.day import Day
@@ -154,8 +154,10 @@ def test_parameters_without_effect_are_the_same_layout():
 
 
 def test_whole_days_are_for_stations_that_can_do():
-    def candidate(number, stations, robots, late=0.0):
-        parts = chosen(hall, stations=stations, replenish=0, robots=robots, units=20 + number)
+    def candidate(number, stations, robots, late=0.0, **policies):
+        parts = chosen(
+            hall, stations=stations, replenish=0, robots=robots, units=20 + number, **policies
+        )
         return Candidate(number, parts, None, late, Bill(number, 0, 0, number, None, ""))
 
     hall = Building.read("40x30")
@@ -170,7 +172,8 @@ def test_whole_days_are_for_stations_that_can_do():
     assert judged() == [0, 1, 2, 3, 4, 9]
     assert judged(candidate(11, 1, 5, 0.5)) == [2, 3, 4, 9], "as few robots as were late"
     assert judged(candidate(11, 1, 6, 0.5), candidate(12, 1, 7)) == [0, 1, 2, 3, 4, 9]
-    assert judged(candidate(11, 1, MANY_ROBOTS, 0.5)) == [9], "more robots would not help"
+    other = candidate(11, 1, 8, 0.5, policy_orders="due date")
+    assert judged(other) == [0, 1, 2, 3, 4, 9], "these have other policies"
     late = [candidate(11 + i, 1, 3, 0.5) for i in range(HOPELESS)]
     assert judged(*late) == [9]
 

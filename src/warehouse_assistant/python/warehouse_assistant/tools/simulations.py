@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from warehouse_assistant.hub_client import NAME, SIMULATIONS, Trouble
+from warehouse_assistant.hub_client import JOURNAL, NAME, SIMULATIONS, Trouble
 from warehouse_assistant.toolbox import Simulation, Toolbox
 from warehouse_assistant.words import count, duration, listed, plain, quoted, sentence
 
@@ -90,12 +90,36 @@ def add(box: Toolbox) -> None:
         ],
         x: Annotated[float, Field(ge=-1e5, le=1e5, description="where its origin comes [m]")] = 0.0,
         y: Annotated[float, Field(ge=-1e5, le=1e5, description="where its origin comes [m]")] = 0.0,
+        yaw: Annotated[float, Field(ge=-7, le=7, description="turned by so much [rad]")] = 0.0,
     ) -> str:
         """Adds the models of a world to a simulation that runs, all of them or none."""
         _check_name(name)
-        body = {"world": world, "x": x, "y": y}
+        body = {"world": world, "x": x, "y": y, "yaw": yaw}
         answer = await box.hub.send("POST", f"{SIMULATIONS}/{name}/worlds", body)
         return _message(answer, "inserted")
+
+    @box.changes("Save the world of a simulation")
+    async def save_world(
+        name: Name,
+        world: Annotated[
+            str, Field(min_length=1, max_length=40, description="its new name, as my-hall")
+        ],
+        replace: Annotated[bool, Field(description="replace a world of that name")] = False,
+    ) -> str:
+        """Saves the models of a simulation, where they stand now, as a world to start or insert."""
+        _check_name(name)
+        body = {"world": world, "replace": replace}
+        return _message(await box.hub.send("POST", f"{SIMULATIONS}/{name}/save", body), "saved")
+
+    @box.reads("List changes")
+    async def list_changes(
+        simulation: Annotated[str, Field(max_length=40, description="of it alone")] = "",
+        limit: Annotated[int, Field(ge=1, le=200, description="largest count of entries")] = 20,
+    ) -> str:
+        """Lists the newest entries of the hub's journal: who asked for which change."""
+        query = {"simulation": simulation, "limit": limit}
+        rows = (await box.hub.get(JOURNAL, **query))["entries"]
+        return "\n".join(map(_entry, reversed(rows))) or "Nothing was changed yet."
 
     @box.changes("Pause or speed up a simulation", repeatable=True)
     async def set_time(
@@ -133,6 +157,16 @@ def add(box: Toolbox) -> None:
 def _check_name(name: str) -> None:
     if not NAME.fullmatch(name):
         raise Trouble(f"{quoted(name)} is no simulation's name. Ask list_simulations.")
+
+
+def _entry(row: dict[str, Any]) -> str:
+    where = f" ({quoted(row['simulation'], 40)})" if row["simulation"] else ""
+    state = "" if row["done"] else "refused, "
+    return (
+        f"{plain(row['wall'][:19], 30)} {plain(row['kind'], 20)} {quoted(row['who'])}:"
+        f" {plain(row['action'], 80)}{where} {quoted(row['arguments'], 200)}:"
+        f" {state}{quoted(row['outcome'], 120)}"
+    )
 
 
 def _message(answer: Any, otherwise: str) -> str:

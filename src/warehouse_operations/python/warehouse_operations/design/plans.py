@@ -32,6 +32,7 @@ POLICIES = {
     "idle": ("wait", "likely unit"),
     "bins": ("emptiest", "turnover", "same sku"),
 }
+URGENT = {f"{POLICY}orders": "due date"}
 ASPECTS = {"square": 1.0, "wide": 2.0, "tall": 0.5}  # length along x over that along y
 BLOCKS, OUTLINE = "blocks", "outline"
 BEHIND, NEAR = "behind", "near"
@@ -117,14 +118,15 @@ class Space:
         return first | {"depth": 2, "length": 8, "more_queue": 0} | roles
 
     def starts(self) -> Iterator[dict[str, Any]]:
-        """Yields the first trials: usual floors with few and with many stations."""
+        """Yields the first trials: usual floors with few and with many stations, which serve the
+        most urgent order first: what is late rules a layout out."""
         stations = self.parameters["stations"]
         for more in range(min(3, len(stations))):
             count = stations[more]
             for replenish in sorted({0, math.ceil(count / 2)}):
                 for each in (FEW_ROBOTS, MANY_ROBOTS):
                     counts = {"stations": count, "replenish": replenish, "robots": each * count}
-                    yield self.usual() | counts
+                    yield self.usual() | URGENT | counts
 
     def neighbour(
         self, chosen: Chosen, rng: np.random.Generator, cheaper: bool, most: int = 2

@@ -49,7 +49,8 @@ SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days; short shifts h
 UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
 ASKED = 500  # batches of trials a round, at most
 # Layouts with the same stations: most in a batch, and late ones that rule out the others.
-SAME, HOPELESS = 2, 12
+SAME, HOPELESS = 2, 8
+NEARLY = 2.0  # limits of late orders: below them another layout with the same stations may do
 PARENTS = 3  # layouts whose neighbours are tried
 SHORT, WHOLE = "short shifts", "whole days"
 WORST = 1e12  # price, and cost a piece, of a layout without room
@@ -88,8 +89,9 @@ class Search:
     _stage: str = SHORT
 
     def run(self) -> list[Candidate]:
-        """Searches; returns the layouts judged by whole days, the cheapest within the limit first;
-        [] where no layout has room for a fleet."""
+        """Searches; returns the front of the layouts judged by whole days, LAST at most: the
+        cheapest within the limit first, after them those whose simulated robots touched. [] where
+        no layout has room for a fleet."""
         study, rng = self._study(), np.random.default_rng(self.seed)
         for number in range(ROUNDS):
             proposes = self.is_random or number < PROPOSING
@@ -103,17 +105,14 @@ class Search:
             if any(each.late <= self.late for each in self._days.values()):
                 break
             self._judge_days(self._least_late())
-        best = sorted(
-            self._days.values(),
-            key=lambda each: (each.late > self.late, each.bill.a_piece, each.number),
-        )
-        chosen = front(best, self.late)[:LAST]
+        days = sorted(self._days.values(), key=lambda each: (each.bill.a_piece, each.number))
+        chosen = front(days, self.late)[:LAST]
         if self.physics_hours:
             self._stage = "physics"
             self._with_physics(chosen)
         self._stage = "unseen seeds"
         self.test(chosen)
-        return best
+        return sorted(chosen, key=lambda each: bool(each.contacts))
 
     @cached_property
     def judge(self) -> Judge:
@@ -187,15 +186,26 @@ class Search:
 
     def _neighbours(self, rng: np.random.Generator) -> list[dict[str, Any]]:
         """Returns neighbours of the best: with less to pay where they are in time, else more."""
-        able = [each for each in self._known.values() if each and self._is_able(each)]
-        parents = sorted(able, key=lambda each: (each.bill.a_piece, each.number))[:PARENTS]
-        if not parents:
-            judged = [each for each in self._known.values() if each]
-            parents = sorted(judged, key=lambda each: (each.late, each.number))[:PARENTS]
         return [
             self.space.neighbour(parent.chosen, rng, self._is_able(parent))
-            for parent in itertools.islice(itertools.cycle(parents), BATCH)
+            for parent in itertools.islice(itertools.cycle(self._parents()), BATCH)
         ]
+
+    def _parents(self) -> list[Candidate]:
+        """Returns the layouts whose neighbours are tried: the cheapest in time, each followed by
+        one that is late and would cost less than all of these, the least late first."""
+        judged = [each for each in self._known.values() if each]
+        able = [each for each in judged if self._is_able(each)]
+        able.sort(key=lambda each: (each.bill.a_piece, each.number))
+        least = able[0].bill.a_piece if able else math.inf
+        tempting = [
+            each
+            for each in judged
+            if each.late > self.late and each.bill.a_piece < least and not self._is_hopeless(each)
+        ]
+        tempting.sort(key=lambda each: (each.late, each.number))
+        pairs = itertools.zip_longest(able[:PARENTS], tempting[:PARENTS])
+        return [each for pair in pairs for each in pair if each]
 
     def _is_able(self, each: Candidate) -> bool:
         """Returns whether a candidate is in time by all that is known."""
@@ -204,12 +214,22 @@ class Search:
     def _is_refuted(self, each: Candidate) -> bool:
         """Returns whether whole days rule a layout out: all with the same stations were late, and
         these are many, or one of them had the same policies and no fewer robots."""
-        alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
-        if any(day.late <= self.late for day in alike):
-            return False
-        return len(alike) >= HOPELESS or any(
-            day.robots >= each.robots and _policies_of(day) == _policies_of(each) for day in alike
+        return self._is_hopeless(each) or any(
+            day.robots >= each.robots and _policies_of(day) == _policies_of(each)
+            for day in self._late_alike(each)
         )
+
+    def _is_hopeless(self, each: Candidate) -> bool:
+        """Returns whether many with the same stations were late by whole days, and none nearly in
+        time."""
+        late = [day.late for day in self._late_alike(each)]
+        return len(late) >= HOPELESS and min(late) > NEARLY * self.late
+
+    def _late_alike(self, each: Candidate) -> list[Candidate]:
+        """Returns the layouts with the same stations that were late by whole days; [] where one of
+        them was in time."""
+        alike = [day for day in self._days.values() if _stations_of(day) == _stations_of(each)]
+        return alike if all(day.late > self.late for day in alike) else []
 
     def _judge_short(self, chosen: Sequence[Chosen]) -> None:
         """Judges parameters that are new by a short shift each."""

@@ -6,10 +6,19 @@ process      a roslaunch with a master, ports, a ROS_HOME and a log of its own
 simulation   one simulation: its wish, its process, its state
 guest        a warehouse that was launched elsewhere, and shows itself in the hub
 simulations  all of them: limits, persistence, the look at each once a second
+what_if      the what-if page's requests
 insertion    adds a world to a simulation that runs
+saving       saves the world of a simulation that runs
+worlds       worlds by name, and those that were saved
+keeping      keeps the last hour of a simulation as a recording
+recordings   recordings that are played, without a simulation that runs
+journal      what was changed by whom
 forms        launch arguments as fields, with their documentation
 proxy        passes what comes beneath /s/NAME/ on to that simulation's pages
 assistant    starts the assistant's server, which answers at /mcp
+answers      what the endpoints have in common: bodies, errors, the journal
+simulations_api, shelf_api   the endpoints: simulations; worlds, recordings, the journal
+served_pages pages beneath the hub: of simulations, of recordings; the assistant
 routes       the HTTP API
 application  all of it behind one address
 """

@@ -8,18 +8,20 @@ from pathlib import Path
 from types import FrameType
 
 from starlette.applications import Starlette
+from starlette.routing import Route
 from starlette.types import ASGIApp
 
 from warehouse_sim.hub.assistant import Assistant
+from warehouse_sim.hub.journal import Journal
+from warehouse_sim.hub.recordings import Recordings
 from warehouse_sim.hub.routes import routes
 from warehouse_sim.hub.simulations import Simulations
+from warehouse_sim.hub.what_if import WhatIf
 from warehouse_viewer.editor.routes import Editor
 from warehouse_viewer.server import documentation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import Server, config_of
 from warehouse_viewer.server.site import DOCS, HUB, LAYOUT, WHATIF, Site
-from warehouse_viewer.whatif.routes import routes as whatif_routes
-from warehouse_viewer.whatif.workshop import Workshop
 
 # Requests a second of each address: the pages of several simulations and the assistant's own
 # requests come from one.
@@ -27,7 +29,7 @@ RATE = 400.0
 
 
 class Hub:
-    """Simulations, what-if, editor and documentation; run() serves until it is stopped.
+    """Simulations, recordings, what-if, editor and documentation; run() serves until it is stopped.
 
     tokens: the token that every client needs, "": without, and an alternative one.
     """
@@ -35,18 +37,26 @@ class Hub:
     def __init__(
         self,
         simulations: Simulations,
-        workshop: Workshop,
+        recordings: Recordings,
+        journal: Journal,
+        what_if: WhatIf,
         assistant: Callable[[], Assistant],
         tokens: tuple[str, str] = ("", ""),
     ) -> None:
-        self._simulations, self._workshop = simulations, workshop
+        self._simulations, self._what_if = simulations, what_if
+        self._recordings = recordings
         self._make_assistant = assistant
         self._assistant: Assistant | None = None
         application = Starlette(
             routes=[
-                *routes(simulations, lambda: self._assistant or Assistant(None, "")),
-                *whatif_routes(workshop),
-                *Editor(compares=True).routes(),
+                *routes(
+                    simulations,
+                    recordings,
+                    journal,
+                    lambda: self._assistant or Assistant(None, ""),
+                ),
+                Route(f"{WHATIF.path}/{{rest:path}}", what_if),
+                *Editor(compares=True, starts=True).routes(),
                 *Site(HUB, LAYOUT, WHATIF, DOCS).routes(),
                 *documentation.routes(),
             ]
@@ -70,7 +80,8 @@ class Hub:
         try:
             self.server.run(sockets=[listener])
         finally:
-            self._workshop.close()
+            self._recordings.close()
+            self._what_if.close()
 
 
 class _HubServer(Server):

@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from warehouse_sim.hub.simulation import TIMEOUT, Simulation, State
+from warehouse_sim.hub.simulation import TIMEOUT, Simulation, State, orders_of
 from warehouse_sim.hub.wish import Wish, WishError
 from warehouse_viewer.server.hub_link import ask
 
@@ -39,3 +39,4 @@ class Guest(Simulation):
             self._warehouse = ask("GET", f"{self.viewer}/api/v1/warehouse", timeout=TIMEOUT)
             self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
             self._heard = time.monotonic()
+            self._orders = orders_of(self.viewer)

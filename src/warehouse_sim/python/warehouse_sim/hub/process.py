@@ -18,6 +18,7 @@ from warehouse_sim.hub.wish import Wish
 PATIENCE = 8.0  # for roslaunch to end its nodes [s, wall]
 TIMEOUT = 2.0  # for the master to answer [s, wall]
 COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\]2;[^\x07]*\x07")
+END = "Initiating shutdown!"  # of roslaunch, once a required process has died
 # Lines of roslaunch without a cause.
 NOISE = re.compile(
     r"\s*$|.*(log file|logging to|done checking|press ctrl-c|started roslaunch|REQUIRED process|"
@@ -114,6 +115,7 @@ class Process:
         """Returns the last lines of its log that may name a cause, as one text."""
         with suppress(OSError):
             text = COLOURS.sub("", self._log.read_text(errors="replace")[-20_000:])
+            text = text.partition(END)[0]  # other nodes end after it, some with tracebacks
             lines = [line.strip() for line in text.splitlines() if not NOISE.match(line)]
             return "\n".join(lines[-6:])[-1000:]
         return ""

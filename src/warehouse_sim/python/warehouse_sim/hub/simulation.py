@@ -8,8 +8,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from warehouse_sim.hub import keeping
 from warehouse_sim.hub.process import Process
 from warehouse_sim.hub.wish import Wish
+from warehouse_viewer.replay.file import NAME as RECORDING
 from warehouse_viewer.server.hub_link import ask
 
 TIMEOUT = 3.0  # for the pages of a simulation to answer [s, wall]
@@ -43,6 +45,7 @@ class Simulation:
         self.used = time.monotonic()  # time of the last request to its pages [s, wall]
         self._begun = 0.0  # [s, wall]
         self._warehouse: dict[str, Any] = {}
+        self._orders: dict[str, Any] = {}
 
     @property
     def lives(self) -> bool:
@@ -59,7 +62,9 @@ class Simulation:
             "world": seen_now.get("name") or self.wish.arguments.get("world", ""),
             "robots": seen_now.get("robots", 0),
             "storage_units": seen_now.get("storage_units", 0),
+            "items": seen_now.get("items", 0),
             "rtf": seen_now.get("real_time_factor", 0.0),
+            "orders": self._orders if self.lives else {},
             "uptime_s": round(time.monotonic() - self._begun, 1) if self.lives else 0.0,
             "url": f"/s/{self.wish.name}/",
             "reason": self.reason,
@@ -73,13 +78,31 @@ class Simulation:
         """Starts its process. Raises OSError."""
         (self.folder / "simulation.json").write_text(json.dumps(self.wish.as_json(), indent=1))
         (self.folder / "log.txt").write_bytes(b"")
-        self._warehouse, self.viewer, self.reason = {}, "", ""
+        self._warehouse, self._orders, self.viewer, self.reason = {}, {}, "", ""
         self.process = Process(self.wish, self.folder, environment)
         self._begun = self.used = time.monotonic()
         self.state = State.STARTING
 
-    def stop(self, state: State = State.STOPPED, reason: str = "") -> None:
+    def keep_recording(self) -> int:
+        """Writes the last hour of its pages into a file of its folder; returns the size [bytes], 0
+        where there is nothing yet.
+
+        Raises OSError, ValueError.
+        """
+        if not self.viewer:
+            raise OSError("its pages are not served")
+        try:
+            return keeping.keep(self.viewer, self.folder / RECORDING, {"name": self.wish.name})
+        except keeping.ERRORS as error:
+            raise OSError(f"its recording can't be kept: {error}") from error
+
+    def stop(
+        self, state: State = State.STOPPED, reason: str = "", keeps_recording: bool = True
+    ) -> None:
         """Ends its process, cleanly if that is quick; its state becomes STOPPED or FAILED."""
+        if self.viewer and keeps_recording:
+            with suppress(OSError):
+                self.keep_recording()
         if self.process:
             self.process.end()
         self.process, self.viewer = None, ""
@@ -105,3 +128,13 @@ class Simulation:
         with suppress(OSError, ValueError):
             self._warehouse = ask("GET", f"{self.viewer}/api/v1/warehouse", timeout=TIMEOUT)
             self.state = State.PAUSED if self._warehouse["paused"] else State.RUNNING
+            self._orders = orders_of(self.viewer)
+
+
+def orders_of(viewer: str) -> dict[str, Any]:
+    """Returns how the orders of a shift stand, by the pages at `viewer`; {} without a shift."""
+    try:
+        kpis = ask("GET", f"{viewer}/api/v1/kpis", timeout=TIMEOUT)
+        return {key: kpis[f"orders_{key}"] for key in ("waiting", "at_stations", "completed")}
+    except (OSError, ValueError, KeyError):
+        return {}

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from warehouse_sim.hub import insertion, wish
+from warehouse_sim.hub import insertion, saving, wish
 from warehouse_sim.hub.guest import Guest
 from warehouse_sim.hub.simulation import Simulation, State
-from warehouse_sim.hub.wish import NAME, Wish
+from warehouse_sim.hub.wish import NAME, Wish, WishError
+from warehouse_sim.hub.worlds import Worlds
 
 INTERVAL, INTERVAL_STARTING = 1.0, 0.2  # between two checks [s, wall]
 MOST_KEPT = 200  # simulations that are listed, STOPPED ones included
@@ -43,11 +44,13 @@ class Limits:
 class Simulations:
     """The simulations of a folder. Coroutines belong to one asyncio loop.
 
-    `environment` is that of the processes.
+    `environment` is that of the processes; `worlds` has worlds that were saved.
     """
 
-    def __init__(self, folder: Path, limits: Limits, environment: Mapping[str, str]) -> None:
-        self._folder, self._limits = folder, limits
+    def __init__(
+        self, folder: Path, limits: Limits, environment: Mapping[str, str], worlds: Worlds
+    ) -> None:
+        self._folder, self._limits, self.worlds = folder, limits, worlds
         self._environment = dict(environment)
         self._all: dict[str, Simulation] = {}
         self._locks: dict[str, asyncio.Lock] = {}
@@ -64,6 +67,11 @@ class Simulations:
         """Returns all simulations as the API lists them, running ones first."""
         ordered = sorted(self._all.values(), key=lambda s: (not s.lives, s.wish.name))
         return [simulation.row() for simulation in ordered]
+
+    def folders(self) -> list[tuple[str, Path]]:
+        """Returns the name and the folder of each simulation that was started here."""
+        own = (s for s in [*self._all.values()] if not isinstance(s, Guest))
+        return [(simulation.wish.name, simulation.folder) for simulation in own]
 
     def __getitem__(self, name: str) -> Simulation:
         """Returns the simulation of that name. Raises Missing."""
@@ -84,7 +92,7 @@ class Simulations:
         Raises WishError where the body is wrong, Conflict where the name is taken or the limit of
         simulations is reached, OSError.
         """
-        asked = await self._in_thread(wish.read, body, self._folder)
+        asked = await self._in_thread(wish.read, self._with_saved_world(body), self._folder)
         async with self._lock(asked.name):
             if asked.name in self._all:
                 text = "another name, or DELETE it with ?forget=true"
@@ -104,6 +112,13 @@ class Simulations:
                 shutil.rmtree(folder, ignore_errors=True)
                 raise
         return simulation
+
+    def _with_saved_world(self, body: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Returns the body of a request in which a saved world is named by its path."""
+        world = body.get("world")
+        return (
+            body if not isinstance(world, str) else {**body, "world": self.worlds.resolved(world)}
+        )
 
     async def join(self, name: str, body: Mapping[str, Any]) -> Simulation:
         """Lists a warehouse that runs elsewhere on this machine, at the body's `address`.
@@ -145,11 +160,17 @@ class Simulations:
             if isinstance(simulation, Guest):
                 raise Conflict(f"'{name}' was started elsewhere; end it there, by Ctrl-C")
             if simulation.lives or simulation.process:
-                await self._in_thread(simulation.stop)
+                await self._in_thread(simulation.stop, State.STOPPED, "", not forget)
             if forget:
                 del self._all[name]
                 await self._in_thread(shutil.rmtree, simulation.folder, True)
             return simulation
+
+    async def restart(self, name: str) -> Simulation:
+        """Ends a simulation that runs, and starts it again. Raises Missing, Conflict, OSError."""
+        if self[name].lives:
+            await self.stop(name)
+        return await self.start_again(name)
 
     async def insert(self, name: str, body: Mapping[str, Any]) -> str:
         """Adds the models of a world to a running simulation; returns what was added.
@@ -157,10 +178,36 @@ class Simulations:
         Raises Missing, Conflict if something stands there or it does not run, WishError.
         """
         async with self._lock(f"insert {name}"):
-            simulation = self[name]
-            if not simulation.viewer or simulation.process is None:
-                raise Conflict(f"'{name}' is {simulation.state.value}; it must run")
-            return await self._in_thread(insertion.insert, simulation, body)
+            simulation = self._running(name)
+            return await self._in_thread(insertion.insert, simulation, self._with_saved_world(body))
+
+    async def save_world(self, name: str, body: Mapping[str, Any]) -> dict[str, Any]:
+        """Saves the world of a simulation that runs under a name; returns what was saved.
+
+        Raises Missing, Conflict, Taken, WishError, OSError.
+        """
+        if unknown := sorted(body.keys() - {"world", "replace"}):
+            raise WishError(unknown[0][:100], "world and replace were expected")
+        async with self._lock(f"insert {name}"):
+            simulation = self._running(name)
+            path = self.worlds.new_path(body.get("world"), body.get("replace", False))
+            return await self._in_thread(saving.save, simulation, path)
+
+    async def keep_recording(self, name: str) -> int:
+        """Keeps the last hour of a simulation that runs; returns its size [bytes].
+
+        Raises Missing, Conflict, OSError.
+        """
+        async with self._lock(f"keep {name}"):
+            return await self._in_thread(self._running(name).keep_recording)
+
+    def _running(self, name: str) -> Simulation:
+        simulation = self[name]
+        if isinstance(simulation, Guest):
+            raise Conflict(f"'{name}' was started elsewhere; the hub does not change it")
+        if not simulation.viewer or simulation.process is None:
+            raise Conflict(f"'{name}' is {simulation.state.value}; it must run")
+        return simulation
 
     async def watch(self) -> None:
         """Checks all simulations until it is cancelled."""

@@ -31,12 +31,17 @@ Answer = dict[str, Any]
 
 class Editor:
     """What the page asks. file: the one that it edits, if any; builds: whether the HTTP API of a
-    running warehouse is behind the same address; compares: whether the page /whatif is."""
+    running warehouse is behind the same address, starts: that of a hub; compares: whether the page
+    /whatif is."""
 
     def __init__(
-        self, file: Path | None = None, builds: bool = False, compares: bool = False
+        self,
+        file: Path | None = None,
+        builds: bool = False,
+        compares: bool = False,
+        starts: bool = False,
     ) -> None:
-        self._file, self._builds, self._compares = file, builds, compares
+        self._file, self._builds, self._compares, self._starts = file, builds, compares, starts
         self._saves = bool(file and file.name.endswith(layout_file.SUFFIX))
         self._trials = 0
 
@@ -57,6 +62,7 @@ class Editor:
             "limits": LIMITS | {"stations": MOST_STATIONS},
             "builds": self._builds,
             "compares": self._compares,
+            "starts": self._starts,
             "file": str(self._file.resolve()) if self._file else "",
             "saves": self._saves,
         }

@@ -21,7 +21,8 @@ MOST_BODY = 64 * 1024  # [bytes]
 MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts, worlds and tables of orders are sent
 # Paths where layouts, worlds and tables of orders are sent, also of a simulation in a hub.
 TAKES_LAYOUTS = re.compile(
-    r"(/s/[^/]+)?(/(layout|whatif)/.*|/api/v1/(warehouse|orders/table|simulations(/[^/]+/worlds)?))"
+    r"(/s/[^/]+)?(/(layout|whatif)/.*"
+    r"|/api/v1/(warehouse|orders/table|worlds/[^/]+|simulations(/[^/]+/worlds)?))"
 )
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"

@@ -114,6 +114,26 @@ export async function build(editor, post) {
   }
 }
 
+/** Starts a warehouse of the drawing in the hub, with a shift, and goes to where it is listed. */
+export async function start(editor) {
+  try {
+    const wished = editor.drawing.name.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '').slice(0, 30);
+    const taken = (await request('GET', '/api/v1/simulations')).simulations.map(({ name }) => name);
+    const name = free(wished || 'drawing', taken);
+    await request('POST', '/api/v1/simulations', { name, shift: true, layout: textOf(editor.drawing).text });
+    location.assign('/');
+  } catch (error) {
+    editor.say(error.message, 'refused');
+  }
+}
+
+function free(base, taken) {
+  for (let i = 1; ; i++) {
+    const name = i === 1 ? base : `${base}-${i}`;
+    if (!taken.includes(name)) return name;
+  }
+}
+
 /** Hands the drawing to the page /whatif as a layout to be compared, and goes there. */
 export async function compare(editor) {
   try {

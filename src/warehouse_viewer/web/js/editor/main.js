@@ -5,7 +5,7 @@ import { post, reloadIfLockedOut } from '../base/api.js';
 import { $, enable, make, on, onTheme } from '../base/dom.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
-import { build, compare, Files, showLost } from './files.js';
+import { build, compare, Files, showLost, start } from './files.js';
 import { Keyboard, KEYS } from './keyboard.js';
 import { Palette } from './palette.js';
 import { Panel } from './panel.js';
@@ -16,7 +16,7 @@ import { Store } from './store.js';
 import { Trial } from './trial.js';
 
 const STAYS = 6000; // [ms] that a word to the person stays
-const NONE = { presets: {}, limits: {}, builds: false, compares: false, file: '', saves: false };
+const NONE = { presets: {}, limits: {}, builds: false, compares: false, starts: false, file: '', saves: false };
 
 function say(text, kind = '') {
   Object.assign($('said'), { textContent: text, hidden: false });
@@ -80,6 +80,9 @@ async function main() {
   begin(editor, store, about);
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
+  $('start').hidden = !about.starts;
+  $('build').hidden = about.starts;
+  on($('start'), 'click', () => start(editor));
   $('compare').hidden = !about.compares;
   on($('compare'), 'click', () => compare(editor));
   on($('build'), 'click', () => build(editor, post));

@@ -28,7 +28,7 @@ export class Card {
 
   show(row) {
     this.row = row;
-    const lives = ['RUNNING', 'PAUSED'].includes(row.state);
+    const lives = isShown(row.state);
     setText(this.badge, row.state.toLowerCase());
     this.badge.className = `badge ${COLOURS[row.state]}`;
     this.link.href = this.open.href = row.url;
@@ -45,7 +45,8 @@ export class Card {
     const texts = Object.entries(row.arguments).map(([name, value]) => `${name}:=${value}`).join(' ');
     const lives = row.uptime_s > 0;
     const facts = {
-      Robots: lives && row.robots, Speed: lives && row.rtf ? `×${number(row.rtf, 2)}` : '',
+      Robots: lives && row.robots > 0 && number(row.robots), Size: lives && row.storage_units ? `${number(row.storage_units)} storage units, ${number(row.items)} items` : '',
+      Orders: lives && ordersOf(row.orders), Speed: lives && row.rtf ? `×${number(row.rtf, 2)}` : '',
       Runs: lives && durationOf(row.uptime_s), Arguments: texts,
     };
     const pairs = Object.entries(facts).filter(([, value]) => value);
@@ -62,12 +63,19 @@ export class Card {
   }
 }
 
-function isOffered(text, state) {
-  const lives = ['STARTING', 'RUNNING', 'PAUSED'].includes(state);
-  return { Start: !lives, Delete: !lives, Stop: lives, 'Insert a world': state === 'RUNNING' || state === 'PAUSED' }[text] ?? true;
+function ordersOf({ waiting, at_stations: atStations, completed } = {}) {
+  return completed === undefined ? '' : `${waiting} wait, ${atStations} at stations, ${completed} done`;
 }
 
-function durationOf(seconds) {
+function isOffered(text, state) {
+  const lives = ['STARTING', 'RUNNING', 'PAUSED'].includes(state);
+  return { Start: !lives, Delete: !lives, Stop: lives, Restart: lives,
+    'Insert a world': isShown(state), 'Save as': isShown(state), 'Keep recording': isShown(state) }[text] ?? true;
+}
+
+const isShown = (state) => state === 'RUNNING' || state === 'PAUSED';
+
+export function durationOf(seconds) {
   const minutes = Math.floor(seconds / 60);
   if (minutes < 1) return `${Math.round(seconds)} s`;
   return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;

@@ -5,6 +5,8 @@ import { $, make, on, setText } from '../base/dom.js';
 import { confirmed } from '../base/question.js';
 import { Card } from './card.js';
 import { WishForm } from './form.js';
+import { Lists } from './lists.js';
+import { SaveForm } from './save.js';
 import * as server from './server.js';
 
 const PERIOD = 1000; // between two looks at the list [ms]
@@ -13,6 +15,8 @@ class Page {
   constructor() {
     this.cards = new Map();
     this.form = new WishForm(() => this.look());
+    this.saving = new SaveForm((text) => this.say(text));
+    this.lists = new Lists();
     on($('new'), 'click', () => this.form.open(this.freeName('warehouse')).catch((error) => this.say(error.message)));
     on($('begin'), 'click', () => this.create({ size: 'small', shift: true }));
     on($('drive'), 'click', () => this.create({ size: 'small' }));
@@ -34,12 +38,16 @@ class Page {
     const rows = await server.list().catch(() => null);
     $('link').dataset.state = rows ? 'live' : 'away';
     setText($('link'), rows ? 'live' : 'the hub does not answer');
-    if (rows) this.show(rows);
+    if (!rows) return;
+    this.show(rows);
+    await this.lists.look();
   }
 
   show(rows) {
     this.rows = rows;
-    $('welcome').hidden = rows.some(({ state }) => ['STARTING', 'RUNNING', 'PAUSED'].includes(state));
+    const runs = rows.some(({ state }) => ['STARTING', 'RUNNING', 'PAUSED'].includes(state));
+    $('welcome').hidden = runs;
+    this.playExample(!runs);
     for (const [name, card] of this.cards) {
       if (rows.some((row) => row.name === name)) continue;
       card.element.remove();
@@ -51,11 +59,20 @@ class Page {
     }
   }
 
+  /** Plays a recorded shift while nothing runs; it is fetched after the first view. */
+  async playExample(isWanted) {
+    if (isWanted) this.example ??= import('./example.js').then(({ Example }) => new Example()).catch(() => null);
+    (await this.example)?.show(isWanted);
+  }
+
   added(name) {
     const card = new Card(name, {
       'Insert a world': (row) => this.openInsert(row),
+      'Save as': (row) => this.saving.open(row.name),
+      'Keep recording': (row) => this.doing(server.keepRecording(row.name), `the last hour of ${row.name} is kept`),
       Log: (row) => this.showLog(row),
       Start: (row) => this.doing(server.start(row.name), `${row.name} starts`),
+      Restart: (row) => this.restart(row),
       Stop: (row) => this.stop(row),
       Delete: (row) => this.forget(row),
     });
@@ -81,6 +98,11 @@ class Page {
     if (await confirmed(`Stop ${row.name}?`, text, 'Stop')) await this.doing(server.stop(row.name), `${row.name} has ended`);
   }
 
+  async restart(row) {
+    const text = 'It ends and begins again with the same arguments; a shift goes on where its database has it.';
+    if (await confirmed(`Restart ${row.name}?`, text, 'Restart')) await this.doing(server.restart(row.name), `${row.name} starts again`);
+  }
+
   async forget(row) {
     const text = 'Its log, its recordings and the database of its shift are deleted.';
     if (await confirmed(`Delete ${row.name}?`, text, 'Delete')) await this.doing(server.stop(row.name, true), `${row.name} is deleted`);
@@ -90,18 +112,18 @@ class Page {
     this.target = row.name;
     setText($('insert-title'), `Insert a world into ${row.name}`);
     $('insert-answer').hidden = true;
-    if (!$('worlds').childElementCount) {
-      server.argumentsOf().then(({ worlds }) => $('worlds').replaceChildren(...worlds.map((value) => make('option', { value }))));
-    }
+    server.argumentsOf().then(({ worlds }) => $('worlds').replaceChildren(...worlds.map((value) => make('option', { value }))));
     $('insert').showModal();
   }
 
   async insert() {
-    const { world, file, x, y, yaw } = $('insert-form').elements;
+    const { world, file, x, y, yaw, keep } = $('insert-form').elements;
     const content = file.files[0] ? await file.files[0].text() : world.value.trim();
     const place = { x: Number(x.value), y: Number(y.value), yaw: Number(yaw.value) };
     try {
+      if (keep.value.trim() && !file.files[0]) throw new Error('keep the file as: choose a file first; a named world is kept already');
       const { message } = await server.insert(this.target, { world: content, ...place });
+      if (keep.value.trim()) await server.keepWorld(keep.value.trim(), content);
       $('insert').close();
       this.say(message);
     } catch (error) {

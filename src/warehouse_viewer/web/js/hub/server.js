@@ -10,6 +10,12 @@ export const list = async () => (await ask('GET', SIMULATIONS)).simulations;
 export const argumentsOf = () => ask('GET', '/api/v1/simulation-arguments');
 export const create = (wish) => ask('POST', SIMULATIONS, wish);
 export const start = (name) => ask('POST', pathOf(name, '/start'));
+export const restart = (name) => ask('POST', pathOf(name, '/restart'));
+export const save = (name, asked) => ask('POST', pathOf(name, '/save'), asked);
+export const keepRecording = (name) => ask('POST', pathOf(name, '/recording'));
+export const keepWorld = (world, text) => ask('PUT', `/api/v1/worlds/${encodeURIComponent(world)}`, { text });
+export const recordings = async () => (await ask('GET', '/api/v1/recordings')).recordings;
+export const journal = async (since) => (await ask('GET', `/api/v1/journal?since=${since}`)).entries;
 export const stop = (name, forget = false) => ask('DELETE', pathOf(name, forget ? '?forget=true' : ''));
 export const insert = (name, world) => ask('POST', pathOf(name, '/worlds'), world);
 

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import urllib.error
@@ -52,12 +53,53 @@ def test_a_warehouse_from_request_to_end(hub):
     status, answer = hub.ask("POST", path, {"world": "mars"})
     assert (status, answer["field"]) == (422, "world")
 
+    # What stands there now is saved under a name, by which it is started and inserted.
+    path = "/api/v1/simulations/one/save"
+    status, answer = hub.ask("POST", path, {"world": "mine"})
+    assert (status, answer["world"]) == (201, "mine"), answer
+    assert re.search(r"saved \d+ models", answer["message"]) and "left out" not in answer["message"]
+    status, answer = hub.ask("POST", path, {"world": "mine"})
+    assert status == 409 and "replace: true" in answer["detail"]
+    assert hub.ask("POST", path, {"world": "mine", "replace": True})[0] == 201
+    status, answer = hub.ask("POST", path, {"world": "My Hall"})
+    assert (status, answer["field"]) == (422, "world")
+    assert hub.ask("POST", path, {"world": "paper"})[0] == 409
+    names = [row["name"] for row in hub.ask("GET", "/api/v1/worlds")[1]["worlds"]]
+    assert names[0] == "mine" and "paper" in names
+    status, row = hub.ask("POST", "/api/v1/simulations", {"name": "two", "world": "mine"})
+    assert status == 202, row
+    row = hub.wait_for("two", "RUNNING")
+    assert (row["robots"], row["storage_units"]) == (6, 27), row["reason"]
+    status, answer = hub.ask("POST", "/api/v1/simulations/two/worlds", {"world": "mine"})
+    assert status == 409 and "would stand in" in answer["detail"], answer
+    body = {"world": "mine", "x": -300, "y": 0}
+    assert hub.ask("POST", "/api/v1/simulations/two/worlds", body)[0] == 201
+    hub.ask("DELETE", "/api/v1/simulations/two?forget=true")
+
+    assert hub.ask("POST", "/s/one/api/v1/simulation/resume", {})[0] == 200
+    path = "/s/one/recording/index"
+    until(lambda: hub.ask("GET", path)[1]["end"] > hub.ask("GET", path)[1]["begin"], "it stands")
+
     below = descendants(hub.process.pid)
     status, row = hub.ask("DELETE", "/api/v1/simulations/one")
     assert (status, row["state"]) == (200, "STOPPED")
     until(lambda: not living(below), "processes are left")
     assert (hub.home / "warehouse/hub/one/log.txt").exists()
     assert hub.ask("GET", "/s/one/")[0] == 503
+
+    # Its last hour plays without it, and the journal says who did all that.
+    recordings = hub.ask("GET", "/api/v1/recordings")[1]["recordings"]
+    (kept,) = (row for row in recordings if row["name"] == "one")
+    assert kept["url"] == "/recordings/one/" and kept["seconds"] > 0, kept
+    index = hub.ask("GET", "/recordings/one/recording/index")[1]
+    assert index["chunks"] and not index["live"]
+    entries = hub.ask("GET", "/api/v1/journal?simulation=one")[1]["entries"]
+    actions = [entry["action"] for entry in entries]
+    assert actions == ["start", "insert a world", "save the world", "save the world", "stop"]
+    assert (
+        entries[0]["who"].startswith("Python-urllib/")
+        and '"size": "small"' in entries[0]["arguments"]
+    )
     hub.ask("DELETE", "/api/v1/simulations/one?forget=true")
     assert not (hub.home / "warehouse/hub/one").exists()
     assert hub.ask("GET", "/api/v1/simulations/one")[0] == 404
@@ -92,6 +134,56 @@ def test_a_simulation_that_dies_says_why(hub):
     assert row["state"] == "FAILED"
     assert "gazebo" in row["reason"]
     until(lambda: not living(below), "processes are left")
+
+
+def test_what_is_kept_needs_no_simulation(hub):
+    recordings = hub.ask("GET", "/api/v1/recordings")[1]["recordings"]
+    assert [row["name"] for row in recordings] == ["at_work"]
+    for path in ("/", "/layout", "/whatif", "/recordings/at_work/", "/whatif/scenarios"):
+        with urllib.request.urlopen(hub.url + path) as answer:
+            assert answer.status == 200, path
+    for path in ("/recordings/none/", "/api/v1/worlds/none", "/s/none/"):
+        assert hub.ask("GET", path)[0] == 404, path
+    sdf = (
+        '<sdf version="1.9"><world name="a"><model name="m"><link name="l"/></model></world></sdf>'
+    )
+    assert hub.ask("PUT", "/api/v1/worlds/mine", {"text": sdf})[0] == 201
+    with urllib.request.urlopen(f"{hub.url}/api/v1/worlds/mine") as answer:
+        assert answer.read().decode() == sdf
+    assert hub.ask("DELETE", "/api/v1/worlds/mine")[0] == 200
+    entries = hub.ask("GET", "/api/v1/journal")[1]["entries"]
+    assert [entry["action"] for entry in entries] == ["save a world", "delete a world"]
+
+
+@pytest.mark.parametrize(
+    "method, path, body, status, reason",
+    [
+        ("PUT", "/api/v1/worlds/mine", {"text": "<robot/>"}, 422, "<world> was expected"),
+        ("PUT", "/api/v1/worlds/mine", {"name": "x"}, 422, "text and replace were expected"),
+        ("DELETE", "/api/v1/worlds/paper", None, 409, "comes with the warehouse"),
+        ("POST", "/api/v1/simulations/none/save", {"world": "a"}, 404, "no simulation 'none'"),
+        ("POST", "/api/v1/simulations/none/restart", {}, 404, "no simulation 'none'"),
+        ("POST", "/api/v1/simulations/none/recording", {}, 404, "no simulation 'none'"),
+        ("GET", "/api/v1/journal?since=-1", None, 422, "since: a whole number from 0"),
+        ("GET", "/api/v1/journal?limit=all", None, 422, "limit: a whole number from 0"),
+        ("POST", "/api/v1/journal", {"who": "x"}, 422, "action: a text was expected"),
+        ("POST", "/api/v1/journal", {"who": "x", "action": "y", "z": 1}, 422, "z: "),
+        ("POST", "/api/v1/journal", {"who": "x", "action": "y", "done": 1}, 422, "done: true or"),
+    ],
+)
+def test_wrong_requests_name_what_is_wrong(hub, method, path, body, status, reason):
+    answer = hub.ask(method, path, body)
+    assert answer[0] == status and reason in answer[1]["detail"], answer
+
+
+def test_a_restart_begins_again(hub):
+    hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
+    hub.wait_for("one", "RUNNING")
+    below = descendants(hub.process.pid)
+    status, row = hub.ask("POST", "/api/v1/simulations/one/restart", {})
+    assert (status, row["state"]) == (202, "STARTING")
+    assert not living(below)
+    assert hub.wait_for("one", "RUNNING")["state"] == "RUNNING"
 
 
 @pytest.mark.parametrize("body", ["{", "[]", '{"name": 3}', "null"])

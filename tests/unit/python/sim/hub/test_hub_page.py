@@ -42,6 +42,31 @@ def test_1_a_wrong_value_is_said_beside_its_field(page):
     click(page, "document.getElementById('wish-cancel')")
 
 
+def test_1_a_recorded_shift_plays_until_a_warehouse_runs(page):
+    page.until("!document.getElementById('example').hidden")
+    at = "page.example.then((example) => window.seen = example.player.time) && window.seen"
+    page.until(f"{at} > 0")
+    first = page.read("window.seen")
+    page.until(f"{at} > {first} + 1")
+    drawn = "document.getElementById('example-floor').getContext('2d').getImageData(0, 0, 300, 150)"
+    assert page.read(f"{drawn}.data.some((b) => b)")
+    click(page, "document.getElementById('example-play')")
+    assert page.read("document.getElementById('example-play').textContent") == "Play"
+    assert page.read("document.querySelectorAll('#recording-list a').length") == 1
+
+
+def test_1_all_of_the_house_needs_no_simulation(hub, page):
+    page.open(f"{hub.url}/recordings/at_work/")
+    page.until("window.page?.timeline?.player?.chunk")
+    page.until("page.world.scene.robots.length >= 4")
+    assert page.until("document.querySelector('.site a')?.getAttribute('href')") == "/"
+    for path in ("/layout", "/whatif"):
+        page.open(hub.url + path)
+        page.until("document.querySelectorAll('.site a').length >= 3")
+    page.open(hub.url + "/")
+    page.until(LIVE)
+
+
 def test_2_one_click_starts_a_warehouse_at_work(page):
     click(page, "document.getElementById('begin')")
     page.until(f"{STATE} === 'running'")
@@ -49,6 +74,29 @@ def test_2_one_click_starts_a_warehouse_at_work(page):
     page.until(f"{drawn}.getContext('2d').getImageData(0, 0, 300, 150).data.some((b) => b)")
     if axe.is_there():
         assert axe.findings(page) == []
+
+
+def test_2_its_card_has_size_and_orders(page):
+    facts = "document.querySelector('.simulation dl').textContent"
+    page.until(f"{facts}.includes('24 storage units')")
+    page.until(f"/Orders\\d+ wait, \\d+ at stations/.test({facts})")
+    assert page.until("document.getElementById('example').offsetParent === null")
+
+
+def test_2_its_world_is_saved_under_a_name(hub, page):
+    click(page, BUTTON.format("Save as"))
+    page.until("document.getElementById('save').open")
+    page.driver.execute_script("document.querySelector('#save-form [name=world]').value = 'paper'")
+    click(page, "document.querySelector('#save-form .answers .strong')")
+    page.until("document.getElementById('save-answer').textContent.includes('another name')")
+    page.driver.execute_script("document.querySelector('#save-form [name=world]').value = 'mine'")
+    click(page, "document.querySelector('#save-form .answers .strong')")
+    page.until("document.getElementById('answer').textContent.includes('saved')")
+    assert hub.ask("GET", "/api/v1/worlds")[1]["worlds"][0]["name"] == "mine"
+    click(page, BUTTON.format("Insert a world"))
+    page.until("[...document.getElementById('worlds').options].some((o) => o.value === 'mine')")
+    click(page, "document.getElementById('insert-cancel')")
+    page.until("document.getElementById('journal-list').textContent.includes('save the world')")
 
 
 def test_3_its_own_pages_are_live_beneath_its_name(hub, page):
@@ -73,3 +121,20 @@ def test_4_its_log_is_shown_and_it_ends(hub, page):
     click(page, "document.getElementById('question-yes')")
     page.until(f"{STATE} === 'stopped'")
     assert hub.ask("GET", "/api/v1/simulations/small")[1]["state"] == "STOPPED"
+    page.until("document.getElementById('recording-list').textContent.includes('small')")
+
+
+def test_5_a_drawing_of_the_editor_is_started(hub, page):
+    page.open(f"{hub.url}/layout")
+    page.until("window.page?.editor && !document.getElementById('start').hidden")
+    new = "fetch('/layout/new', {method: 'POST', headers: {'content-type': 'application/json'},"
+    counts = "body: JSON.stringify({robots: 2, units: 8, items: 16, stations: 1})})"
+    page.driver.execute_script(
+        f"{new} {counts}.then((r) => r.json()).then((d) => page.editor.open(d));"
+    )
+    page.until("page.editor.bounds")
+    click(page, "document.getElementById('start')")
+    page.until("location.pathname === '/'")
+    rows = hub.ask("GET", "/api/v1/simulations")[1]["simulations"]
+    name = next(row["name"] for row in rows if row["state"] != "STOPPED")
+    assert hub.wait_for(name, "RUNNING")["robots"] == 2

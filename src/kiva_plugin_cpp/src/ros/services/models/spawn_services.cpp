@@ -53,8 +53,8 @@ void checkNames(const kiva::World& world, const SpawnServices::Document& documen
 }  // namespace
 
 SpawnServices::SpawnServices(ros::NodeHandle& node, SimulationThread& simulation,
-                             kiva::ModelPaths model_paths)
-    : simulation_(simulation), model_paths_(std::move(model_paths)) {
+                             kiva::ModelPaths model_paths, ModelSources& sources)
+    : simulation_(simulation), model_paths_(std::move(model_paths)), sources_(sources) {
   using gazebo_msgs::SpawnModel;
   servers_.push_back(
       serve<SpawnModel>(node, "spawn_sdf_model", "SpawnModel", [this](auto& request, auto&) {
@@ -80,6 +80,7 @@ std::string SpawnServices::spawn(const gazebo_msgs::SpawnModel::Request& request
     place(world, request.reference_frame, initial_pose, &document);
     checkNames(world, document);
     world.spawn(document.models);
+    sources_.note(world, xml, document.models, document.written);
     for (const kiva::Light& light : document.lights) {
       if (!hasLight(world, light)) world.setLight(light);
     }
@@ -98,7 +99,10 @@ SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Requ
   for (const std::string& warning : warnings) {
     ROS_WARN("SpawnModel '%s': %s", request.model_name.c_str(), warning.c_str());
   }
-  for (kiva::ModelInstance& model : out.models) model.robot_namespace = request.robot_namespace;
+  for (kiva::ModelInstance& model : out.models) {
+    model.robot_namespace = request.robot_namespace;
+    out.written.push_back({model.name, model.pose});
+  }
   // Models of a world file keep their names.
   if (request.model_name.empty() && xml.find("<world") != std::string::npos) return out;
   // A single model gets the requested name; several keep those of their document.

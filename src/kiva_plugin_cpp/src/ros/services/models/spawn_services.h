@@ -6,9 +6,11 @@
 #include <ros/ros.h>
 
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "kiva_plugin_cpp/world_file.h"
+#include "ros/services/models/model_sources.h"
 #include "ros/simulation/simulation_thread.h"
 
 namespace kiva_ros {
@@ -16,11 +18,13 @@ namespace kiva_ros {
 /// Adds and removes models: spawn_sdf_model, spawn_urdf_model and delete_model of Gazebo's node.
 class SpawnServices {
  public:
-  SpawnServices(ros::NodeHandle& node, SimulationThread& simulation, kiva::ModelPaths model_paths);
+  SpawnServices(ros::NodeHandle& node, SimulationThread& simulation, kiva::ModelPaths model_paths,
+                ModelSources& sources);
 
   /// The content of a request.
   struct Document {
     std::vector<kiva::ModelInstance> models;
+    std::vector<WrittenModel> written;  ///< The models as the request's text has them.
     std::vector<kiva::Light> lights;
   };
 
@@ -32,6 +36,7 @@ class SpawnServices {
 
   SimulationThread& simulation_;
   const kiva::ModelPaths model_paths_;
+  ModelSources& sources_;
   std::mutex parsing_;  ///< Guards the parser's cache.
   std::vector<ros::ServiceServer> servers_;
 };

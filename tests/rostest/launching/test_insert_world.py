@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world file is added to the world that runs: all of it, or nothing."""
 
+import tempfile
 import unittest
 
 import rospkg
@@ -49,6 +50,24 @@ class InsertWorld(unittest.TestCase):
         code, text = run("insert_world", "paper", "at:=40,0", "yaw:=1.5")
         self.assertEqual(code, 0, text)
         self.assertIn("kiva3", standing())
+
+    def test_what_was_saved_is_inserted_again(self):
+        self.assertEqual(run("insert_world", "paper")[0], 0)
+        folder = tempfile.mkdtemp()
+        file = f"{folder}/mine.sdf"
+        code, text = run("save_world", file)
+        self.assertEqual(code, 0, text)
+        self.assertIn("saved 13 models", text)
+        code, text = run("save_world", file)
+        self.assertEqual(code, 3, text)
+        self.assertIn("--replace", text)
+        before = standing()
+        code, text = run("insert_world", file, "at:=40,0")
+        self.assertEqual(code, 0, text)
+        self.assertEqual(len(standing()), 2 * len(before) - 1)  # the floor is the same
+        code, text = run("save_world", f"{folder}/mine.txt")
+        self.assertEqual(code, 2, text)
+        self.assertIn("NAME.sdf was expected", text)
 
     def test_wrong_places_are_refused(self):
         for place in ("at:=1", "at:=nan,0", "yaw:=north"):
