@@ -133,13 +133,14 @@ class FleetPage(PageTest):
         put(unit, *open_place(), tilt=0.7)
         fell = latched("/warehouse/objects", WarehouseObjects, lambda objects: objects.fallen_item)
         item = fell.items[fell.fallen_item[0]]
+        shown = item.replace("item", "item ")
         self.assertEqual(fell.storage_units[fell.fallen_from[0]], unit)
         self.state.until(lambda s: f"{item} lies on the floor, off {unit}" in s.alarms)
-        self.page.until(f"document.getElementById('alarms').textContent.includes('{item}')")
-        self.page.until(f"document.getElementById('labels').textContent.includes('{item}')")
+        self.page.until(f"document.getElementById('alarms').textContent.includes('{shown}')")
+        self.page.until(f"document.getElementById('labels').textContent.includes('{shown}')")
         self.page.until(
             f"[...document.querySelectorAll('#events [data-trouble]')]"
-            f".some((line) => line.textContent.includes('{item}'))"
+            f".some((line) => line.textContent.includes('{shown}'))"
         )
         self.page.read(f"page.select('{item}')")
         self.page.until("document.getElementById('facts').textContent.includes('fell off')")

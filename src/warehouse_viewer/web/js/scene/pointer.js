@@ -2,6 +2,7 @@
 // Mouse and fingers on the picture: select what is clicked, send the chosen robot to a cell.
 
 import { on } from '../base/dom.js';
+import { shownName } from '../base/words.js';
 
 const STILL = { mouse: 6, touch: 14 }; // [px]; further, it was a drag
 const FINGER = 22; // largest distance of a finger from a robot [px]
@@ -76,7 +77,7 @@ export class Pointer {
     this.overlays.point(hit ? null : cell);
     this.picker.stage.canvas.style.cursor = hit || cell ? 'pointer' : '';
     this.hovered = hit ?? null;
-    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && this.page.textOf(cell), at);
+    this.page.tip.hover(hit ? shownName(this.page.world.nameOf(hit)) : cell && this.page.textOf(cell), at);
   }
 
   leave() {

@@ -9,6 +9,8 @@ import { apart, namedStations } from './labelled.js';
 
 const TALL = 2.4, THICK = 0.06; // of a post [m]
 const SOON = 10, LONG = 60; // waiting for a person from which a sign is shown, and is red [s]
+const NARROW = globalThis.matchMedia?.('(max-width: 760px)'); // as in floor.css: signs would hide robots
+const LARGE = 18; // from which a sign has room on a narrow page [px/m]
 const POST = { dark: 0x6b7889, light: 0x8d99a8 };
 
 export class Signs {
@@ -67,7 +69,9 @@ export class Signs {
   labels(view) {
     return apart(namedStations(this.world.scene.stations, view).map(({ name, x, y }) => {
       const at = [x, y, view.isParallel ? 0 : TALL];
-      return { text: name, at, pixel: this.stage.pixelOf(...at), ...signOf(this.queues[name], this.stations.get(name)) };
+      const sign = signOf(this.queues[name], this.stations.get(name));
+      const isSmall = NARROW?.matches && sign.kind === 'sign' && view.scaleAt(x, y, 0, 0.5) < LARGE;
+      return { text: name, at, pixel: this.stage.pixelOf(...at), ...isSmall ? { kind: 'sign small', note: '' } : sign };
     }));
   }
 }
