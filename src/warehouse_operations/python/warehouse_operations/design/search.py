@@ -4,9 +4,10 @@
 A layout without room, or with higher costs than one known to be in time, is not simulated.
 1. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
    `layout new` makes them, then what Optuna proposes (objectives: to buy, cost a piece;
-   constraint: late orders), then neighbours of the best with less to pay.
+   constraint: late orders), then neighbours of the best with less to pay, and of late ones that
+   would cost less.
 2. Ideal and whole: the cheapest by whole days, with the same seeds for all. A late layout is
-   tried with more robots, another one with one fewer.
+   tried with more robots, another one with fewer.
 3. Confirming: the front by more days; those that are late then leave it.
 4. Physics: the front.
 5. Unseen: the front by new seeds, which had no part in its choice and don't change it.

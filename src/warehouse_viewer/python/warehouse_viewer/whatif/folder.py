@@ -16,7 +16,7 @@ from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
 from warehouse_layout.file.request import LIMITS
 from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
-from warehouse_operations.runs import event_file
+from warehouse_operations.runs import early_check, event_file
 from warehouse_operations.runs.simulation import ERRORS, Description
 from warehouse_operations.sizing import costs
 from warehouse_operations.sizing.costs import Costs
@@ -231,13 +231,14 @@ def check(scenario: Scenario, path: Path) -> Description:
         _check_floor(description)
         _check_orders(orders)
         description.config  # noqa: B018 - raises for policies of the layout that don't exist
+        early_check.check(description)
     except (*ERRORS, OSError) as error:
         raise ScenarioError(str(error).replace(f"{path}/", "")) from error
     return description
 
 
 def _check_orders(orders: str) -> None:
-    """Takes any SKUs: only the shift knows whether those of a file are in stock."""
+    """Raises DemandError for orders that can't be read; their SKUs are checked with the stock."""
     rng = np.random.default_rng(1)
     assortment = None if orders_text.file_of(orders) else Assortment.draw(2, rng)
     make_demand(orders, assortment, (1, 1), rng)
