@@ -70,12 +70,12 @@ def _workshop(tmp_path):
     made.close()
 
 
-@pytest.fixture(name="found", scope="module")
-def _found(tmp_path_factory):
+@pytest.fixture(name="design", scope="module")
+def _design(tmp_path_factory):
     """A workshop in which a search has ended, and the states that it had."""
     if lack := packages.lack_of_optuna():
         pytest.skip(lack)
-    made, progress = opened(tmp_path_factory.mktemp("found") / "kept"), []
+    made, progress = opened(tmp_path_factory.mktemp("design") / "kept"), []
     assert made.designs.create("hall", SETTINGS) == {"name": "hall"}
     progress.append(shown(made))
     assert made.designs.run("hall") == {"runs": 1}
@@ -89,8 +89,8 @@ def _found(tmp_path_factory):
     made.close()
 
 
-def test_a_search_shows_its_progress(found):
-    _, progress = found
+def test_a_search_shows_its_progress(design):
+    _, progress = design
     assert progress[0]["state"] == "none"
     running = [each for each in progress if each["state"] == "runs"]
     shares = [each["share"] for each in running]
@@ -99,8 +99,8 @@ def test_a_search_shows_its_progress(found):
     assert any(each["stage"].startswith("short shifts: ") for each in running)
 
 
-def test_a_search_finds_a_front(found):
-    workshop, progress = found
+def test_a_search_finds_a_front(design):
+    workshop, progress = design
     done = progress[-1]
     assert done["state"] == "done"
     assert " days that the search did not see" in done["answer"]["text"]
@@ -120,9 +120,9 @@ def test_a_search_finds_a_front(found):
             workshop.designs.layout("hall", name)
 
 
-def test_a_search_is_what_the_program_does(found):
+def test_a_search_is_what_the_program_does(design):
     """The command in design.yaml, run in its folder, finds the same front."""
-    workshop, _ = found
+    workshop, _ = design
     folder = workshop.folder.path / "designs" / "hall"
     front = (folder / "front.csv").read_text()
     command = (folder / "design.yaml").read_text().splitlines()[0].removeprefix("# rosrun ")
