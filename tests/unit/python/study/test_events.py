@@ -334,7 +334,7 @@ def test_names_that_do_not_exist_are_refused_before_anything_runs(tmp_path, line
     [
         ("orders: green.csv", "green.csv:2: "),
         ("orders: day:green.csv", "the stock has none of 1 SKU of 1: green"),
-        ("stations: 9", "stations is 9; own has 2 for picking"),
+        ("stations: 9", "stations is 9; small has 2 for picking"),
         ("robots: 900", "900 robots, but there is room for"),
     ],
 )

@@ -6,13 +6,15 @@ models: a run from rest to rest gains and loses its kinetic energy once, and so 
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from warehouse_fleet.robots.kinematics import Kinematics
+
+MassOfItems = Callable[[int], float]  # those on a unit [kg], by its id
 
 GRAVITY = 9.81  # [m/s²]
 STROKE = 0.1  # of the tower, from rest to raised [m]
@@ -43,9 +45,9 @@ ITEM = Body(1.5, 0.13)
 WHEEL_RADIUS, WHEEL_SEPARATION, WHEEL_INERTIA = 0.1, 0.52, 0.03  # [m], [m], [kg m²]
 
 
-def load_of(items: int) -> Body:
-    """Returns the body of a storage unit with a number of items."""
-    return UNIT + ITEM.times(items)
+def load_of(items: float) -> Body:
+    """Returns the body of a storage unit with items of a mass in all [kg]."""
+    return UNIT + ITEM.times(items / ITEM.mass)
 
 
 @dataclass(frozen=True)
@@ -150,10 +152,10 @@ class Way:
 class Consumption:
     """The energy of the trips of a fleet's robots, with or without their units.
 
-    items: number of items on each unit, by its id.
+    items: the mass of the items on a unit [kg], by its id.
     """
 
-    def __init__(self, drain: Drain, kinematics: Kinematics, items: Mapping[int, int]) -> None:
+    def __init__(self, drain: Drain, kinematics: Kinematics, items: MassOfItems) -> None:
         self._drain, self._kinematics, self._items = drain, kinematics, items
 
     def drive(self, way: Way, heading: int, unit: int | None) -> float:
@@ -169,8 +171,8 @@ class Consumption:
         return self._drain.starts(metres, self._kinematics, self._with(unit))
 
     def _with(self, unit: int | None) -> Body:
-        return ROBOT if unit is None else ROBOT + load_of(self._items.get(unit, 0))
+        return ROBOT if unit is None else ROBOT + load_of(self._items(unit))
 
     def lift(self, unit: int) -> float:
         """Returns the energy of raising a unit [J]."""
-        return self._drain.lift(load_of(self._items.get(unit, 0)))
+        return self._drain.lift(load_of(self._items(unit)))

@@ -23,7 +23,7 @@ from warehouse_fleet.transports.transport_book import (
 )
 from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.availability import Upkeep
-from warehouse_operations.fleets.consumption import Consumption, Way
+from warehouse_operations.fleets.consumption import Consumption, MassOfItems, Way
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
@@ -94,8 +94,9 @@ class Trips:
         self._ways_loaded: dict[tuple[int, int, int], Way] = {}
         self._width = floor.plan.passable.shape[1]
 
-    def keep_up(self, upkeep: Upkeep, items: Mapping[int, int]) -> None:
-        """Has robots charge, fail and be repaired from now on. items: of each unit, by its id."""
+    def keep_up(self, upkeep: Upkeep, items: MassOfItems) -> None:
+        """Has robots charge, fail and be repaired from now on. items: the mass of those on each
+        unit."""
         self.upkeep = upkeep
         if upkeep.drain:
             self._consumption = Consumption(upkeep.drain, self.kinematics, items)

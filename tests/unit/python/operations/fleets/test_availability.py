@@ -109,7 +109,9 @@ def fleet_that_fails(duration, kind):
     where = site()
     cells = list(where.units.values())
     fleet = IdealFleet(where.plan, {1: cells[5], 2: cells[-1]}, where.units)
-    fleet.keep_up(Availability(None, Failures(per_robot_hour=0.0)), np.random.default_rng(1), {})
+    fleet.keep_up(
+        Availability(None, Failures(per_robot_hour=0.0)), np.random.default_rng(1), lambda _: 0.0
+    )
     fleet.submit(1, "pick1")
     events, broken = [], 0
     while fleet.time < 3000:

@@ -17,6 +17,7 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.place import file_check
 from warehouse_operations.design import packages
 from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.whatif import description
 from warehouse_viewer.whatif.design_settings import DesignError, DesignSettings
 from warehouse_viewer.whatif.scenario import ScenarioError
 from warehouse_viewer.whatif.standalone import application
@@ -69,38 +70,38 @@ def _workshop(tmp_path):
     made.close()
 
 
-@pytest.fixture(name="found", scope="module")
-def _found(tmp_path_factory):
+@pytest.fixture(name="design", scope="module")
+def _design(tmp_path_factory):
     """A workshop in which a search has ended, and the states that it had."""
     if lack := packages.lack_of_optuna():
         pytest.skip(lack)
-    made, seen = opened(tmp_path_factory.mktemp("found") / "kept"), []
+    made, progress = opened(tmp_path_factory.mktemp("design") / "kept"), []
     assert made.designs.create("hall", SETTINGS) == {"name": "hall"}
-    seen.append(shown(made))
+    progress.append(shown(made))
     assert made.designs.run("hall") == {"runs": 1}
 
     def ended():
-        seen.append(shown(made))
-        return seen[-1]["state"] not in ("waits", "runs")
+        progress.append(shown(made))
+        return progress[-1]["state"] not in ("waits", "runs")
 
     until(ended, "its end")
-    yield made, seen
+    yield made, progress
     made.close()
 
 
-def test_a_search_shows_its_progress(found):
-    _, seen = found
-    assert seen[0]["state"] == "none"
-    running = [each for each in seen if each["state"] == "runs"]
+def test_a_search_shows_its_progress(design):
+    _, progress = design
+    assert progress[0]["state"] == "none"
+    running = [each for each in progress if each["state"] == "runs"]
     shares = [each["share"] for each in running]
     assert shares == sorted(shares) and all(0 <= share <= 1 for share in shares)
     assert all(each["left"] >= 0 for each in running)
     assert any(each["stage"].startswith("short shifts: ") for each in running)
 
 
-def test_a_search_finds_a_front(found):
-    workshop, seen = found
-    done = seen[-1]
+def test_a_search_finds_a_front(design):
+    workshop, progress = design
+    done = progress[-1]
     assert done["state"] == "done"
     assert " days that the search did not see" in done["answer"]["text"]
     folder = workshop.folder.path / "designs" / "hall"
@@ -119,9 +120,9 @@ def test_a_search_finds_a_front(found):
             workshop.designs.layout("hall", name)
 
 
-def test_a_search_is_what_the_program_does(found):
+def test_a_search_is_what_the_program_does(design):
     """The command in design.yaml, run in its folder, finds the same front."""
-    workshop, _ = found
+    workshop, _ = design
     folder = workshop.folder.path / "designs" / "hall"
     front = (folder / "front.csv").read_text()
     command = (folder / "design.yaml").read_text().splitlines()[0].removeprefix("# rosrun ")
@@ -257,3 +258,15 @@ def test_the_page_asks_its_server(workshop):
         assert status == 409 and "there is no" in answer["detail"]
     assert ask(app, f"{below}/hall", method="DELETE")[0] == 200
     assert ask(app, below, method="GET")[1] == {"designs": []}
+
+
+def test_the_apis_description_has_each_request(workshop):
+    served = {
+        (route.path, method.lower())
+        for route in application(workshop).routes
+        if getattr(route, "path", "").startswith("/whatif/designs")
+        for method in route.methods - {"HEAD"}
+    }
+    described = {(path, method) for path, does in description.PATHS.items() for method in does}
+    assert served == described
+    assert set(description.SCHEMAS["DesignSettings"]["properties"]) == set(SETTINGS)

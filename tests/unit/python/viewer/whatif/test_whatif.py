@@ -189,7 +189,7 @@ def test_a_run_ends_with_its_server(tmp_path):
 
 
 def test_an_error_of_a_run_is_told_in_its_words(tmp_path, monkeypatch):
-    """As of a file that changes once it is checked."""
+    """The file of orders changes once it is checked."""
     monkeypatch.setattr(early_check, "check", lambda _: None)
     workshop = Workshop(tmp_path)
     workshop.open()
