@@ -200,8 +200,9 @@ edge of a cell, in world [m].)");
             R"(Puts a model at a place in world [m, rad], at rest; a command of it ends in BLOCKED.
 
 KeyError if no model has that name, DescriptionError if the place is not finite.)");
-  world.def("set_mass", &setMass, py::arg("name"), py::arg("mass"),
-            R"(Gives a model of one link another mass [kg], as a body of the same shape and another density.
+  world.def(
+      "set_mass", &setMass, py::arg("name"), py::arg("mass"),
+      R"(Gives a model of one link another mass [kg], as a body of the same shape and another density.
 
 A unit weighs what its items do. KeyError if no model has that name, ValueError for another model or
 a mass that is not above 0.)");

@@ -95,7 +95,7 @@ def test_the_worlds_units_weigh_the_sum(tmp_path):
     assert masses == pytest.approx({unit: UNIT.mass + kg for unit, kg in expected.items()})
     assert set(np.round(world.items["mass"], 6)) == {
         *(round(20 * weight, 6) for sku, weight in WEIGHTS.items() if sku != "sku-3"),
-        ITEM.mass,  # of sku-3, whose weight nobody knows
+        ITEM.mass,  # of sku-3, whose weight is unknown
     }
     assert ITEM.mass == ITEM_KG
 

@@ -51,7 +51,7 @@ from warehouse_viewer.whatif.workshop import Workshop
 class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
     `history` seconds (simulated) are kept, to be looked at again; 0: none. `alarms`: the file from
-    which a viewer that is restarted has them; None: it begins anew."""
+    which a viewer that is restarted has them; None: it begins empty."""
 
     def __init__(
         self, ros: ModuleType, web: Path, history: float = SECONDS, alarms: AlarmFile | None = None
