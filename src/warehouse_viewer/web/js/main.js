@@ -356,7 +356,7 @@ class Page {
     else this.details.go(...cell, at);
   }
 
-  /** Selects what was clicked; while a free cell is wanted it says that this is none. */
+  /** Selects the clicked thing; while a cell is being chosen, says that the thing occupies it. */
   choose(name, at) {
     if (this.placer) this.placer.refuse(`${shownName(name)} stands there`, at);
     else this.select(name);

@@ -48,6 +48,7 @@ LAST = 5  # layouts simulated with physics, at most
 RESCUES = 3  # batches of whole days, at most, beyond the budget where nothing is in time
 SEARCH_SEED = 1
 SEEDS = ((101,), (102, 103), (104, 105))  # of whole days, in stages; short shifts have another seed
+DAYS = (*itertools.chain(*SEEDS),)
 FRESH = (106, 107, 108, 109, 110)  # of the layouts that are recommended
 UNSEEN = tuple(range(201, 216))  # of the last judgement
 ASKED = 500  # batches of trials a round, at most
@@ -128,7 +129,7 @@ class Search:
     @property
     def budget(self) -> float:
         """Seconds of a core, about, for short shifts and whole days: some batches at least."""
-        whole = len((*itertools.chain(*SEEDS),)) * self._seconds(self.space.day.hours)
+        whole = len(DAYS) * self._seconds(self.space.day.hours)
         least = BATCH * (2 * self._seconds(self._short_hours) + whole)
         return max(3600 * self.hours, least)
 
@@ -326,25 +327,20 @@ class Search:
         going = list(range(len(batch)))
         for seeds, limit in zip(SEEDS, (FAR * self.late, self.late, self.late)):
             for i, more in zip(going, self._records([batch[i] for i in going], seeds)):
-                each, days = batch[i], records[i]
-                days += more
-                judged[i] = self.judge.judged(each.number, each.chosen, each.file, days)
+                records[i] += more
+                judged[i] = self._judged(batch[i], records[i])
             going = [i for i in going if judged[i].late <= limit]
         for i in going:
-            judged[i] = self._with_limit(batch[i], records[i])
+            _set_upper_limit(judged[i])
         return judged
 
-    def _with_limit(self, each: Candidate, records: Sequence[Record]) -> Candidate:
-        """Returns a candidate judged by days, with the upper limit as `late`."""
-        judged = self.judge.judged(each.number, each.chosen, each.file, records)
-        assert judged.verdict is not None
-        judged.late = max(judged.verdict.limit(RISK, 1), 0.0)
-        return judged
+    def _judged(self, each: Candidate, records: Sequence[Record]) -> Candidate:
+        return self.judge.judged(each.number, each.chosen, each.file, records)
 
     def _confirm(self) -> list[Candidate]:
         """Returns the front after more days: of many layouts the luckiest by its days is in time,
         too. Those that are late by all days leave the front."""
-        seeds = (*itertools.chain(*SEEDS), *FRESH)
+        seeds = (*DAYS, *FRESH)
         while True:
             chosen = front(list(self._days.values()), self.late)[:LAST]
             left = [
@@ -357,14 +353,14 @@ class Search:
             if not left:
                 return chosen
             for each, records in zip(left, self._records(left, seeds)):
-                self._days[self.space.known_as(each.chosen)] = self._with_limit(each, records)
+                judged = self._days[self.space.known_as(each.chosen)] = self._judged(each, records)
+                _set_upper_limit(judged)
 
     def by_short_shifts(self, candidates: Sequence[Candidate]) -> list[Candidate]:
         """Returns candidates judged by a short shift each."""
         points = [self._points(each.file, (SEARCH_SEED,), True)[0] for each in candidates]
         return [
-            self.judge.judged(each.number, each.chosen, each.file, [record])
-            for each, record in zip(candidates, self._shifts(points))
+            self._judged(each, [record]) for each, record in zip(candidates, self._shifts(points))
         ]
 
     def _records(self, batch: Sequence[Candidate], seeds: Sequence[int]) -> list[list[Record]]:
@@ -450,6 +446,12 @@ def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
         if alike < SAME and len(out) < BATCH:
             out.append(each)
     return out
+
+
+def _set_upper_limit(candidate: Candidate) -> None:
+    """Sets a candidate's share of late orders to its upper limit."""
+    assert candidate.verdict is not None
+    candidate.late = max(candidate.verdict.limit(RISK, 1), 0.0)
 
 
 def _stations_of(candidate: Candidate) -> tuple[int, int]:

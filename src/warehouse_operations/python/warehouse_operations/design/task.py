@@ -89,7 +89,8 @@ class Task:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a search found, in sentences: the layout, or `why` there is none; and its effort."""
+    """The answer of a search in sentences: the layout, or why no layout is recommended, and the
+    effort."""
 
     text: str
     why: str

@@ -164,7 +164,7 @@ class AlarmBook:
 
     def restore(self, state: Mapping[str, Any]) -> None:
         """Goes on from a state(): who saw and did what, and the alarms that have ended. Raises
-        KeyError, TypeError or ValueError where it is none."""
+        KeyError, TypeError or ValueError for an invalid state."""
         alarms = [_alarm_of(row) for row in state["alarms"]]
         ended = [dict(row) for row in state["ended"]]
         last, now = int(state["last"]), float(state["now"])

@@ -28,7 +28,7 @@ class AlarmFile:
         self._path = path
 
     def read(self) -> dict[str, Any] | None:
-        """Returns the state; None if there is none. Raises OSError, ValueError."""
+        """Returns the state, or None without a file. Raises OSError, ValueError."""
         try:
             state = json.loads(user_file.read_text(self._path, most=MOST_BYTES))
         except FileNotFoundError:

@@ -162,7 +162,7 @@ class Designs:
             raise ScenarioError(f"{name}: there is no {file} yet") from error
 
     def _of(self, name: str) -> Path:
-        """Returns the folder of a search. Raises ScenarioError if there is none."""
+        """Returns the folder of a search. Raises ScenarioError for an unknown name."""
         folder = self._path / _named(name)
         if folder.is_symlink() or not (folder / FILE).is_file():
             raise ScenarioError(f"there is no search '{name}'")

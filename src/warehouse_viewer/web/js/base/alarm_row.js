@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An alarm as a list has it: its cause, what follows from it, what helps, and who has seen it.
+// The row of an alarm: cause, consequences, remedies, and who has seen it.
 
 import { make } from './dom.js';
 import { ROOT } from './root.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alarms by cause, on the floor's page: what follows from each, what helps, and who has seen it.
+// The alarms by cause, on the floor's page: consequences, remedies, and who has seen each.
 
 import { AlarmRow } from '../base/alarm_row.js';
 import { post } from '../base/api.js';

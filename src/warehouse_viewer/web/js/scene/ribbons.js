@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines that can be seen from anywhere: as wide on the screen near by as from afar. A line of WebGL is
-// one pixel wide, whatever it is told.
+// Lines that can be seen from anywhere: as wide on the screen near by as from afar. WebGL draws
+// lines one pixel wide and ignores another width.
 
 import * as THREE from '/three/build/three.module.js';
 

@@ -70,7 +70,7 @@ def test_the_form_is_for_all(page):
 
 
 def test_without_optuna_the_form_says_so(page):
-    """The server of this test may have it: the page is told as it would be elsewhere."""
+    """Gives the page what the server answers where Optuna is missing."""
     page.click_on("design-cancel")
     page.read("(page.lacks = page.about.lacks, page.about.lacks = 'the search needs Optuna')")
     page.click_on("design-first")
