@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A hub that is measured, its memory, and what it leaves behind."""
 
+import os
 import socket
 import sys
 import time
@@ -39,6 +40,18 @@ def hub_processes(hub):
 def memories(hub):
     """Returns {name: (pss, rss)} of a hub and its assistant [MB]."""
     return {name: memory(process) for name, process in hub_processes(hub).items()}
+
+
+def cpu(root):
+    """Returns the processor time of a process and those below it, ended ones included [s]."""
+    total = 0
+    for process in (root, *descendants(root)):
+        try:
+            fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue  # it has ended, and counts for the process that started it
+        total += sum(map(int, fields[11:15]))
+    return total / os.sysconf("SC_CLK_TCK")
 
 
 def print_memories(when, rows):

@@ -34,9 +34,11 @@ class ServedHub:
         self.home = home
         environment = os.environ | {"ROS_HOME": str(home)}
         environment.pop("WAREHOUSE_TOKEN", None)
-        self.process = subprocess.Popen(
-            [*PROGRAM, *options], stdout=subprocess.PIPE, text=True, env=environment
-        )
+        self.log = home / "hub_stderr.txt"
+        with self.log.open("a") as log:
+            self.process = subprocess.Popen(
+                [*PROGRAM, *options], stdout=subprocess.PIPE, stderr=log, text=True, env=environment
+            )
         lines = iter(self.process.stdout.readline, "")
         self.url = next(m[0] for line in lines if (m := re.search(r"http://\S+[^/\s]", line)))
 

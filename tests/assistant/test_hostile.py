@@ -109,6 +109,7 @@ def test_clients_that_hang_up_leave_the_others_alone(talk, hub):
         return await assistant.done("describe_warehouse")
 
     assert talk(conversation).startswith(f'"{NAME}"')
+    assert "Traceback" not in hub.log.read_text()
 
 
 def test_stdio_ends_with_its_client(hub):

@@ -77,8 +77,8 @@ class FleetPage(PageTest):
         self.page.click_on("ways")
         transport = self.submit(5, station="pick1")
         # Released ways are drawn, and planned ones as well.
-        self.page.until("page.overlays.ways.released.visible")
-        self.page.until("page.overlays.ways.planned.visible")
+        self.page.until("page.routes?.released.visible")
+        self.page.until("page.routes?.planned.visible")
         robot = self.wait_for(transport, "LIFTED")["robot"]
         # Another page comes, and gets the scenery again: the coordinator goes on.
         Listener("/warehouse/scenery", Scenery).until()
@@ -96,7 +96,7 @@ class FleetPage(PageTest):
         status, state = ask("/coordinator")
         self.assertEqual((status, state["robots"]["automatic"]), (200, 4))
         self.page.click_on("ways")
-        self.page.until("!page.overlays.ways.released.visible")
+        self.page.until("!page.routes?.released.visible")
 
     def test_a_robot_is_given_to_a_person_and_back(self):
         self.page.read("page.select('kiva3')")
@@ -133,13 +133,14 @@ class FleetPage(PageTest):
         put(unit, *open_place(), tilt=0.7)
         fell = latched("/warehouse/objects", WarehouseObjects, lambda objects: objects.fallen_item)
         item = fell.items[fell.fallen_item[0]]
+        shown = item.replace("item", "item ")
         self.assertEqual(fell.storage_units[fell.fallen_from[0]], unit)
         self.state.until(lambda s: f"{item} lies on the floor, off {unit}" in s.alarms)
-        self.page.until(f"document.getElementById('alarms').textContent.includes('{item}')")
-        self.page.until(f"document.getElementById('labels').textContent.includes('{item}')")
+        self.page.until(f"document.getElementById('alarms').textContent.includes('{shown}')")
+        self.page.until(f"document.getElementById('labels').textContent.includes('{shown}')")
         self.page.until(
             f"[...document.querySelectorAll('#events [data-trouble]')]"
-            f".some((line) => line.textContent.includes('{item}'))"
+            f".some((line) => line.textContent.includes('{shown}'))"
         )
         self.page.read(f"page.select('{item}')")
         self.page.until("document.getElementById('facts').textContent.includes('fell off')")

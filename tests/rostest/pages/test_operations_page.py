@@ -196,14 +196,15 @@ class OperationsPage(WorkPageTest):
         shown = lambda: dict(self.page.read("[...page.where.units]"))  # noqa: E731
         wait_until(lambda: shown() == pieces("sku-5"), "the page shows where pieces are")
         self.page.click_on("heat")
-        self.page.until("Boolean(page.heat.object)")
+        self.page.until("Boolean(page.heat?.object)")
         self.click("[data-heat=waiting]")
         self.page.until("document.getElementById('heat-text').textContent.includes('waited')")
         self.page.read("page.select('kiva1')")
         self.page.until(BESIDE)  # the legend lies on no panel
         self.page.read("page.select('pick1')")
-        self.page.until("document.getElementById('facts').textContent.includes('automatically')")
-        self.assertIn("/station/pick1", self.page.read("document.querySelector('#facts a').href"))
+        mode = "document.querySelector('[data-station-mode=AUTOMATIC]')"
+        self.page.until(f"{mode}?.checkVisibility() && {mode}.ariaPressed === 'true'")
+        self.assertIn("/station/pick1", self.page.read("document.querySelector('#care a').href"))
         self.page.read("page.select(null)")
         self.page.click_on("heat")
         self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")

@@ -233,10 +233,10 @@ class ViewerPage(PageTest):
 
     def test_space_pauses_whatever_was_clicked_before(self):
         self.page.click_on("trails")
-        self.page.until("page.overlays.trails.object.visible")
+        self.page.until("page.trails?.isOn")
         self.page.type(Keys.SPACE)
         self.until_link("paused")
-        self.assertTrue(self.page.read("page.overlays.trails.object.visible"))
+        self.assertTrue(self.page.read("page.trails?.isOn"))
         self.page.read("page.drawers.open('log-panel')")
         self.page.click_on("trouble")
         self.page.type(Keys.SPACE)

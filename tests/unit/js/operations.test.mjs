@@ -4,17 +4,16 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { verdict } from '../../../src/warehouse_viewer/web/js/operations/figures.js';
-import { coloursOf } from '../../../src/warehouse_viewer/web/js/scene/heat.js';
+import { coloursOf } from '../../../src/warehouse_viewer/web/js/layers/heat.js';
 import { topOf } from '../../../src/warehouse_viewer/web/js/base/heat_scale.js';
 import { whole } from '../../../src/warehouse_viewer/web/js/operations/order_entry.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/operations/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/operations/order_upload.js';
 import { sharesOf } from '../../../src/warehouse_viewer/web/js/operations/robot_shares.js';
-import { Choice } from '../../../src/warehouse_viewer/web/js/operations/stations.js';
-import { waitsOf } from '../../../src/warehouse_viewer/web/js/base/station_waits.js';
+import { Choice, waitsOf } from '../../../src/warehouse_viewer/web/js/base/station.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/operations/throughput.js';
 import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/base/time.js';
-import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/scene/where.js';
+import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/layers/where.js';
 import { countedWork } from '../../../src/warehouse_viewer/web/js/base/words.js';
 
 test('rates are of the time that an interval really had', () => {

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { read } from '../../../src/warehouse_viewer/web/js/replay/chunk.js';
-import { hms, readClock } from '../../../src/warehouse_viewer/web/js/replay/clock.js';
+import { clock, readClock } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { linkTo, lookOf, momentOf, timeOf, wallAt } from '../../../src/warehouse_viewer/web/js/replay/link.js';
 import { Player } from '../../../src/warehouse_viewer/web/js/replay/player.js';
 import { Recording } from '../../../src/warehouse_viewer/web/js/replay/recording.js';
@@ -123,7 +123,7 @@ test('the clock on the wall is that of the chunk, at its pace', () => {
   assert.equal(wallAt(240, chunks), at(10, 42));
   assert.equal(timeOf({ clock: readClock('0:05') }, [{ begin: 0, end: 600, wall: null }]), 300);
   assert.equal(wallAt(5, [{ begin: 0, end: 600, wall: null }]), null);
-  assert.equal(hms(3725.9), '1:02:05');
+  assert.equal(clock(3725.9), '1:02:05');
 });
 
 /** The bytes of a chunk of 30 s, in which robot 0 drives 0.1 m/s, with an event. */

@@ -4,7 +4,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { reasonOf } from '../../../src/warehouse_viewer/web/js/base/request.js';
-import { clock } from '../../../src/warehouse_viewer/web/js/panels/bar.js';
+import { counted, number, percent } from '../../../src/warehouse_viewer/web/js/base/numbers.js';
+import { clock } from '../../../src/warehouse_viewer/web/js/base/time.js';
+import { shownName } from '../../../src/warehouse_viewer/web/js/base/words.js';
 import { planOf } from '../../../src/warehouse_viewer/web/js/panels/builder.js';
 import { fanOf } from '../../../src/warehouse_viewer/web/js/scene/overlays.js';
 import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
@@ -28,11 +30,26 @@ test('robots are listed by trouble, then by number', () => {
   assert.deepEqual(rowsOf(world, 'kiva1', ''), [1, 2]);
 });
 
-test('simulated time in minutes and seconds', () => {
-  assert.equal(clock(0), '0:00.0');
-  assert.equal(clock(59.96), '1:00.0');
-  assert.equal(clock(3725.34), '1:02:05.3');
-  assert.equal(clock(3599.97), '1:00:00.0');
+test('simulated time in hours, minutes and seconds, with tenths where they are wanted', () => {
+  assert.equal(clock(0), '0:00:00');
+  assert.equal(clock(59.96), '0:00:59');
+  assert.equal(clock(0, true), '0:00:00.0');
+  assert.equal(clock(59.96, true), '0:01:00.0');
+  assert.equal(clock(3725.34, true), '1:02:05.3');
+  assert.equal(clock(3599.97, true), '1:00:00.0');
+});
+
+test('things have one name in all sentences', () => {
+  assert.equal(shownName('storage_unit142'), 'unit 142');
+  assert.equal(shownName('item7 lies on the floor, off storage_unit1'), 'item 7 lies on the floor, off unit 1');
+  assert.equal(shownName('follow path 89'), 'route 89');
+  assert.equal(shownName('kiva3 waits behind kiva12'), 'kiva3 waits behind kiva12');
+});
+
+test('numbers are those of the locale', () => {
+  assert.equal(number(-1234.5, 1), (1234.5).toLocaleString(undefined, { minimumFractionDigits: 1 }).replace(/^/, '−'));
+  assert.equal(percent(0.125, 1), `${(12.5).toLocaleString(undefined)} %`);
+  assert.equal(counted(1, 'order'), '1 order');
 });
 
 test('reasons of refusals', () => {

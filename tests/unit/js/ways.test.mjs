@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { factsOf } from '../../../src/warehouse_viewer/web/js/panels/fleet.js';
 import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
-import { addDashes, addSolid, Ways } from '../../../src/warehouse_viewer/web/js/scene/ways.js';
+import { addDashes, addSolid, Ways } from '../../../src/warehouse_viewer/web/js/layers/ways.js';
 import { World } from '../../../src/warehouse_viewer/web/js/base/world.js';
 import { scene } from './look.mjs';
 
@@ -47,11 +47,7 @@ test('who waits is tied to the one it waits for, wherever that drives', () => {
   const ways = new Ways({ scene: { add() {} }, invalidate() {} }, world);
   world.shown.set([1, 2, 0, 3, 4, 0]);
   ways.show(decode(message([[7, 1, 1, 0, NaN, NaN], [99, 1, 1, 0, NaN, NaN]], [3, 4, 8, 8])).ways, null);
-  const drawn = () => {
-    const { attributes, drawRange } = ways.ties.geometry;
-    const numbers = Array.from(attributes.position.array).slice(0, 3 * drawRange.count);
-    return numbers.filter((_, i) => i % 3 < 2);
-  };
+  const drawn = () => Array.from(ways.ties.numbers).filter((_, i) => i % 3 < 2);
   assert.deepEqual(drawn(), [3, 4, 1, 2]);
   world.shown.set([1, 5], 0);
   ways.follow();

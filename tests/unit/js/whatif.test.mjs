@@ -4,6 +4,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { fitsOrders, freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
+import { demandOf, demandText, describeDesign, edgesOf } from '../../../src/warehouse_viewer/web/js/whatif/design_words.js';
 import { eventsOf, linesOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
 import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
@@ -80,4 +81,10 @@ test('a chart begins at zero and shows all of each interval', () => {
   assert.equal(shown.axis, 'Pieces picked an hour');
   assert.ok(topOf(shown) > 35);
   assert.equal(chartOf(['a'], { title: 'Late orders', unit: '%', digits: 1, cells: [cells[0]] }).axis, 'Late orders [%]');
+});
+
+test('the demand and the edges of a building are those of the program', () => {
+  for (const demand of ['day.csv', 'day.demand.yaml*1.3', '']) assert.equal(demandText(demandOf(demand)), demand);
+  assert.deepEqual(['36 x 26', '36×26', '36, 26', ' 36x26 ', 'large'].map(edgesOf), ['36x26', '36x26', '36x26', '36x26', 'large']);
+  assert.equal(describeDesign({ building: 'hall.layout.yaml', demand: 'day.csv*1.3', late: 0.005, cpu_hours: 2, seed: 1 }), 'hall · day.csv × 1.3 · 0.5 % may be late · 2 CPU h · seed 1');
 });

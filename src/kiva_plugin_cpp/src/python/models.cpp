@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +72,18 @@ void setPose(Host& host, const std::string& name, double x, double y, double z, 
   const auto lock = host.use();
   checkModel(host, name);
   host.world.setState(name, {Pose(x, y, z, 0, 0, yaw), {}});
+}
+
+/// Gives a model of one link another mass [kg]: that of the same body of another density.
+void setMass(Host& host, const std::string& name, double mass) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  const auto& links = host.world.description(name)->links;
+  if (links.size() != 1) throw std::invalid_argument("'" + name + "' is not a model of one link");
+  Link link = links.front();
+  link.principal_moments = link.principal_moments * (mass / link.mass);
+  link.mass = mass;
+  host.world.setLinkInertia(name, link);
 }
 
 }  // namespace
@@ -187,6 +200,12 @@ edge of a cell, in world [m].)");
             R"(Puts a model at a place in world [m, rad], at rest; a command of it ends in BLOCKED.
 
 KeyError if no model has that name, DescriptionError if the place is not finite.)");
+  world.def(
+      "set_mass", &setMass, py::arg("name"), py::arg("mass"),
+      R"(Gives a model of one link another mass [kg], as a body of the same shape and another density.
+
+A unit weighs what its items do. KeyError if no model has that name, ValueError for another model or
+a mass that is not above 0.)");
   world.def_property_readonly(
       "storage_units", &storageUnits,
       R"(The storage units, (n,): shelf_id, x y z yaw in world [m, rad], mass with items [kg], kiva_id of

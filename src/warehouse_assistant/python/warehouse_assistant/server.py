@@ -3,6 +3,7 @@
 
 import hmac
 import json
+import logging
 import sys
 import time
 from collections.abc import Mapping
@@ -15,6 +16,7 @@ from mcp.server.mcpserver import Context
 from mcp.server.mcpserver.exceptions import ToolError
 from mcp.types import CallToolResult, TextContent
 from pydantic import ValidationError
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from warehouse_assistant import resources
@@ -181,11 +183,18 @@ class _KeyCheck:
         await self._app(scope, receive, send)
 
 
+def _is_fault(record: logging.LogRecord) -> bool:
+    """Returns whether a record of the log is about more than a client that hung up."""
+    error = record.exc_info[1] if record.exc_info else None
+    return not isinstance(error, ClientDisconnect)
+
+
 def serve_http(server: AssistantServer, port: int, key: str = "") -> None:
     """Serves streamable HTTP at /mcp of a port of this machine until it is stopped.
 
     key: sent by the hub with each request; "": answers every program of this machine.
     """
+    logging.getLogger("mcp.server.streamable_http").addFilter(_is_fault)
     # Requests are stateless: a client that disconnects leaves nothing behind.
     app = server.streamable_http_app(
         json_response=True, stateless_http=True, max_request_body_size=MOST_BODY

@@ -10,7 +10,6 @@ import { $, isPressed, on, onTheme, press, setText } from './base/dom.js';
 import { Drawers, marginsOf } from './base/drawers.js';
 import { FallenItems } from './panels/fallen.js';
 import { FleetPanel } from './panels/fleet.js';
-import { HeatMap } from './scene/heat.js';
 import { Keys } from './panels/keys.js';
 import { Labels } from './scene/labels.js';
 import { RobotList } from './panels/list.js';
@@ -21,19 +20,21 @@ import { isPerson, People } from './panels/people.js';
 import { Picker } from './scene/picker.js';
 import { Pointer } from './scene/pointer.js';
 import { VERSION } from './base/protocol.js';
-import { momentOf } from './replay/link.js';
+import { lookOf, momentOf } from './replay/link.js';
 import { Timeline } from './replay/timeline.js';
 import { Requested } from './panels/requested.js';
 import { SceneKeys, speak } from './scene/scene_keys.js';
 import { Signs } from './scene/signs.js';
 import { Stage } from './scene/stage.js';
 import { Tip } from './base/tip.js';
-import { skuIn, Where } from './scene/where.js';
+import { shownName } from './base/words.js';
 import { World } from './base/world.js';
 
 const PANELS_EVERY = 250; // [ms]
 const NOTABLE = 60; // between two pictures; a person sees it [ms]
 const STATION = 0.5; // half side of the mark around a station [m]
+const ROOM = 40; // around what is selected, beside its panel [px]
+const GROWS = 2000; // for which the panel of what was selected may grow [ms]
 const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
@@ -56,16 +57,17 @@ class Page {
     this.requested = new Requested(this.world);
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id),
-      stationOf: (name) => this.signs?.stations.get(name) });
+      stationOf: (name) => this.signs?.stations.get(name), moment: () => this.moment, log: this.log });
     this.drawers = new Drawers(() => this.fitPanels());
+    new ResizeObserver(() => this.uncover()).observe($('details-panel'));
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
     this.floor = '';
     this.paths = {};
     this.scans = new Map();
     this.openStage();
-    this.where = new Where(this.stage, this.world, (...pieces) => this.list.showPieces(...pieces), (text) => this.tip.say(text, 'refused'));
     this.addButtons();
+    for (const placer of this.placers) placer.changed = () => this.lightCells();
     this.keys = new Keys((step) => this.next(step), () => this.leave(), () => this.goToSearch());
     setInterval(() => this.isNews && this.soon(() => this.refreshPanels()), PANELS_EVERY);
     this.connection = new Connection({
@@ -79,8 +81,27 @@ class Page {
       fleet: ({ fleet }) => this.takeFleet(fleet),
       ways: ({ ways }) => this.takeWays(ways),
       requested: ({ units }) => this.requested.take(units),
+      why: ({ why }) => this.moment === null && this.details.takeWhy(why),
     }, (act) => this.soon(act));
     this.timeline = new Timeline(this);
+    this.askHash();
+  }
+
+  /** /#kiva3 shows that, /#sku-17 where it is, and /#see=kiva7&from=… is a look of now; /#t=630 is a moment,
+   *  which the time line shows. */
+  askHash() {
+    this.asks = location.hash.length > 1 && !momentOf(location.hash);
+    this.answerHash();
+  }
+
+  /** Shows what the address asks for, once it is known what stands there. */
+  answerHash() {
+    if (!this.asks || !('protocol' in this.world.scene)) return;
+    this.asks = false;
+    const look = lookOf(location.hash), name = nameIn(location.hash);
+    if (look.name || look.view) this.look(look);
+    else if (this.world.indexOf.has(name)) this.find(name);
+    else this.list.ask(location.hash.slice(1));
   }
 
   /** Leaves the picture out where there is no WebGL; list and commands work all the same. */
@@ -95,8 +116,7 @@ class Page {
     this.actors = new Actors(this.stage, this.world);
     this.labels = new Labels(this.stage, this.world, $('labels'));
     this.overlays = new Overlays(this.stage, this.world);
-    this.heat = new HeatMap(this.stage);
-    this.signs = new Signs(this.stage, this.world);
+    this.signs = new Signs(this.stage, this.world, (alarms) => this.fleet.takeAlarms(alarms));
     this.picker = new Picker(this.stage, this.actors);
     this.navigator = new Navigator(this.stage);
     this.pointer = new Pointer(this, this.picker, this.overlays);
@@ -132,6 +152,7 @@ class Page {
     this.buildPicture(scene);
     this.select(this.world.indexOf.has(this.selected) ? this.selected : null);
     this.list.search($('search').value);
+    this.answerHash();
   }
 
   buildPicture(scene) {
@@ -141,7 +162,7 @@ class Page {
     this.actors.build();
     this.stage.setPaint(scene);
     this.signs.build(document.documentElement.dataset.theme);
-    this.overlays.trails.clear();
+    this.trails?.clear();
     if (String(floor) === this.floor) return;
     this.floor = String(floor);
     this.stage.setFloor(floor, grid);
@@ -158,7 +179,7 @@ class Page {
     this.actors.placeUnits(changed.units);
     this.actors.placeLoose(changed.loose);
     this.actors.placeScenery(changed.scenery);
-    this.overlays.trails.note(changed.robots);
+    this.trails?.note(changed.robots);
     this.stage.invalidate();
   }
 
@@ -211,12 +232,12 @@ class Page {
     if (moved.length) {
       this.actors.belts.run(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
       this.showExtras();
-      this.overlays.ways.follow();
+      this.routes?.follow();
     }
     this.drawn = now;
     const isUnsettled = this.actors.fill(this.stage.camera, innerHeight, now);
     this.labels.draw(this.actors.view, this.named(), [
-      ...this.signs.labels(this.actors.view), ...this.where.draw(), ...this.fallen.labels(),
+      ...this.signs.labels(this.actors.view), ...this.where?.draw() ?? [], ...this.fallen.labels(),
       ...this.requested.labels()]);
     return flies || isUnsettled || this.world.moving.size > 0;
   }
@@ -250,16 +271,35 @@ class Page {
   }
 
   /** Ways of the fleet, or of the selected robot alone. */
-  showWays() {
+  async showWays() {
+    if (!this.stage || (!this.routes && !this.ways.size)) return;
+    const { Ways } = await import('./layers/ways.js');
+    this.routes ??= new Ways(this.stage, this.world);
     const id = this.world.scene.robots[this.details.selectedRobot];
     const own = isPressed($('path')) ? [id] : [];
-    this.overlays?.ways.show(this.ways, isPressed($('ways')) ? null : own);
+    this.routes.show(this.ways, isPressed($('ways')) ? null : own);
+  }
+
+  /** The cells that something can be put on, while it is to be put somewhere. */
+  async lightCells() {
+    if (!this.stage) return;
+    const { FreeCells } = await import('./layers/free_cells.js');
+    this.cells ??= new FreeCells(this.stage, this.world, (thing) => this.actors.boundsOf(thing));
+    this.cells.show(Boolean(this.placer));
+  }
+
+  /** The time that is shown, where that is past [s]; null: now; undefined: of a recording. */
+  get moment() {
+    const { isLive = true, recording, player } = this.timeline ?? {};
+    if (isLive) return null;
+    return recording.live ? player.time : undefined;
   }
 
   // --- the person
   select(name) {
     const isAnother = name !== this.selected;
     this.selected = name;
+    if (isAnother) this.details.why = null;
     this.details.show(name);
     this.list.choose(name);
     this.log.drawOwn(name);
@@ -269,6 +309,17 @@ class Page {
     this.showExtras();
     this.showDetails(name, isAnother);
     this.stage?.invalidate();
+    if (name && isAnother) this.chosenAt = performance.now();
+  }
+
+  /** Moves the floor so that the selected does not lie beneath its own panel, which has just grown. */
+  uncover() {
+    const { thing } = this.details;
+    const isNews = performance.now() - this.chosenAt < GROWS;
+    if (!isNews || !thing || !this.navigator || this.navigator.flight || isPressed($('follow'))) return;
+    const { left, top, bottom, width } = $('details-panel').getBoundingClientRect();
+    const [x, y] = this.stage.pixelOf(...this.world.placeOf(thing).slice(0, 3));
+    if (width && x > left - ROOM && y > top - ROOM && y < bottom + ROOM) this.navigator.slide(left - 2 * ROOM - x, this.world.placeOf(thing));
   }
 
   /** Selects what was searched, and flies there. */
@@ -305,18 +356,29 @@ class Page {
     else this.details.go(...cell, at);
   }
 
-  /** Selects what was clicked; no cell is wanted any more. */
-  choose(name) {
-    this.wantNone();
-    this.select(name);
+  /** Selects the clicked thing; while a cell is being chosen, says that the thing occupies it. */
+  choose(name, at) {
+    if (this.placer) this.placer.refuse(`${shownName(name)} stands there`, at);
+    else this.select(name);
+  }
+
+  /** A click that meant nothing. */
+  miss(at) {
+    this.placer?.refuse('that is beside the floor', at);
   }
 
   /** What is the name of nothing that stands there may be a SKU. */
   lookFor(text) {
     clearTimeout(this.typing);
-    const sku = skuIn(text);
-    if (sku && !this.fleet.runs) return; // the stock is known only while a coordinator runs
-    this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
+    if (!text && !this.where) return;
+    if (text.trim() && !this.fleet.runs) return; // the stock is known only while a coordinator runs
+    this.typing = setTimeout(() => this.askWhere(text), text ? TYPING : 0);
+  }
+
+  async askWhere(text) {
+    const { skuIn, Where } = await import('./layers/where.js');
+    this.where ??= new Where(this.stage, this.world, (...pieces) => this.list.showPieces(...pieces), (why) => this.tip.say(why, 'refused'));
+    this.where.ask(skuIn(text));
   }
 
   /** What a warehouse that is built would replace. */
@@ -346,7 +408,8 @@ class Page {
     const want = (button) => (robot >= 0 && isPressed($(button)) ? [id] : []);
     const own = this.fleet.runs && robot >= 0 ? [id] : [];
     const ways = this.fleet.runs && isPressed($('ways')) ? 'all' : own;
-    this.connection?.watch({ scans: want('scan'), paths: want('path'), ways });
+    const why = ['robot', 'station'].includes(this.details.thing?.kind) ? this.selected : '';
+    this.connection?.watch({ scans: want('scan'), paths: want('path'), ways, why });
   }
 
   next(step) {
@@ -377,8 +440,8 @@ class Page {
         this.showExtras();
       });
     }
-    toggle('trails', (isOn) => this.showTrails(isOn));
-    toggle('heat', (isOn) => this.heat?.want(isOn));
+    toggle('trails', () => this.showTrails());
+    toggle('heat', () => this.showHeat());
     toggle('xray', (isOn) => this.actors?.setSeeThrough(isOn));
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));
@@ -405,11 +468,18 @@ class Page {
     this.navigator?.showAll(above);
   }
 
-  showTrails(isOn) {
+  async showTrails() {
     if (!this.stage) return;
-    this.overlays.trails.clear();
-    this.overlays.trails.object.visible = isOn;
-    this.stage.invalidate();
+    const { Trails } = await import('./layers/trails.js');
+    this.trails ??= new Trails(this.stage, this.world);
+    this.trails.want(isPressed($('trails')));
+  }
+
+  async showHeat() {
+    if (!this.stage) return;
+    const { HeatMap } = await import('./layers/heat.js');
+    this.heat ??= new HeatMap(this.stage);
+    this.heat.want(isPressed($('heat')));
   }
 
   changeTheme() {
@@ -443,13 +513,18 @@ function toggle(id, then) {
   });
 }
 
+function nameIn(hash) {
+  try {
+    return decodeURIComponent(hash.slice(1));
+  } catch { // a lone %
+    return '';
+  }
+}
+
 /** Extent of a thing along the floor, from its bounds [m]. */
 function halfOf({ min, max }) {
   return Math.max(...[...min.slice(0, 2), ...max.slice(0, 2)].map(Math.abs));
 }
 
 window.page = new Page(); // for a look from the console
-// /#sku-17 asks at once where that is; /#t=630 is a moment.
-const askHash = () => momentOf(location.hash) || window.page.list.ask(location.hash.slice(1));
-on(window, 'hashchange', askHash);
-askHash();
+on(window, 'hashchange', () => window.page.askHash());

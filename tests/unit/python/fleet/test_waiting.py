@@ -70,6 +70,12 @@ def test_a_queue_says_which_robot_of_it_is_broken():
     }
 
 
+def test_the_queue_goes_on_while_the_unit_that_was_served_leaves():
+    leaves = Transport(1, 7, "pick4", 0, 0, 0, step=Step.STORING, robot=0)
+    waits = dict(Waiting(Queue(), [leaves, *map(brought, range(1, 4))]).long())
+    assert waits == {n: f"in the queue of pick4 behind kiva{n}" for n in (1, 2, 3)}
+
+
 def test_robots_of_different_stations_share_no_queue():
     queue = Queue()
     queue.robots.broken[0] = True

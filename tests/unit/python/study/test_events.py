@@ -282,5 +282,81 @@ def test_a_sweep_takes_events(tmp_path):
         sweep.read(path)
 
 
+STOCK = "sku,quantity,storage_unit\nred,20,1\nblue,20,2\n"
+ORDERS = "reference,sku,quantity\na,{},1\n"
+
+
+def own_layout(folder):
+    """A layout file of `small` with a stock of red and blue."""
+    path = folder / "own.layout.yaml"
+    layout_file.write(replace(layout_choice.chosen("small"), items=0, stock="stock.csv"), path)
+    (folder / "stock.csv").write_text(STOCK)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("line", "fault"),
+    [
+        ("close: pick9", "close is pick9; there are pick1, pick2"),
+        ("open: pick9", "open is pick9; there are"),
+        ("picker: {station: pick9, pickers: 2}", "picker is pick9; there are"),
+        ("fail: robot 99", "fail is robot 99; there are 1 to 4"),
+        ("sku_out: green", "sku_out is green; the stock has no such SKU"),
+        ("orders: rush.csv", "the stock has none of 1 SKU of 1: green"),
+    ],
+)
+def test_names_that_do_not_exist_are_refused_before_anything_runs(tmp_path, line, fault):
+    own_layout(tmp_path)
+    (tmp_path / "rush.csv").write_text(ORDERS.format("green"))
+    events, path = tmp_path / "events.yaml", tmp_path / "s.yaml"
+    events.write_text(f"- {{at: 5, close: pick1}}\n- {{at: 60, {line}}}\n")
+    # simulate
+    command = [sys.executable, SIMULATE, "--layout", tmp_path / "own.layout.yaml", "--no-physics"]
+    command += ["--events", events, "--out", tmp_path / "run"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and f"{events}:2: {line.partition(':')[0]}" in done.stderr
+    assert fault in done.stderr and not (tmp_path / "run").exists()
+    # a sweep: events of its own, of a file, and of its grid
+    site = "layout: own.layout.yaml\nphysics: false\n"
+    for text, where in (
+        (f"events:\n- {{at: 60, {line}}}\n", f"{path}:4:"),
+        ("events: events.yaml\n", f"{events}:2:"),
+        (f"grid:\n  events:\n  - []\n  - - {{at: 60, {line}}}\n", f"{path}:6:"),
+    ):
+        path.write_text(site + text)
+        with pytest.raises(sweep.SweepError) as error:
+            sweep.read(path)
+        assert str(error.value).startswith(where) and fault in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("setting", "fault"),
+    [
+        ("orders: green.csv", "green.csv:2: "),
+        ("orders: day:green.csv", "the stock has none of 1 SKU of 1: green"),
+        ("stations: 9", "stations is 9; small has 2 for picking"),
+        ("robots: 900", "900 robots, but there is room for"),
+    ],
+)
+def test_settings_of_what_does_not_exist_are_refused_by_a_sweep(tmp_path, setting, fault):
+    own_layout(tmp_path)
+    (tmp_path / "green.csv").write_text(ORDERS.format("green"))
+    path = tmp_path / "s.yaml"
+    path.write_text(f"layout: own.layout.yaml\nphysics: false\n{setting}\n")
+    with pytest.raises(sweep.SweepError) as error:
+        sweep.read(path)
+    assert str(path) in str(error.value) and fault in str(error.value)
+
+
+def test_robots_and_skus_that_come_are_known(tmp_path):
+    path = tmp_path / "s.yaml"
+    events = "- {at: 5, robots: +2}\n- {at: 60, fail: robot 6}\n- {at: 61, sku_out: sku-3}\n"
+    path.write_text(f"size: small\nphysics: false\nevents:\n{events}")
+    assert len(sweep.read(path).jobs[0][0].events) == 3
+    path.write_text(path.read_text().replace("robot 6", "robot 7"))
+    with pytest.raises(sweep.SweepError, match="s.yaml:5: fail is robot 7; there are 1 to 6"):
+        sweep.read(path)
+
+
 def test_errors_of_events_are_those_of_simulations():
     assert EventError in simulation.ERRORS

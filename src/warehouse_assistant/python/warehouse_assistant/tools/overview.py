@@ -248,12 +248,8 @@ async def _why_robot(warehouse: Client, number: int) -> str:
     fleet = await warehouse.get_or_none("coordinator")
     transports = await warehouse.get_or_none("transports", limit=1000)
     alarms = await warehouse.get_or_none("alarms")
-    lines = [_robot(robot)]
-    for row in (fleet or {}).get("waiting", []):
-        if row["robot"] == number:
-            stands = duration(max(0.0, fleet["time"] - row["since"]))
-            blocker = f" kiva{row['waits_for']} is ahead." if row["waits_for"] else ""
-            lines.append(f"It has stood for {stands}: {quoted(row['text'], 200)}.{blocker}")
+    why = await warehouse.get_or_none(f"why/{robot['name']}")
+    lines = [_robot(robot), *_reason(why, fleet)]
     for row in (transports or {}).get("transports", []):
         if row["robot"] == robot["name"] and row["state"] not in ENDED:
             goal = quoted(row["station"]) if row["station"] else "a cell"
@@ -262,9 +258,23 @@ async def _why_robot(warehouse: Client, number: int) -> str:
             )
             if row["state"] == "ARRIVED":
                 lines.append("The unit waits there to be released, by its station or release_unit.")
-    lines += [_alarm(a) for a in (alarms or {}).get("alarms", []) if a["subject"] == robot["name"]]
+    lines += _alarms_of(alarms, robot["name"], why)
     lines += _what_helps(robot, fleet)
     return "\n".join(lines)
+
+
+def _reason(why: Row | None, fleet: Row | None) -> list[str]:
+    """Returns the sentence that all pages have for something, and for how long it holds."""
+    if why is None:
+        return []
+    holds = f" For {duration(max(0.0, fleet['time'] - why['since']))}." if fleet else ""
+    return [sentence(quoted(why["sentence"], 300)) + holds]
+
+
+def _alarms_of(alarms: Row | None, name: str, why: Row | None) -> list[str]:
+    """Returns the alarms about something, and about what it waits for."""
+    subjects = {name, why["cause"] if why else ""}
+    return [_alarm(row) for row in (alarms or {}).get("alarms", []) if row["subject"] in subjects]
 
 
 def _what_helps(robot: Row, fleet: Row | None) -> list[str]:
@@ -288,29 +298,25 @@ async def _why_station(warehouse: Client, name: str) -> str:
     fleet = await warehouse.get_or_none("coordinator")
     alarms = await warehouse.get_or_none("alarms")
     now = fleet["time"] if fleet else (await warehouse.get("warehouse"))["time"]
-    lines = [_station(station, now), sentence(_cause(station))]
+    why = await warehouse.get_or_none(f"why/{hub_client.segment(station['name'])}")
+    lines = [_station(station, now), *_reason(why, fleet), *_help_for(station)]
     waiting = {w["robot"]: w for w in (fleet or {}).get("waiting", [])}
     lines += [_queued(row, waiting.get(row["robot"])) for row in station["queue"]]
-    lines += [_alarm(a) for a in (alarms or {}).get("alarms", []) if a["subject"] == name]
+    lines += _alarms_of(alarms, station["name"], why)
     return "\n".join(lines)
 
 
-def _cause(station: Row) -> str:
+def _help_for(station: Row) -> list[str]:
+    """Returns which tool helps a station that waits."""
     if not station["open"]:
-        return "It is closed; set_station opens it"
+        return ["set_station opens it."]
     if station["waiting"]:
-        wait = duration(station["waiting"])
-        return f"It has waited {wait} for a person to confirm its picks (confirm_pick)"
-    if station["shelf_id"]:
-        return f"It does not wait: {count(len(station['picks']), 'pick')} from the unit there"
-    if station["queue"]:
-        carried = [row for row in station["queue"] if row["robot"]]
-        if not carried:
-            return "Units are chosen for it, and no robot carries one yet"
-        return "Its next unit is on the way"
+        return ["confirm_pick confirms for the person there."]
     if station["kind"] == "PICK" and not station["orders"]:
-        return "It has no orders; submit_order brings some"
-    return "No unit is on its way: no free unit or robot can serve its orders now"
+        return ["It has no orders; submit_order brings some."]
+    if not station["shelf_id"] and not station["queue"]:
+        return ["No free unit or robot can serve its orders now."]
+    return []
 
 
 def _queued(row: Row, waiting: Row | None) -> str:

@@ -23,6 +23,8 @@ DOES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
+# What the robots in a station's queue do: the first may just have been served.
+QUEUE = (Step.BRINGING, Step.WAITING, Step.STORING)
 
 
 class Waiting:
@@ -109,18 +111,20 @@ class Waiting:
             text = f"in the queue of {station} {text}"
         if fault := self._fault(ahead):
             return f"{text}, which is {fault}"
-        if last == ahead or (served and not self._fault(last)):
+        fault = self._fault(last)
+        leaves = bool(self._shared_queue(robot, last))
+        if last == ahead or ((served or leaves) and not fault):
             return text
         head = f"kiva{self._robots.kiva_ids[last]}"
-        fault = self._fault(last)
         return f"{text}, in a queue behind {head}" + (f", which is {fault}" if fault else "")
 
     def _shared_queue(self, robot: int, ahead: int) -> str:
-        """Returns the station to which both of two robots bring a unit; an empty name if none."""
+        """Returns the station to which a robot brings a unit, as the other does, or from which that
+        comes; an empty name if none."""
         own, other = self._of_robot.get(robot), self._of_robot.get(ahead)
         if not (own and other) or own.station != other.station or own.step != Step.BRINGING:
             return ""
-        return own.station if other.step in (Step.BRINGING, Step.WAITING) else ""
+        return own.station if other.step in QUEUE else ""
 
     def _fault(self, robot: int) -> str:
         """Returns why a robot can't drive autonomously; empty if it can."""

@@ -244,7 +244,7 @@ class _Drawing:
         }
         same = {n: getattr(hint, n) for n, at in cells.items() if getattr(file, n) == at}
         if len(layout.item_unit) == file.items:
-            same |= {"items": hint.items, "stock": hint.stock}
+            same |= {"items": hint.items, "stock": hint.stock, "skus": hint.skus}
         return replace(file, **same)
 
 

@@ -58,6 +58,7 @@ class LayoutFile:
     robots: int | tuple[Cell, ...] = 0
     items: int = 0
     stock: str = ""  # CSV file with columns sku,quantity,storage_unit; instead of items
+    skus: str = ""  # CSV file of the SKUs in stock, see sku_master: what pieces weigh
     policies: Mapping[str, Any] = field(default_factory=dict)
     building: str = ""  # world file of the hall around it
     at: tuple[float, float] | None = None  # centre of cell (0, 0) in `world` [m]; None: centred

@@ -109,10 +109,15 @@ def text_of(file: LayoutFile) -> str:
         out += ["stations:", *(f"  {s.key}: {_flow(_entry(s, file.floor))}" for s in file.stations)]
     out += [f"storage_units: {_flow(_places(file.storage_units))}"]
     out += [f"robots: {_flow(_places(file.robots))}"]
-    out += [f"items: {{stock: {_flow(file.stock)}}}" if file.stock else f"items: {file.items}"]
+    out += [f"items: {_stock(file)}" if file.stock else f"items: {file.items}"]
     if file.policies:
         out += [yaml.safe_dump({"policies": dict(file.policies)}, sort_keys=False).rstrip()]
     return "\n".join(out) + "\n"
+
+
+def _stock(file: LayoutFile) -> str:
+    skus = f", skus: {_flow(file.skus)}" if file.skus else ""
+    return f"{{stock: {_flow(file.stock)}{skus}}}"
 
 
 def _entry(station: StationEntry, floor: np.ndarray) -> dict[str, Any]:

@@ -60,7 +60,7 @@ class LayoutReader:
             storage_units=self._units(top.get("storage_units")),
             robots=self._robots(top.get("robots")),
             items=self._items(top),
-            stock=self._stock(top),
+            **self._stock(top),
             policies=self._policies(top.get("policies")),
             building=self._text_of(top.get("building"), "building", ""),
             at=self._at(top.get("at")),
@@ -241,15 +241,22 @@ class LayoutReader:
             return 0
         return self._count(node, "items", LIMITS["items"])
 
-    def _stock(self, top: dict[str, Node]) -> str:
-        node, stock = top.get("items"), top.get("stock")
+    def _stock(self, top: dict[str, Node]) -> dict[str, str]:
+        """Returns the files of the stock, and of the SKUs in it."""
+        node, stock, skus = top.get("items"), top.get("stock"), None
         if isinstance(node, yaml.MappingNode):
             if stock is not None:
                 self._fail(stock, "stock stands within items already")
-            stock = self._mapping(node, ("stock",), "items").get("stock")
+            files = self._mapping(node, ("stock", "skus"), "items")
+            stock, skus = files.get("stock"), files.get("skus")
+            if skus is not None and stock is None:
+                self._fail(skus, "skus: `stock` was expected beside it, whose SKUs it describes")
         elif node is not None and stock is not None:
             self._fail(stock, "items are counted already: either a count or a stock file")
-        return self._text_of(stock, "stock", "")
+        return {
+            "stock": self._text_of(stock, "stock", ""),
+            "skus": self._text_of(skus, "skus", ""),
+        }
 
     def _policies(self, node: Node | None) -> dict[str, Any]:
         value = {} if node is None else self._value(node)

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The models of a Layout, to be spawned: names, SDF texts and poses."""
 
+import functools
+import math
 import re
 import sys
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
+from warehouse_layout.file import files
 from warehouse_layout.floor import floor_markings
 from warehouse_layout.place.layout import Layout
 
@@ -91,7 +95,7 @@ def of_layout(layout: Layout) -> list[Part]:
         *([Part(f"{WALLS}1", _walls(layout.walls))] if len(layout.walls) else []),
         *_belts(layout),
         *_numbered("storage_unit", layout.units),
-        *_numbered("item", on_unit + layout.item_place),
+        *_items(on_unit + layout.item_place, layout.item_mass),
         *_numbered("kiva", layout.robots[:, :2], layout.robots[:, 2]),
     ]
 
@@ -122,6 +126,49 @@ def _belts(layout: Layout) -> list[Part]:
             xml = _PLAIN_BELT.format(name, f"{x!r} {y!r} 0 0 0 {yaw!r}", length)
             parts[i] = Part(name, xml)
     return parts
+
+
+def _items(places: np.ndarray, masses: np.ndarray | None) -> list[Part]:
+    """Returns the Parts of items; one of another mass than its model's has its model in it."""
+    parts = _numbered("item", places)
+    for i, mass in enumerate([] if masses is None else masses.tolist()):
+        if not math.isnan(mass):
+            parts[i] = Part(parts[i].name, _weighed(parts[i].name, places[i].tolist(), mass))
+    return parts
+
+
+def _weighed(name: str, place: list[float], mass: float) -> str:
+    """Returns the model of an item at a place in `world` with another mass [kg]; its inertia is
+    that of the same body of another density."""
+    text, own_mass, moments = _item_model()
+    x, y, z = place
+    inertia = "".join(f"<{k}>{v * mass / own_mass:.6g}</{k}>" for k, v in moments.items())
+    inertial = f"<mass>{mass!r}</mass><inertia>{inertia}</inertia>"
+    return text.format(name=name, pose=f"{x!r} {y!r} {z!r} 0 0 0", inertial=inertial)
+
+
+@functools.cache
+def _item_model() -> tuple[str, float, dict[str, float]]:
+    """Returns the text of the model of an item, with places for its name, pose and inertial; its
+    mass [kg], and its moments of inertia [kg m2]."""
+    model = ElementTree.parse(files.model("item")).getroot().find("model")
+    assert model is not None
+    inertial = model.find("link/inertial")
+    assert inertial is not None
+    mass, inertia = inertial.find("mass"), inertial.find("inertia")
+    assert mass is not None and inertia is not None
+    moments = {part.tag: float(part.text or 0) for part in inertia}
+    own_mass = float(mass.text or 0)
+    inertial.remove(inertia)
+    inertial.remove(mass)
+    inertial[-1].tail = "{inertial}"
+    for part in model.iter():
+        part.text, part.tail = (part.text or "").strip(), (part.tail or "").strip()
+    model.set("name", "{name}")
+    pose = ElementTree.Element("pose")
+    pose.text = "{pose}"
+    model.insert(0, pose)
+    return ElementTree.tostring(model, "unicode"), own_mass, moments
 
 
 def _numbered(kind: str, places: np.ndarray, yaws: np.ndarray | None = None) -> list[Part]:

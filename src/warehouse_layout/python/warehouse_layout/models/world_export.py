@@ -74,8 +74,8 @@ def _surroundings(file: LayoutFile, keep_floor: bool) -> ElementTree.Element:
 
 def _with_whole_paths(file: LayoutFile) -> LayoutFile:
     """Returns the file with paths that hold from every folder."""
-    building, stock = (
+    building, stock, skus = (
         str(file.beside_file(name).resolve()) if name else ""
-        for name in (file.building, file.stock)
+        for name in (file.building, file.stock, file.skus)
     )
-    return replace(file, building=building, stock=stock)
+    return replace(file, building=building, stock=stock, skus=skus)

@@ -44,6 +44,7 @@ class Layout:
     units: np.ndarray = field(default_factory=_none(2))  # x y
     places: np.ndarray = field(default_factory=_none(2))  # x y of all storage places
     item_unit: np.ndarray = field(default_factory=lambda: np.zeros(0, int))  # index into units
+    item_mass: np.ndarray | None = None  # [kg]; NaN, and None for all: as the model is
     item_place: np.ndarray = field(default_factory=_none(3))  # x y z in the unit's frame
     belts: np.ndarray = field(default_factory=_none(3))  # x y yaw
     belt_lengths: np.ndarray | None = None  # [m]; None: each as its model is

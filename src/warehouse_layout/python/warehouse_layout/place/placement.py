@@ -9,7 +9,9 @@ import numpy as np
 from warehouse_layout.file import drawn_floor, station_lanes, stock_file, walls
 from warehouse_layout.file import items as shelves
 from warehouse_layout.file.drawn_floor import DrawnFloor
+from warehouse_layout.file.item_weights import ItemWeights
 from warehouse_layout.file.layout_file import Cell, LayoutFile, LayoutFileError
+from warehouse_layout.file.sku_master import SkuMasterError
 from warehouse_layout.file.stock_file import StockRow
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.floor.stations import PICK, STEPS, Station
@@ -75,6 +77,14 @@ def stock_of(file: LayoutFile, units: int) -> list[StockRow]:
         raise LayoutFileError(str(error)) from error
 
 
+def weights_of(file: LayoutFile) -> ItemWeights | None:
+    """Returns what items weigh by a file's SKU master; None without. Raises LayoutFileError."""
+    try:
+        return ItemWeights.read(file.beside_file(file.skus)) if file.skus else None
+    except SkuMasterError as error:
+        raise LayoutFileError(str(error)) from error
+
+
 def _check_at(file: LayoutFile) -> None:
     """Raises LayoutFileError unless cells lie on the grid of `world`, on which robots stop."""
     cells = np.divide(file.at or (0.0, 0.0), file.spacing)
@@ -100,6 +110,7 @@ class _Placement:
         if len(parked) < (robots if isinstance(robots, int) else 0):
             parked = np.concatenate([parked, self._beneath(places, units, robots, len(parked))])
         item_unit, item_place = self._items(len(units))
+        item_mass = self._masses(len(units))
         belts = list(_belts(drawn, stations))
         return Layout(
             floor=self._floor(),
@@ -108,6 +119,7 @@ class _Placement:
             places=self._world(places),
             item_unit=item_unit,
             item_place=item_place,
+            item_mass=item_mass,
             belts=self._belt_poses(belts),
             belt_lengths=np.array([len(run) * file.spacing - 0.2 for run in belts]),
             drops=self._drops(stations),
@@ -184,6 +196,14 @@ class _Placement:
             return shelves.spread(self._file.items, units, self._rng)
         unit = np.array([row.unit - 1 for row in stock_of(self._file, units)], int)
         return unit, shelves.stacked(unit)
+
+    def _masses(self, units: int) -> np.ndarray | None:
+        """Returns the mass of each item [kg]; None without a SKU master."""
+        weights = weights_of(self._file)
+        if not weights:
+            return None
+        rows = stock_of(self._file, units)
+        return np.array([weights.of(row.sku, row.quantity) for row in rows], float)
 
     def _check_items(self, units: int) -> None:
         most = units * shelves.CAPACITY

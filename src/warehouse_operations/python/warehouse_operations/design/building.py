@@ -124,6 +124,7 @@ class Building:
             building=self.file.building,
             at=self.file.at,
             stock=self.file.stock,
+            skus=self.file.skus,
             items=0 if self.file.stock else floor.items,
             path=self.file.path,
         )

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The search for layouts, in rounds of two stages, and two more at the end.
+"""The search for layouts, in rounds of two stages, and three more at the end.
 
 A layout without room, or with higher costs than one known to be in time, is not simulated.
 1. Ideal and short: a shift of ideal robots up to the end of the busiest hour. First floors as
    `layout new` makes them, then what Optuna proposes (objectives: to buy, cost a piece;
-   constraint: late orders), then neighbours of the best with less to pay.
+   constraint: late orders), then neighbours of the best with less to pay, and of late ones that
+   would cost less.
 2. Ideal and whole: the cheapest by whole days, with the same seeds for all. A late layout is
-   tried with more robots, another one with one fewer.
-3. Physics: the front.
-4. Unseen: the front by new seeds, which had no part in its choice and don't change it.
+   tried with more robots, another one with fewer.
+3. Confirming: the front by more days; those that are late then leave it.
+4. Physics: the front.
+5. Unseen: the front by new seeds, which had no part in its choice and don't change it.
 
 Trials are asked for in batches of the same size on any number of cores, and the budget counts
 simulated pieces: so the answer depends on arguments and seed alone. Shifts are kept: a search that
@@ -45,11 +47,14 @@ PROPOSING = 2  # rounds in which Optuna proposes; in the others neighbours are t
 LAST = 5  # layouts simulated with physics, at most
 RESCUES = 3  # batches of whole days, at most, beyond the budget where nothing is in time
 SEARCH_SEED = 1
-SEEDS, MORE_SEEDS = (101, 102, 103), (104, 105)  # of whole days; short shifts have another seed
-UNSEEN = (201, 202, 203, 204, 205)  # of the last judgement
+SEEDS = ((101,), (102, 103), (104, 105))  # of whole days, in stages; short shifts have another seed
+DAYS = (*itertools.chain(*SEEDS),)
+FRESH = (106, 107, 108, 109, 110)  # of the layouts that are recommended
+UNSEEN = tuple(range(201, 216))  # of the last judgement
 ASKED = 500  # batches of trials a round, at most
 # Layouts with the same stations: most in a batch, and late ones that rule out the others.
 SAME, HOPELESS = 2, 8
+FAR = 3.0  # limits of late orders: a layout with more on its first day gets no other
 NEARLY = 2.0  # limits of late orders: below them another layout with the same stations may do
 PARENTS = 3  # layouts whose neighbours are tried
 SHORT, WHOLE = "short shifts", "whole days"
@@ -105,8 +110,8 @@ class Search:
             if any(each.late <= self.late for each in self._days.values()):
                 break
             self._judge_days(self._least_late())
-        days = sorted(self._days.values(), key=lambda each: (each.bill.a_piece, each.number))
-        chosen = front(days, self.late)[:LAST]
+        self._stage = "confirming"
+        chosen = self._confirm()
         if self.physics_hours:
             self._stage = "physics"
             self._with_physics(chosen)
@@ -124,7 +129,7 @@ class Search:
     @property
     def budget(self) -> float:
         """Seconds of a core, about, for short shifts and whole days: some batches at least."""
-        whole = len(SEEDS + MORE_SEEDS) * self._seconds(self.space.day.hours)
+        whole = len(DAYS) * self._seconds(self.space.day.hours)
         least = BATCH * (2 * self._seconds(self._short_hours) + whole)
         return max(3600 * self.hours, least)
 
@@ -301,10 +306,11 @@ class Search:
 
     def _with_other_robots(self, each: Candidate) -> list[Candidate]:
         """Returns variants of a candidate: with one robot more and with half as many again if it is
-        late, else with one fewer."""
+        late, else with one fewer and with two thirds."""
         out = []
         robots = self.space.parameters["robots"]
-        steps = (1, max(2, each.robots // 2)) if each.late > self.late else (-1,)
+        is_late = each.late > self.late
+        steps = (1, max(2, each.robots // 2)) if is_late else (-1, -max(2, each.robots // 3))
         for more in () if self.is_random else steps:
             chosen = dict(each.chosen) | {"robots": each.robots + more}
             if not robots[0] <= each.robots + more <= robots[-1]:
@@ -315,28 +321,46 @@ class Search:
         return out
 
     def by_whole_days(self, batch: Sequence[Candidate]) -> list[Candidate]:
-        """Returns candidates judged by whole days; those in time have more days, and the upper
-        limit as `late`."""
-        records = self._records(batch, SEEDS)
-        judged = [
-            self.judge.judged(each.number, each.chosen, each.file, mine)
-            for each, mine in zip(batch, records)
-        ]
-        going = [i for i, each in enumerate(judged) if each.late <= self.late]
-        for i, more in zip(going, self._records([batch[i] for i in going], MORE_SEEDS)):
-            each = batch[i]
-            judged[i] = self.judge.judged(each.number, each.chosen, each.file, [*records[i], *more])
-            verdict = judged[i].verdict
-            assert verdict is not None
-            judged[i].late = max(verdict.limit(RISK, 1), 0.0)
+        """Returns candidates judged by whole days, more of them for those in time, whose `late` is
+        the upper limit in the end."""
+        judged, records = list(batch), [list[Record]() for _ in batch]
+        going = list(range(len(batch)))
+        for seeds, limit in zip(SEEDS, (FAR * self.late, self.late, self.late)):
+            for i, more in zip(going, self._records([batch[i] for i in going], seeds)):
+                records[i] += more
+                judged[i] = self._judged(batch[i], records[i])
+            going = [i for i in going if judged[i].late <= limit]
+        for i in going:
+            _set_upper_limit(judged[i])
         return judged
+
+    def _judged(self, each: Candidate, records: Sequence[Record]) -> Candidate:
+        return self.judge.judged(each.number, each.chosen, each.file, records)
+
+    def _confirm(self) -> list[Candidate]:
+        """Returns the front after more days: of many layouts the luckiest by its days is in time,
+        too. Those that are late by all days leave the front."""
+        seeds = (*DAYS, *FRESH)
+        while True:
+            chosen = front(list(self._days.values()), self.late)[:LAST]
+            left = [
+                each
+                for each in chosen
+                if each.late <= self.late
+                and each.verdict
+                and len(each.verdict.records) < len(seeds)
+            ]
+            if not left:
+                return chosen
+            for each, records in zip(left, self._records(left, seeds)):
+                judged = self._days[self.space.known_as(each.chosen)] = self._judged(each, records)
+                _set_upper_limit(judged)
 
     def by_short_shifts(self, candidates: Sequence[Candidate]) -> list[Candidate]:
         """Returns candidates judged by a short shift each."""
         points = [self._points(each.file, (SEARCH_SEED,), True)[0] for each in candidates]
         return [
-            self.judge.judged(each.number, each.chosen, each.file, [record])
-            for each, record in zip(candidates, self._shifts(points))
+            self._judged(each, [record]) for each, record in zip(candidates, self._shifts(points))
         ]
 
     def _records(self, batch: Sequence[Candidate], seeds: Sequence[int]) -> list[list[Record]]:
@@ -355,7 +379,7 @@ class Search:
         ideal = [
             replace(point, run_in=0, minutes=minutes)
             for each in candidates
-            for point in self._points(each.file, SEEDS[:1], False)
+            for point in self._points(each.file, SEEDS[0], False)
         ]
         records = self._shifts([*ideal, *(replace(point, physics=True) for point in ideal)])
         for candidate, before, record in zip(
@@ -422,6 +446,12 @@ def _mixed(queue: Sequence[Candidate]) -> list[Candidate]:
         if alike < SAME and len(out) < BATCH:
             out.append(each)
     return out
+
+
+def _set_upper_limit(candidate: Candidate) -> None:
+    """Sets a candidate's share of late orders to its upper limit."""
+    assert candidate.verdict is not None
+    candidate.late = max(candidate.verdict.limit(RISK, 1), 0.0)
 
 
 def _stations_of(candidate: Candidate) -> tuple[int, int]:

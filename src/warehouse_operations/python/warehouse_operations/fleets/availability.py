@@ -18,7 +18,7 @@ from warehouse_operations.stock.yaml_file import read_yaml
 
 HOUR = 3600.0  # [s]
 DAY = 24 * HOUR  # [s]
-SECTIONS = ("energy", "failures")
+SECTIONS = ("energy", "failures", "actuation")
 KINDS = ("motor", "lift_stuck", "laser_blind", "radio_lost", "wheel_slips")
 
 
@@ -46,11 +46,6 @@ class Energy:
     def joules(self) -> float:
         """The energy of a full battery [J]."""
         return self.capacity * self.health * HOUR
-
-    @property
-    def drain(self) -> Drain:
-        """What motion takes."""
-        return Drain(**{field.name: getattr(self, field.name) for field in fields(Drain)})
 
     def charged(self, charge: float, seconds: float) -> float:
         """Returns the state of charge after a duration at a charger, electronics on."""
@@ -97,14 +92,33 @@ class Failures:
 
 
 @dataclass(frozen=True)
+class Motors:
+    """Motors: the time constant with which speeds follow their commands [s]."""
+
+    motor_lag: float = 0.0
+
+
+@dataclass(frozen=True)
 class Availability:
-    """The causes that keep ideal robots from work; None: without that cause."""
+    """The causes that keep ideal robots from work; None: without that cause. motor_lag: time
+    constant with which speeds follow their commands [s]."""
 
     energy: Energy | None = None
     failures: Failures | None = None
+    motor_lag: float = 0.0
 
     def __bool__(self) -> bool:
         return bool(self.energy or self.failures)
+
+    @property
+    def drain(self) -> Drain | None:
+        """The energy of motion; None where batteries are not simulated."""
+        if self.energy is None:
+            return None
+        names = {field.name for field in fields(Drain)} & {field.name for field in fields(Energy)}
+        return Drain(
+            motor_lag=self.motor_lag, **{name: getattr(self.energy, name) for name in names}
+        )
 
 
 def read(realism: str) -> Availability:
@@ -115,10 +129,11 @@ def read(realism: str) -> Availability:
     data = read_yaml(_path(realism), RealismError)
     if not isinstance(data, dict):
         raise RealismError(f"{realism}: sections with parameters were expected")
-    energy, failures = (data.get(section, False) for section in SECTIONS)
+    energy, failures, actuation = (data.get(section, False) for section in SECTIONS)
     return Availability(
         Energy(**_section(realism, "energy", energy, Energy)) if energy else None,
         Failures(**_section(realism, "failures", failures, Failures)) if failures else None,
+        Motors(**_section(realism, "actuation", actuation, Motors)).motor_lag if actuation else 0.0,
     )
 
 
@@ -136,7 +151,7 @@ def _path(realism: str) -> Path:
 
 
 def _section(
-    realism: str, name: str, values: Any, kind: type[Energy] | type[Failures]
+    realism: str, name: str, values: Any, kind: type[Energy | Failures | Motors]
 ) -> Mapping[str, float]:
     """Returns the parameters of a section that ideal robots have."""
     if values is True:
@@ -168,6 +183,7 @@ class Upkeep:
     ) -> None:
         energy = availability.energy
         self.energy, self.failures, self.rng = energy, availability.failures, rng
+        self.drain = availability.drain
         self.policy, self._cells = policy or Opportunity(), [int(cell) for cell in cells]
         least, most = (energy.initial_least, energy.initial_most) if energy else (1.0, 1.0)
         self.charge = rng.uniform(least, max(least, most), robots)

@@ -21,6 +21,7 @@ from warehouse_fleet.transports.transport_book import Transport
 from warehouse_fleet.transports.transport_requests import TransportRequests
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_operations.fleets.availability import Availability, Upkeep
+from warehouse_operations.fleets.consumption import MassOfItems
 from warehouse_operations.fleets.ideal_floor import IdealFloor
 from warehouse_operations.fleets.ideal_trips import Trips
 from warehouse_operations.stock.protocols import Hooks, Task
@@ -164,9 +165,10 @@ class IdealFleet(TransportRequests):
     # Availability.
 
     def keep_up(
-        self, availability: Availability, rng: np.random.Generator, items: Mapping[int, int]
+        self, availability: Availability, rng: np.random.Generator, items: MassOfItems
     ) -> None:
-        """Has robots charge, fail and be repaired from now on. items: of each unit, by its id."""
+        """Has robots charge, fail and be repaired from now on. items: the mass of those on each
+        unit."""
         count, cells = len(self._trips.robots), np.asarray(self.plan.charging, int)
         policy = self._trips.hooks.charging
         self._trips.keep_up(Upkeep(availability, count, cells, rng, policy), items)

@@ -23,7 +23,7 @@ from warehouse_fleet.transports.transport_book import (
 )
 from warehouse_operations.fleets.activities import ACTIVITIES
 from warehouse_operations.fleets.availability import Upkeep
-from warehouse_operations.fleets.consumption import Consumption, Way
+from warehouse_operations.fleets.consumption import Consumption, MassOfItems, Way
 from warehouse_operations.fleets.ideal_floor import IdealFloor, Lane
 from warehouse_operations.stock.event_queue import EventQueue
 from warehouse_operations.stock.protocols import Hooks, Task
@@ -60,6 +60,7 @@ class Robot:
     halt: float = 0.0  # time that it has to stand on its way [s]
     able: float = 0.0  # end of its repair, if it failed while it waited [s]
     plan: int = 0  # the number of times that a failure took its transport from it
+    heading: int = 0  # the difference of cells ahead and here; 0: unknown
     place: int | None = None  # the storage place that is kept for its unit
     approach: Approach | None = None  # its last way, if that led to a charger
 
@@ -93,11 +94,12 @@ class Trips:
         self._ways_loaded: dict[tuple[int, int, int], Way] = {}
         self._width = floor.plan.passable.shape[1]
 
-    def keep_up(self, upkeep: Upkeep, items: Mapping[int, int]) -> None:
-        """Has robots charge, fail and be repaired from now on. items: of each unit, by its id."""
+    def keep_up(self, upkeep: Upkeep, items: MassOfItems) -> None:
+        """Has robots charge, fail and be repaired from now on. items: the mass of those on each
+        unit."""
         self.upkeep = upkeep
-        if upkeep.energy:
-            self._consumption = Consumption(upkeep.energy.drain, self.kinematics, items)
+        if upkeep.drain:
+            self._consumption = Consumption(upkeep.drain, self.kinematics, items)
         self._schedule_failure(upkeep)
 
     def _schedule_failure(self, upkeep: Upkeep) -> None:
@@ -251,13 +253,11 @@ class Trips:
         puts it back where that way is not driven after all."""
         if not self.upkeep or not self._consumption:
             return
-        x, y = (
-            abs(a - b) for a, b in zip(divmod(robot.cell, self._width), divmod(to, self._width))
-        )
         spacing = self.floor.plan.spacing
-        way = Way(tuple(spacing * cells for cells in (x, y) if cells))
-        energy = self._consumption.drive(way, None)
+        way = Way.along_axes(robot.cell, to, self._width, spacing, robot.heading)
+        energy = self._consumption.drive(way, robot.heading, None)
         self.upkeep.spend(robot.index, -energy if back else energy)
+        robot.heading = way.last or robot.heading
 
     def _spend_loaded(
         self, transport: Transport, table: Table, end: int, other: int, outbound: int
@@ -271,9 +271,12 @@ class Trips:
             if len(self._ways_loaded) >= WAYS:
                 self._ways_loaded.clear()
             cells = table.cells(other)
+            cells = cells[::-1] if outbound else cells
             self._ways_loaded[key] = Way.along(cells, self.floor.plan.spacing)
-        energy = self._consumption.drive(self._ways_loaded[key], transport.shelf)
-        self.upkeep.spend(transport.robot, energy)
+        way, robot = self._ways_loaded[key], self._driver(transport)
+        energy = self._consumption.drive(way, robot.heading, transport.shelf)
+        self.upkeep.spend(robot.index, energy)
+        robot.heading = way.last or robot.heading
 
     def _spend_in_lane(self, transport: Transport, lane: Lane) -> None:
         """Takes the energy of moving up cell by cell from the battery: a start and a stop for each

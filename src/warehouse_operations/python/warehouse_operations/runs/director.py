@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from warehouse_operations.runs.event_file import Event
-from warehouse_operations.stock.days import check_stock
-from warehouse_operations.stock.order_file import DemandError, OrderDraft, read_csv
+from warehouse_operations.runs.names import Names
+from warehouse_operations.stock.order_file import OrderDraft, read_csv
 
 if TYPE_CHECKING:
     from warehouse_operations.runs.operations import Operations
-
-NAMED = 8  # names in a message
 
 
 class Director:
@@ -31,35 +29,15 @@ class Director:
         self._working = [robot for robot in sorted(ops.site.robots) if robot not in spare]
         for robot in spare:
             ops.fleet.set_in_service(robot, False)
+        names = Names(
+            [station.name for station in self._shift.stations],
+            ops.site.robots,
+            self._shift.assortment.skus,
+            ops.ideal,
+        )
         for event in events:
-            self._check(event)
+            names.check(event)
             self._shift.context.clock.schedule(self._shift.began + event.at, self._carry_out, event)
-
-    def _check(self, event: Event) -> None:
-        """Raises EventError if an event could not happen."""
-        value = event.value
-        station = value["station"] if event.kind == "picker" else value
-        if event.kind in ("close", "open", "picker"):
-            self._check_station(event, station)
-        elif event.kind == "fail" and isinstance(value, int):
-            if value not in self._ops.site.robots:
-                raise event.fault(f"is robot {value}; there are 1 to {max(self._ops.site.robots)}")
-        elif event.kind == "speed" and not self._ops.ideal:
-            raise event.fault("holds for ideal robots; simulated ones have that of their model")
-        elif event.kind == "sku_out" and value not in self._shift.assortment.skus:
-            raise event.fault(f"is {value}; the stock has no such SKU")
-        elif event.kind == "orders":
-            asked = {sku: 0 for order in read_csv(value) for sku, _ in order.lines}
-            try:
-                check_stock(value, asked, self._shift.assortment.skus)
-            except DemandError as error:
-                raise event.fault(str(error)) from error
-
-    def _check_station(self, event: Event, name: str) -> None:
-        names = [station.name for station in self._shift.stations]
-        if name not in names:
-            more = " …" if len(names) > NAMED else ""
-            raise event.fault(f"is {name}; there are {', '.join(names[:NAMED])}{more}")
 
     def _carry_out(self, event: Event) -> None:
         self._shift.context.update_hash("event", event.kind, str(event.value))

@@ -7,7 +7,7 @@ from typing import Any
 
 from warehouse_layout.file.layout_file import LayoutFile, StationEntry
 from warehouse_layout.file.request import LIMITS
-from warehouse_layout.place.placement import stock_of
+from warehouse_layout.place.placement import stock_of, weights_of
 from warehouse_operations.policies import Policies, PolicyError, beside
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site, Stock
@@ -17,7 +17,7 @@ def of_file(site: Site, file: LayoutFile) -> Site:
     """Returns the Site of a warehouse that was built of a layout file, with the file's stock and
     settings.
 
-    Raises LayoutFileError for a stock file that is wrong.
+    Raises LayoutFileError for a stock file, or a file of SKUs, that is wrong.
     """
     # Units may be gone by now: bins whose items are missing are left out.
     rows = stock_of(file, LIMITS["shelves"])
@@ -28,6 +28,7 @@ def of_file(site: Site, file: LayoutFile) -> Site:
         name=site.name or file.title,
         settings=replace(site.settings, by_station=settings_of(file).by_station),
         stock=stock,
+        weights=weights_of(file),
     )
 
 

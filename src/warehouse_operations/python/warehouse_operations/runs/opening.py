@@ -12,6 +12,7 @@ from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock import days, orders_text
 from warehouse_operations.stock.assortment import Assortment, listed, stocked
 from warehouse_operations.stock.demand import make_demand
+from warehouse_operations.stock.inventory import Bin
 from warehouse_operations.stock.order_file import DemandError, lines_by_sku
 from warehouse_operations.stock.protocols import Requests
 from warehouse_operations.stock.settings import Settings
@@ -71,11 +72,8 @@ def open_shift(
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
         stock = [(bin_, 0) for bin_ in (*stored.bins, *changed.new)]
-    elif site.stock:
-        assortment, stock = listed(site.items, site.stock, stock_rng)
     else:
-        own = _own_skus(str(orders), site)
-        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level, own=own)
+        assortment, stock = _new_stock(str(orders), site, stock_rng)
     settings = settings or site.settings
     picks = [station.kind == "PICK" for station in site.plan.stations]
     refilling = [settings.of(station.name).replenishes for station in site.plan.stations]
@@ -108,6 +106,20 @@ def open_shift(
         shift.commit()
         journal.flush()
     return shift
+
+
+def assortment_of(orders: str, site: Site, rng: np.random.Generator) -> Assortment:
+    """Returns the SKUs with which a new shift at a Site begins. Raises DemandError."""
+    return _new_stock(orders, site, rng)[0]
+
+
+def _new_stock(
+    orders: str, site: Site, rng: np.random.Generator
+) -> tuple[Assortment, list[tuple[Bin, int]]]:
+    if site.stock:
+        return listed(site.items, site.stock, rng)
+    own = _own_skus(orders, site)
+    return stocked(site.items, rng, site.skus, level=site.level, own=own)
 
 
 def _own_skus(orders: str, site: Site) -> Assortment | None:

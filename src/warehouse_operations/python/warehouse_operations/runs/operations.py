@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from warehouse_operations.fleets.availability import Availability
+from warehouse_operations.fleets.consumption import ITEM, MassOfItems
 from warehouse_operations.fleets.ideal import IdealFleet
+from warehouse_operations.fleets.loads import Loads
 from warehouse_operations.policies import Policies
 from warehouse_operations.runs.minute_log import MinuteLog
 from warehouse_operations.runs.opening import open_shift
@@ -79,8 +81,10 @@ class Operations:
         self.orders = self.shift.orders
         self.fleet.set_hooks(self.shift.hooks)
         if availability and isinstance(self.fleet, IdealFleet):
-            items = Counter(unit for _, unit in self.site.items)
-            self.fleet.keep_up(availability, np.random.default_rng((seed, 1)), items)
+            rng = np.random.default_rng((seed, 1))
+            self.fleet.keep_up(availability, rng, self._mass_of_items())
+        elif self.site.weights and not self.ideal:
+            self._weigh(world, Loads(self.shift.inventory, self.site.weights))
         self.wall_s = 0.0
         self.log = MinuteLog(
             self.context,
@@ -90,6 +94,22 @@ class Operations:
             kinematics=self.site.kinematics,
             spacing=self.site.plan.spacing,
         )
+
+    def _mass_of_items(self) -> MassOfItems:
+        """Returns the mass of the items on each unit: by the SKU master, where the site has one."""
+        if self.site.weights:
+            return Loads(self.shift.inventory, self.site.weights).of_unit
+        items = Counter(unit for _, unit in self.site.items)
+        return lambda unit: ITEM.mass * items[unit]
+
+    def _weigh(self, world: Any, loads: Loads) -> None:
+        """Has the world's items weigh what the stock says, from now on."""
+        items = world.items
+        masses = dict(zip(items["item_id"].tolist(), items["mass"].tolist()))
+        for bin_ in self.shift.inventory.bins.values():
+            if masses.get(int(bin_.item.removeprefix("item"))) != loads.of_item(bin_):
+                world.set_mass(bin_.item, loads.of_item(bin_))
+        self.shift.inventory.on_weight = lambda bin_: world.set_mass(bin_.item, loads.of_item(bin_))
 
     def _fleet(
         self, world: Any, physics: bool, seed: int, threads: int, planner: Any

@@ -170,7 +170,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
     """Opens the shift of a Description; raises one of ERRORS."""
     if not description.events:
         return _open_operations(description, database)
-    whole, spare = _with_spare_robots(description)
+    whole, spare = with_spare_robots(description)
     ops = _open_operations(whole, database)
     try:
         robots = sorted(ops.site.robots)
@@ -181,7 +181,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
     return ops
 
 
-def _with_spare_robots(description: Description) -> tuple[Description, int]:
+def with_spare_robots(description: Description) -> tuple[Description, int]:
     """Returns a Description with the robots of all its events, and the number of those that come
     later. Raises EventError."""
     spare = event_file.most_added(description.events)
@@ -227,7 +227,7 @@ def _open_operations(description: Description, database: str | None = None) -> O
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
-    _check_stations(description, site)
+    check_stations(description, site)
     if description.planner and not description.physics:
         raise PlannerError("planner: ideal robots pass through each other; physics was expected")
     ops = Operations(
@@ -247,7 +247,8 @@ def _open_operations(description: Description, database: str | None = None) -> O
     return ops
 
 
-def _check_stations(description: Description, site: Site) -> None:
+def check_stations(description: Description, site: Site) -> None:
+    """Raises InstanceError for more open stations than there are."""
     count = sum(station.kind == "PICK" for station in site.plan.stations)
     if description.stations > count:
         raise InstanceError(

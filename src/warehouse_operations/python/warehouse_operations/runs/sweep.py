@@ -33,7 +33,7 @@ from typing import Any
 
 from warehouse_layout.generate import layout_choice
 from warehouse_operations.policies import ROLES
-from warehouse_operations.runs import event_file
+from warehouse_operations.runs import early_check, event_file
 from warehouse_operations.runs import run_files as runs
 from warehouse_operations.runs.event_file import Event, EventError
 from warehouse_operations.runs.simulation import (
@@ -45,7 +45,7 @@ from warehouse_operations.runs.simulation import (
     with_settings,
 )
 from warehouse_operations.stock import orders_text
-from warehouse_operations.stock.lined_yaml import LinedYaml
+from warehouse_operations.stock.lined_yaml import LinedYaml, Place
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_operations.stock.yaml_file import read_yaml
 from warehouse_operations.store.locks import FileLock, InUseError
@@ -222,14 +222,15 @@ def _orders_beside(path: Path, orders: str) -> str:
         raise SweepError(f"{path}: {error}") from error
 
 
-def _events(path: Path, events: list[Any] | str, is_varied: bool) -> tuple[Event, ...]:
-    """Returns the events of a list, or of a file beside a sweep. Raises EventError."""
+def _events(path: Path, events: list[Any] | str, place: Place) -> tuple[Event, ...]:
+    """Returns the events of a list at a place in a sweep, or of a file beside it. Raises
+    EventError."""
     if isinstance(events, str):
         return event_file.read(_beside(path, events))
-    if is_varied or not events:
-        return event_file.events_of(events, path.parent)
+    if not events:
+        return ()
     file = LinedYaml(path, EventError)
-    return event_file.events_of(events, path.parent, file.fault, ("events",), str(path), file.line)
+    return event_file.events_of(events, path.parent, file.fault, place, str(path), file.line)
 
 
 def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
@@ -250,9 +251,14 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
         raise SweepError(f"{path}: {' and '.join(sites)}: only one of them was expected")
     try:
         options |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
-        options["events"] = _events(path, merged.get("events", []), "events" in point)
+        events: list[Any] | str = merged.get("events", [])
+        place: Place = ("events",)
+        if "events" in point:
+            place = ("grid", "events", data["grid"]["events"].index(events))
+        options["events"] = _events(path, events, place)
         description = with_settings(Description(**options))
         description.config  # noqa: B018 - policies that don't exist are refused before anything runs
+        early_check.check(description)
         return description
     except EventError as error:
         raise SweepError(str(error)) from error

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Slotting: assigns SKUs to units by the orders, and measures the gain.
 
-sku_master skus.csv: weights, sizes, pieces a bin, classes proposal SKUs that are ordered together
-share units; the most ordered stand near stations trial shifts with the proposed and with a random
-stock, seed by seed
+proposal: SKUs that are ordered together share units, the most ordered stand near stations; trial:
+shifts with the proposed and with a random stock, seed by seed.
 """

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import NamedTuple
 
-from warehouse_operations.slotting.sku_master import Sku
+from warehouse_layout.file.sku_master import Sku
 from warehouse_operations.stock.order_file import OrderDraft
 
 UNIT_KG = 390.0  # largest mass on a unit: a robot's load of 450 kg, less the unit's own 60 kg

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from warehouse_layout.file.layout_file import LayoutFile, text_of
+from warehouse_layout.file.sku_master import Sku
 from warehouse_layout.place import placement
 from warehouse_operations.fleets.ideal_floor import IdealFloor
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.slotting.proposal import Lot, Pairs, Slot, propose
-from warehouse_operations.slotting.sku_master import Sku
 from warehouse_operations.stock.assortment import Assortment, stocked
 from warehouse_operations.stock.demand import DemandError
 from warehouse_operations.stock.order_file import OrderDraft

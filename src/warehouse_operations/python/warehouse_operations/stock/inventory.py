@@ -92,6 +92,7 @@ class Inventory:
         self._incoming: dict[str, int] = defaultdict(int)
         self._on_move = on_move or (lambda *_: None)
         self.changed: set[Bin] = set()  # bins whose figures are not recorded yet
+        self.on_weight: Callable[[Bin], object] = lambda _: None  # called after each move
         for bin_ in bins:
             self.of_unit[bin_.unit].append(bin_)
             self.capacity += bin_.capacity
@@ -166,6 +167,7 @@ class Inventory:
         self._measure(bin_)
         self.changed.add(bin_)
         self._on_move(bin_, quantity, reason, context)
+        self.on_weight(bin_)
 
     def take_changed(self) -> set[Bin]:
         """Returns the bins whose figures have changed since the last call."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
+from warehouse_layout.file.item_weights import ItemWeights
 from warehouse_layout.floor import plan_reader
 from warehouse_layout.floor.floor_plan import FloorPlan
 from warehouse_layout.place.layout import Layout
@@ -40,6 +41,7 @@ class Site:
     skus: int | None = None  # number of SKUs; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
     stock: Sequence[Stock] = ()  # at first, bin by bin; (): drawn by chance
+    weights: ItemWeights | None = None  # of the items by their SKUs; None: as their model
 
     @classmethod
     def of_layout(cls, laid: Layout, name: str = "") -> "Site":

@@ -2,7 +2,6 @@
 """Adds the models of a world file to a simulation that runs, all of them or none."""
 
 import math
-import subprocess
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,10 +9,10 @@ from typing import Any
 
 from warehouse_layout.file import files
 from warehouse_layout.models import world_file
+from warehouse_sim.hub import programs
 from warehouse_sim.hub.simulation import Simulation
 from warehouse_sim.hub.wish import MOST_TEXT, WishError
 
-PATIENCE = 120.0  # with a large world [s, wall]
 IN_THE_WAY = 3  # exit code of insert_world
 
 
@@ -52,24 +51,12 @@ def _number(body: Mapping[str, Any], key: str) -> float:
 
 
 def _run(simulation: Simulation, path: str, place: list[str]) -> str:
-    assert simulation.process
-    command = ["rosrun", "warehouse_sim", "insert_world", path, *place]
     try:
-        ran = subprocess.run(
-            command,
-            env=simulation.process.environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=PATIENCE,
-            check=False,
-        )
-    except subprocess.TimeoutExpired as error:
-        raise InTheWay(f"the world did not answer within {PATIENCE:g} s") from error
-    if ran.returncode == 0:
-        return ran.stdout.strip()
-    reason = (ran.stderr.strip().splitlines() or ["insert_world failed"])[-1]
-    reason = reason.removeprefix("insert_world: ")
-    if ran.returncode == IN_THE_WAY:
-        raise InTheWay(reason)
-    raise WishError("world", reason)
+        code, text = programs.run(simulation, "insert_world", path, *place)
+    except TimeoutError as error:
+        raise InTheWay(str(error)) from error
+    if code == IN_THE_WAY:
+        raise InTheWay(text)
+    if code:
+        raise WishError("world", text)
+    return text

@@ -7,6 +7,7 @@ import re
 import signal
 import socket
 import subprocess
+import time
 import xmlrpc.client
 from collections.abc import Mapping
 from contextlib import suppress
@@ -16,6 +17,10 @@ from typing import IO, Any
 from warehouse_sim.hub.wish import Wish
 
 PATIENCE = 8.0  # for roslaunch to end its nodes [s, wall]
+# In the environment of all processes of a simulation: its folder. roslaunch gives each node a
+# session of its own, and one that is ended while it starts nodes may leave some behind.
+MARK = "WAREHOUSE_HUB_SIMULATION"
+SWEEPS, SWEEP_GAP = 20, 0.1  # [s, wall]
 TIMEOUT = 2.0  # for the master to answer [s, wall]
 COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\]2;[^\x07]*\x07")
 END = "Initiating shutdown!"  # of roslaunch, once a required process has died
@@ -40,7 +45,9 @@ class Process:
 
     def __init__(self, wish: Wish, folder: Path, environment: Mapping[str, str]) -> None:
         """Starts it. Raises OSError."""
+        sweep(folder)
         port = free_port()
+        self._folder = folder
         self.master = f"http://localhost:{port}"
         self._log = folder / "log.txt"
         self.environment = {
@@ -51,6 +58,7 @@ class Process:
             "ROS_HOSTNAME": "localhost",
             "PYTHONUNBUFFERED": "1",
             "SETUPTOOLS_USE_DISTUTILS": "stdlib",
+            MARK: str(folder),
         }
         with self._log.open("ab") as log:
             self._popen = self._start(wish, port, folder, log)
@@ -82,17 +90,13 @@ class Process:
 
     def end(self) -> None:
         """Waits until it has ended, and kills remaining processes after PATIENCE."""
-        tree = descendants(self._popen.pid)
         self.ask_to_end()
         try:
             self._popen.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             self._popen.kill()
             self._popen.wait()
-        for number, start in tree.items():
-            if _start_of(number) == start:
-                with suppress(ProcessLookupError):
-                    os.kill(number, signal.SIGKILL)
+        sweep(self._folder)
 
     def viewer(self) -> str:
         """Returns the address of its pages, "" while they are not served. Blocks for TIMEOUT."""
@@ -119,6 +123,31 @@ class Process:
             lines = [line.strip() for line in text.splitlines() if not NOISE.match(line)]
             return "\n".join(lines[-6:])[-1000:]
         return ""
+
+
+def marked(folder: Path) -> list[int]:
+    """Returns the processes of the simulation in a folder, or of all simulations beneath it."""
+    mark = f"\0{MARK}={folder}".encode()
+    out = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with suppress(OSError):
+                _, has, after = (b"\0" + (entry / "environ").read_bytes()).partition(mark)
+                if has and after[:1] in (b"\0", b"/", b""):
+                    out.append(int(entry.name))
+    return out
+
+
+def sweep(folder: Path) -> None:
+    """Kills what is left of the simulation in a folder, also what starts meanwhile."""
+    for _ in range(SWEEPS):
+        numbers = marked(folder)
+        if not numbers:
+            return
+        for number in numbers:
+            with suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
+        time.sleep(SWEEP_GAP)
 
 
 class _Transport(xmlrpc.client.Transport):
@@ -148,11 +177,6 @@ def _fields(number: int) -> list[str]:
     with suppress(OSError):
         return Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
     return []
-
-
-def _start_of(number: int) -> str:
-    fields = _fields(number)
-    return fields[19] if fields and fields[0] != "Z" else ""
 
 
 def _resident(number: int) -> int:

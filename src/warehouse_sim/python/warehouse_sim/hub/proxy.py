@@ -15,7 +15,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from warehouse_viewer.json_text import JSONResponse
 
 PIECE = 64 * 1024  # of a body [bytes]
-PATIENCE = 5.0  # to connect [s, wall]
+PATIENCE = 15.0  # to connect; a server that is gone refuses at once [s, wall]
 GONE = 1012  # close code of a WebSocket whose server went (RFC 6455's registry: service restart)
 MOST_MESSAGE = 64 << 20  # from a simulation [bytes]
 # Headers of one connection (RFC 9110, section 7.6.1), and headers for this server alone: it has

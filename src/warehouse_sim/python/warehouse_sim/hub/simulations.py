@@ -13,11 +13,13 @@ from typing import Any, TypeVar
 
 from warehouse_sim.hub import insertion, saving, wish
 from warehouse_sim.hub.guest import Guest
+from warehouse_sim.hub.process import sweep
 from warehouse_sim.hub.simulation import Simulation, State
 from warehouse_sim.hub.wish import NAME, Wish, WishError
 from warehouse_sim.hub.worlds import Worlds
 
 INTERVAL, INTERVAL_STARTING = 1.0, 0.2  # between two checks [s, wall]
+GRACE = 20.0  # for what a killed hub had started to end by itself [s, wall]
 MOST_KEPT = 200  # simulations that are listed, STOPPED ones included
 
 
@@ -210,11 +212,21 @@ class Simulations:
         return simulation
 
     async def watch(self) -> None:
-        """Checks all simulations until it is cancelled."""
+        """Checks all simulations until it is cancelled; first ends what a killed hub left."""
+        grace = time.monotonic() + GRACE
         while True:
+            if grace and time.monotonic() > grace:
+                grace = 0.0
+                await self._in_thread(self._end_orphans)
             await asyncio.gather(*map(self._look, [*self._all.values()]))
             starting = any(s.state is State.STARTING for s in self._all.values())
             await asyncio.sleep(INTERVAL_STARTING if starting else INTERVAL)
+
+    def _end_orphans(self) -> None:
+        """Kills processes of simulations that this hub did not start."""
+        for name, folder in self.folders():
+            if self._all[name].process is None and not self._lock(name).locked():
+                sweep(folder)
 
     async def _look(self, simulation: Simulation) -> None:
         name = simulation.wish.name

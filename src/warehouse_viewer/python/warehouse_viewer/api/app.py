@@ -41,6 +41,7 @@ from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, DOCS, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
 from warehouse_viewer.server.station_pages import StationPages
+from warehouse_viewer.watch.alarm_file import AlarmFile
 from warehouse_viewer.watch.monitor import Monitor
 from warehouse_viewer.whatif import places
 from warehouse_viewer.whatif.routes import routes as whatif_routes
@@ -49,9 +50,12 @@ from warehouse_viewer.whatif.workshop import Workshop
 
 class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
-    `history` seconds (simulated) are kept, to be looked at again; 0: none."""
+    `history` seconds (simulated) are kept, to be looked at again; 0: none. `alarms`: the file from
+    which a viewer that is restarted has them; None: it begins empty."""
 
-    def __init__(self, ros: ModuleType, web: Path, history: float = SECONDS) -> None:
+    def __init__(
+        self, ros: ModuleType, web: Path, history: float = SECONDS, alarms: AlarmFile | None = None
+    ) -> None:
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
@@ -59,7 +63,8 @@ class Viewer:
         self._loop: asyncio.AbstractEventLoop | None = None
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
-        source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
+        describe = catalogue.plain_coordinator
+        source = Source(feed, simulation, self.journal, describe, self._explain)
         model, shift = Model(), ShiftFeed(ros, self.changes)
         self.history = (
             LiveRecording(model, self.journal, LiveFigures(feed, shift).read, history)
@@ -69,7 +74,7 @@ class Viewer:
         self.hub = Hub(source, model, self.history)
         operations = OperationsClient(ros, shift)
         self.monitor = Monitor(
-            feed, operations.feed, self.journal, self.changes, self.transports.assigned
+            feed, operations.feed, self.journal, self.changes, self.transports.assigned, alarms
         )
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
@@ -85,6 +90,10 @@ class Viewer:
         )
         self._web = web
         self._hub_task = HubTask(self.hub)
+
+    def _explain(self, name: str) -> dict[str, Any] | None:
+        reason = self.monitor.reasons.find(name)
+        return reason.as_json() if reason else None
 
     def _on_event(self, event: Event) -> None:
         entry = self.journal.add(catalogue.event(event))

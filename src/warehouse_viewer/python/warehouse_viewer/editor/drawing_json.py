@@ -19,6 +19,7 @@ def of_file(file: LayoutFile) -> dict[str, Any]:
         "robots": _places(file.robots),
         "items": file.items,
         "stock": file.stock,
+        "skus": file.skus,
         "policies": dict(file.policies),
         "building": file.building,
         "at": file.at,

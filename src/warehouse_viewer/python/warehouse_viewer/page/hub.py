@@ -39,6 +39,7 @@ IN_FLIGHT = 3  # updates that a page may leave unacknowledged
 MOST_GAP = 5.0  # between two updates, whatever a page asks for [s, wall]
 MOST_REQUESTS = 100  # of a page [1/s]
 MALFORMED = (ValueError, TypeError, KeyError, AttributeError)  # what a bad request raises
+MOST_NAME = 80  # characters of a robot's or station's name
 MOST_SCANS = 20  # robots whose scans are shown at once, by all pages
 
 
@@ -60,6 +61,8 @@ class Page:
         self.sent_paths: dict[int, Any] = {}
         self.ways: set[int] | None = set()  # of these robots, None: of all
         self.sent_ways: CoordinatorPaths | None = None
+        self.why = ""  # the robot or station of which it shows why it waits
+        self.sent_why: dict[str, Any] | None = None
         self.coordinator = None  # the CoordinatorState that it was sent
 
     async def send_json(self, message: Mapping[str, Any]) -> None:
@@ -208,8 +211,8 @@ class Hub:
 
     async def _handle(self, page: Page, wish: Mapping[str, Any]) -> None:
         """Handles a page's request: {"ack": n} acknowledges updates, {"gap": s} sets the least time
-        between two, and {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}} chooses whose
-        extras to send, "ways": "all" those of every robot."""
+        between two, and {"watch": {"scans": [ids], "paths": [ids], "ways": [ids], "why": name}}
+        chooses whose extras to send, "ways": "all" those of every robot."""
         if "ack" in wish:
             page.in_flight = max(0, page.in_flight - int(wish["ack"]))
         if "gap" in wish:
@@ -219,6 +222,7 @@ class Hub:
             page.paths = set(map(int, wish["watch"].get("paths", [])))
             ways = wish["watch"].get("ways", [])
             page.ways, page.sent_ways = None if ways == "all" else set(map(int, ways)), None
+            page.why, page.sent_why = str(wish["watch"].get("why", ""))[:MOST_NAME], None
             self._update_subscriptions()
         async with self._turn:
             self._turn.notify_all()
@@ -249,6 +253,7 @@ class Hub:
         await self._send_events(page)
         await self._send_fleet(page)
         await self._send_extras(page)
+        await self._send_why(page)
         if self._status and self._status != page.status:
             page.status = self._status
             await page.send_json(self._status)
@@ -270,6 +275,13 @@ class Hub:
         if ways and ways is not page.sent_ways:
             page.sent_ways = ways
             await page.socket.send_bytes(protocol.ways(ways, page.ways))
+
+    async def _send_why(self, page: Page) -> None:
+        explain = self._source.explain
+        why = explain(page.why) if explain and page.why else None
+        if why != page.sent_why:
+            page.sent_why = why
+            await page.send_json({"type": "why", "why": why})
 
     async def _send_extras(self, page: Page) -> None:
         for kiva_id in page.scans:

@@ -8,18 +8,39 @@ import threading
 from collections import deque
 from typing import Any
 
+from warehouse_layout.message_enums import EventKind
+
 KEPT = 2000
+OWN = 10  # events of a model that outlast the KEPT of all
+TROUBLES = frozenset(
+    kind.name
+    for kind in (
+        EventKind.REFUSED,
+        EventKind.BLOCKED,
+        EventKind.COLLISION,
+        EventKind.FAILED,
+        EventKind.LOST,
+        EventKind.TIPPED,
+        EventKind.FELL,
+    )
+)
+ALARM, ALARM_OVER = "ALARM", "ALARM_OVER"  # kinds of entries that a monitor adds
+OUTLAST = TROUBLES | {EventKind.REPAIRED.name, ALARM, ALARM_OVER}
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 NUMBER = re.compile(r"[+-]?\d+(\.\d*)?\Z")
 COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 
 
 class Journal:
-    """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read."""
+    """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read.
+
+    The newest KEPT are there, and of each model the newest OWN of the kinds that OUTLAST others.
+    """
 
     def __init__(self, kept: int = KEPT) -> None:
         self._lock, self.last_id = threading.Lock(), 0
         self._events: deque[dict[str, Any]] = deque(maxlen=kept)
+        self._own: dict[str, deque[dict[str, Any]]] = {}
 
     def add(self, event: dict[str, Any]) -> dict[str, Any]:
         """Adds an event with all COLUMNS but its id; returns its entry."""
@@ -27,6 +48,9 @@ class Journal:
             self.last_id += 1
             entry = event | {"id": self.last_id}
             self._events.append(entry)
+            if event["kind"] in OUTLAST:
+                for name in {event["model"], event["other"]} - {""}:
+                    self._own.setdefault(name, deque(maxlen=OWN)).append(entry)
             return entry
 
     def since(
@@ -39,11 +63,12 @@ class Journal:
         if number >= self.last_id:
             return []
         with self._lock:
-            entries = [
-                e
-                for e in self._events
-                if e["id"] > number and (model is None or model in (e["model"], e["other"]))
-            ]
+            entries = [e for e in self._events if e["id"] > number]
+            own = () if model is None else tuple(self._own.get(model, ()))
+        if model is not None:
+            entries = [e for e in entries if model in (e["model"], e["other"])]
+            first = entries[0]["id"] if entries else self.last_id + 1
+            entries = [e for e in own if number < e["id"] < first] + entries
         return entries[-limit:]
 
     def csv(self) -> str:

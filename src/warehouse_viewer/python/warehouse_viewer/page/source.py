@@ -102,10 +102,11 @@ class Source:
     """Everything that a page's server needs to know of a warehouse.
 
     `describe_coordinator` turns the feed's CoordinatorState into what JSON can say; a feed that
-    never has one needs none.
+    never has one needs none. `explain` returns why a robot or station waits, or None.
     """
 
     feed: Feed
     simulation: Simulation
     journal: Journal
     describe_coordinator: Callable[[Any], dict[str, Any]] | None = None
+    explain: Callable[[str], dict[str, Any] | None] | None = None

@@ -26,7 +26,7 @@ class LiveRecording:
         seconds: float = SECONDS,
     ) -> None:
         self.store = MemoryStore(seconds)
-        self._recorder = Recorder(self.store, model, journal, figures)
+        self._recorder = Recorder(self.store, model, journal, figures, hears_alarms=True)
 
     def take(self) -> None:
         """Records the model as it is now, if that is due."""

@@ -9,9 +9,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.page import protocol
-from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.page.journal import ALARM, TROUBLES, Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.replay.chunk import Chunk, Mark, OpenChunk
 
@@ -20,19 +19,6 @@ LENGTH = 30.0  # of a chunk [s, simulated]
 FIGURES_GAP = 5.0  # between two figures [s, simulated]
 PAST = 100  # events before a chunk that it repeats
 ROUND = 1024.0  # places are recorded to a part of this of a metre: half the bytes
-TROUBLES = {
-    kind.name
-    for kind in (
-        EventKind.REFUSED,
-        EventKind.BLOCKED,
-        EventKind.COLLISION,
-        EventKind.FAILED,
-        EventKind.LOST,
-        EventKind.TIPPED,
-        EventKind.FELL,
-    )
-}
-ALARM = "ALARM"
 LASTS = re.compile(r" for \d.*")  # how long an alarm has held: no other alarm
 
 
@@ -59,7 +45,8 @@ class Recorder:
     """Writes a Model into a Store, whenever take() is called after an update of the model.
 
     figures: returns what is known of the shift (`kpis`, `stations`, `fleet` or fewer), or None.
-    clock: the time on the wall, seconds since 1970; None: unknown.
+    clock: the time on the wall, seconds since 1970; None: unknown. hears_alarms: the journal has
+    them, by cause; else those of the coordinator are marked.
     """
 
     def __init__(
@@ -69,6 +56,7 @@ class Recorder:
         journal: Journal,
         figures: Callable[[], dict[str, Any] | None] = lambda: None,
         clock: Callable[[], float | None] = time.time,
+        hears_alarms: bool = False,
     ) -> None:
         self._store, self._model, self._journal = store, model, journal
         self._figures, self._clock = figures, clock
@@ -77,6 +65,7 @@ class Recorder:
         self._stamp = self._figures_stamp = -math.inf  # of the last update, of the last figures [s]
         self._newest: dict[str, Any] | None = None  # the last figures
         self._alarms: set[str] = set()
+        self._hears_alarms = hears_alarms
 
     @property
     def is_due(self) -> bool:
@@ -159,7 +148,8 @@ class Recorder:
         figures = self._figures()
         if figures:
             chunk.add_text(self._stamp, {"type": "figures", **figures})
-            chunk.add_marks(self._new_alarms(figures))
+            if not self._hears_alarms:
+                chunk.add_marks(self._new_alarms(figures))
 
     def _new_alarms(self, figures: dict[str, Any]) -> list[Mark]:
         """Returns a Mark for each alarm that was not there before."""
@@ -170,7 +160,7 @@ class Recorder:
 
 
 def _marks(events: Sequence[dict[str, Any]]) -> list[Mark]:
-    troubles = [event for event in events if event["kind"] in TROUBLES]
+    troubles = [event for event in events if event["kind"] in (*TROUBLES, ALARM)]
     return [Mark(e["time"], e["kind"], e["model"], e["text"]) for e in troubles]
 
 

@@ -3,15 +3,15 @@
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from itertools import count
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple
 
 from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
 
 KEPT = 500  # alarms that have ended
 MOST_ACTIONS = 50  # of an alarm
+GRACE = 10.0  # for which an alarm that was restored needs no confirmation [s, simulated]
 REPAIRED = "ROBOT_BROKEN"  # alarms whose mean duration is the time to repair
 # Kinds that share one alarm for each robot.
 OF_ROBOT = ("ROBOT_BROKEN", "ROBOT_LOST", "ROBOT_STALLED", "ROBOT_BLOCKED", "COLLISION")
@@ -58,10 +58,11 @@ class Alarm:
 
     trouble: Trouble
     since: float
-    number: int = field(default_factory=count(1).__next__)
+    number: int
     seen_by: str = ""
     seen_at: float = 0.0
     actions: list[Action] = field(default_factory=list)
+    is_reported: bool = False  # by AlarmBook.begun()
 
     def is_due(self, now: float) -> bool:
         """Whether it has lasted long enough to be an alarm."""
@@ -98,6 +99,10 @@ class AlarmBook:
         self._lock, self._alarms = threading.Lock(), dict[tuple[str, str], Alarm]()
         self._ended: deque[dict[str, Any]] = deque(maxlen=KEPT)
         self._remedies, self._now = remedies, 0.0
+        self._last = 0  # number of an alarm
+        self._just_ended: list[dict[str, Any]] = []
+        self._restored_until: float | None = None
+        self.changes = 0  # of what state() returns
 
     def update(self, now: float, troubles: Iterable[Trouble]) -> None:
         """Updates from all troubles at `now` [s]: those that are left out have ended."""
@@ -106,15 +111,67 @@ class AlarmBook:
             for trouble in troubles:
                 key = trouble.key
                 since = now if trouble.since is None else trouble.since
-                alarm = before.pop(key, None) or self._alarms.get(key) or Alarm(trouble, since)
+                alarm = before.pop(key, None) or self._alarms.get(key) or self._new(trouble, since)
                 alarm.trouble, alarm.since = trouble, min(alarm.since, since)
                 if alarm.since > now:  # the world was reset meanwhile
                     alarm.since = now
                 self._alarms[key] = alarm
-            for alarm in before.values():
-                if alarm.is_due(now):
-                    until = {"until": round(now, 1), "duration": round(now - alarm.since, 1)}
-                    self._ended.append(alarm.as_json() | until)
+            for key, alarm in before.items():
+                if self._waits_for_news(now):
+                    self._alarms[key] = alarm
+                elif alarm.is_due(now):
+                    self._end(alarm, now)
+
+    def _new(self, trouble: Trouble, since: float) -> Alarm:
+        self._last += 1
+        self.changes += 1
+        return Alarm(trouble, since, self._last)
+
+    def _end(self, alarm: Alarm, now: float) -> None:
+        until = {"until": round(now, 1), "duration": round(now - alarm.since, 1)}
+        self._ended.append(alarm.as_json() | until)
+        self._just_ended.append(self._ended[-1])
+        self.changes += 1
+
+    def _waits_for_news(self, now: float) -> bool:
+        """Whether alarms were restored a moment ago: what raised them may not be known yet."""
+        if self._restored_until is None:
+            return False
+        if self._restored_until == 0.0:
+            self._restored_until = now + GRACE
+        return now < self._restored_until
+
+    def news(self) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+        """Returns the alarms that have become due and those that have ended, since the last call,
+        as JSON."""
+        with self._lock:
+            due = [alarm for alarm in self._alarms.values() if alarm.is_due(self._now)]
+            begun = [alarm for alarm in due if not alarm.is_reported]
+            for alarm in begun:
+                alarm.is_reported = True
+            ended, self._just_ended = self._just_ended, []
+            return [alarm.as_json() for alarm in begun], ended
+
+    def state(self) -> dict[str, Any]:
+        """Returns all that restore() needs, as JSON."""
+        with self._lock:
+            return {
+                "last": self._last,
+                "now": self._now,
+                "alarms": [asdict(alarm) | _parts(alarm) for alarm in self._alarms.values()],
+                "ended": list(self._ended),
+            }
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Goes on from a state(): who saw and did what, and the alarms that have ended. Raises
+        KeyError, TypeError or ValueError for an invalid state."""
+        alarms = [_alarm_of(row) for row in state["alarms"]]
+        ended = [dict(row) for row in state["ended"]]
+        last, now = int(state["last"]), float(state["now"])
+        with self._lock:
+            self._alarms = {alarm.trouble.key: alarm for alarm in alarms}
+            self._ended.extend(ended)
+            self._last, self._now, self._restored_until = last, now, 0.0
 
     def as_json(self) -> list[dict[str, Any]]:
         """Returns the alarms as JSON, the worst first, of those the oldest first."""
@@ -144,6 +201,7 @@ class AlarmBook:
             for alarm in self._alarms.values():
                 if alarm.number == number:
                     alarm.seen_by, alarm.seen_at = by, self._now if by else 0.0
+                    self.changes += 1
                     return alarm.as_json(self._remedies(alarm.trouble))
         return None
 
@@ -153,3 +211,18 @@ class AlarmBook:
             for alarm in self._alarms.values():
                 if alarm.trouble.subject == subject and len(alarm.actions) < MOST_ACTIONS:
                     alarm.actions.append(Action(round(self._now, 1), by, what))
+                    self.changes += 1
+
+
+def _parts(alarm: Alarm) -> dict[str, Any]:
+    actions = [action._asdict() for action in alarm.actions]
+    return {"trouble": alarm.trouble._asdict(), "actions": actions}
+
+
+def _alarm_of(row: Mapping[str, Any]) -> Alarm:
+    fields = dict(row["trouble"])
+    trouble = Trouble(**fields | {"consequences": tuple(fields["consequences"])})
+    if trouble.kind not in KINDS:
+        raise ValueError(f"no kind of alarms {trouble.kind}")
+    actions = [Action(**action) for action in row["actions"]]
+    return Alarm(**dict(row) | {"trouble": trouble, "actions": actions, "is_reported": False})

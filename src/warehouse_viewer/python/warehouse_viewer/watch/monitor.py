@@ -12,9 +12,10 @@ import numpy as np
 
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.page.activities import Activity, activity, wait_too_long
-from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.page.journal import ALARM, ALARM_OVER, Journal
 from warehouse_viewer.watch import causes, troubles
 from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
+from warehouse_viewer.watch.alarm_file import AlarmFile
 from warehouse_viewer.watch.figures import Figures
 from warehouse_viewer.watch.reasons import Reasons
 from warehouse_viewer.watch.span_log import SpanLog
@@ -34,6 +35,7 @@ class Monitor:
 
     `feed` is a ros.feed.Feed, `shift` a ShiftFeed; what changes is noted in a ChangeBook under
     `alarms` and `figures`. assigned(): the unit and the station of each robot with a transport.
+    kept: where the alarms outlast this process; None: nowhere.
     """
 
     def __init__(
@@ -43,9 +45,10 @@ class Monitor:
         journal: Journal,
         book: ChangeBook,
         assigned: Callable[[], Mapping[int, tuple[int, str]]] = dict,
+        kept: AlarmFile | None = None,
     ) -> None:
         self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
-        self._assigned = assigned
+        self._assigned, self._kept, self._written = assigned, kept, 0
         self.spans, self.alarms = SpanLog(), AlarmBook(self._remedies)
         self.reasons = Reasons()
         self.stations, self._figures = StationWatch(), Figures()
@@ -58,12 +61,32 @@ class Monitor:
     async def run(self) -> None:
         """Looks until it is cancelled."""
         self._feed.keep()
+        self._restore()
         while True:
             try:
                 self.look()
             except (ValueError, AttributeError, IndexError):
                 LOG.exception("the warehouse's messages can't be read")
+            await self._keep()
             await asyncio.sleep(PERIOD)
+
+    def _restore(self) -> None:
+        try:
+            if self._kept and (state := self._kept.read()):
+                self.alarms.restore(state)
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            LOG.warning("the alarms of before can't be read: %s", error)
+
+    async def _keep(self) -> None:
+        """Writes what has changed of the alarms."""
+        if not self._kept or self.alarms.changes == self._written:
+            return
+        self._written = self.alarms.changes
+        try:
+            await asyncio.to_thread(self._kept.write, self.alarms.state())
+        except OSError as error:
+            LOG.warning("the alarms can't be kept: %s", error)
+            self._kept = None
 
     def look(self) -> None:
         """Processes the messages since the last call."""
@@ -103,6 +126,19 @@ class Monitor:
         pending = self._troubles(fleet, stations)
         self.alarms.update(self.now, causes.by_cause(pending, self.reasons, self.now))
         self._note("alarms", self.alarms.as_json())
+        begun, ended = self.alarms.news()
+        for alarm in begun:
+            self._report(ALARM, alarm, alarm["text"])
+        for alarm in ended:
+            text = f"{alarm['cause']}, for {causes.span(alarm['duration'])}"
+            self._report(ALARM_OVER, alarm, text)
+
+    def _report(self, kind: str, alarm: Mapping[str, Any], text: str) -> None:
+        """Adds the begin or the end of an alarm to the events."""
+        # What concerns no thing has its sentence in place of a name.
+        subject = "" if alarm["subject"] == alarm["cause"] else alarm["subject"]
+        row = {"kind": kind, "model": subject, "text": text, "command": 0, "other": ""}
+        self._journal.add(row | {"time": round(self.now, 3)})
 
     def _troubles(self, fleet: FleetState, stations: Collection[Any]) -> list[Trouble]:
         pending: list[Trouble] = []

@@ -225,7 +225,7 @@ class Reasons:
             return ""
         verb = "brings" if robot in self._loads else "fetches"
         ending = f" for order {order}" if order else ""
-        return f"{verb} storage unit {unit} {'to' if verb == 'brings' else 'for'} {station}{ending}"
+        return f"{verb} unit {unit} {'to' if verb == 'brings' else 'for'} {station}{ending}"
 
     def station(self, name: str) -> Reason | None:
         """Returns why a station waits, or what it does; None if it is unknown."""

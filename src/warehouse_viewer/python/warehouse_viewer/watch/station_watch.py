@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -103,7 +103,7 @@ class StationWatch:
             "activity": Activity(past.state).name,
             "since": past.unit_since if station.shelf_id else since,
             "pieces_per_hour": self._rate(past, station.pieces),
-            "queue": [self._queued(unit) for unit in station.inbound],
+            "queue": self._queue(station),
         }
 
     def _rate(self, past: _Past, pieces: int) -> float:
@@ -113,12 +113,14 @@ class StationWatch:
         elapsed = max(self.now - since, SAMPLES)
         return round(3600 * max(0, pieces - before) / elapsed, 1)
 
-    def _queued(self, unit: int) -> Mapping[str, Any]:
-        robot, since = self._carriers.get(unit, (0, self.now))
-        stands = round(self.now - since, 1)
-        return {
-            "unit": unit,
-            "robot": robot,
-            "stands": stands,
-            "is_long": stands >= QUEUED_TOO_LONG,
-        }
+    def _queue(self, station: StationState) -> list[dict[str, Any]]:
+        """Returns the units that come; a robot stands for too long from QUEUED_TOO_LONG for each
+        unit before its own on."""
+        out, before = [], int(station.shelf_id != 0)
+        for unit in station.inbound:
+            robot, since = self._carriers.get(unit, (0, self.now))
+            stands = round(self.now - since, 1)
+            is_long = stands >= QUEUED_TOO_LONG * max(1, before)
+            out.append({"unit": unit, "robot": robot, "stands": stands, "is_long": is_long})
+            before += int(robot != 0)
+        return out

@@ -11,12 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from warehouse_layout.file import layout_file, stock_file
+from warehouse_layout.file import layout_file, sku_master, stock_file
 from warehouse_layout.file.layout_file import SUFFIX, LayoutFileError
 from warehouse_layout.file.request import LIMITS
+from warehouse_layout.file.sku_master import SkuMasterError
 from warehouse_layout.file.stock_file import StockFileError
 from warehouse_layout.generate import layout_choice
-from warehouse_operations.runs import event_file
+from warehouse_operations.runs import early_check, event_file
 from warehouse_operations.runs.simulation import ERRORS, Description
 from warehouse_operations.sizing import costs
 from warehouse_operations.sizing.costs import Costs
@@ -129,21 +130,23 @@ class Folder:
         """Keeps the text of a layout file; returns its name here. Raises LayoutFileError."""
         file = layout_file.parse(text, name)
         _check_layout(file)
-        if file.stock and not (self.path / LAYOUTS / file.stock).is_file():
-            raise LayoutFileError(
-                f"{name}: items: the stock {file.stock} is not here yet: open both files together"
-            )
+        for what, named in (("stock", file.stock), ("SKU master", file.skus)):
+            if named and not (self.path / LAYOUTS / named).is_file():
+                raise LayoutFileError(
+                    f"{name}: items: the {what} {named} is not here yet: open both files together"
+                )
         return self._add(LAYOUTS, name, SUFFIX, text)
 
     def add_stock(self, name: str, text: str) -> str:
-        """Keeps the text of a stock file beside the layouts, by which they name it. Raises
-        LayoutFileError, and ScenarioError where another one has its name."""
+        """Keeps the text of a stock file, or of a SKU master, beside the layouts that name it.
+        Raises LayoutFileError, and ScenarioError where another one has its name."""
+        is_stock = "quantity" in text.partition("\n")[0]
         with tempfile.TemporaryDirectory() as made:
             file = Path(made, "stock.csv")
             file.write_text(text, "utf-8")
             try:
-                stock_file.read(file, LIMITS["shelves"])
-            except StockFileError as error:
+                stock_file.read(file, LIMITS["shelves"]) if is_stock else sku_master.read(file)
+            except (StockFileError, SkuMasterError) as error:
                 raise LayoutFileError(str(error).replace(str(file), name)) from error
         kept = self.path / LAYOUTS / name
         if is_file_name(name, ".csv") and kept.exists() and kept.read_text("utf-8") != text:
@@ -231,13 +234,14 @@ def check(scenario: Scenario, path: Path) -> Description:
         _check_floor(description)
         _check_orders(orders)
         description.config  # noqa: B018 - raises for policies of the layout that don't exist
+        early_check.check(description)
     except (*ERRORS, OSError) as error:
         raise ScenarioError(str(error).replace(f"{path}/", "")) from error
     return description
 
 
 def _check_orders(orders: str) -> None:
-    """Takes any SKUs: only the shift knows whether those of a file are in stock."""
+    """Raises DemandError for orders that can't be read; their SKUs are checked with the stock."""
     rng = np.random.default_rng(1)
     assortment = None if orders_text.file_of(orders) else Assortment.draw(2, rng)
     make_demand(orders, assortment, (1, 1), rng)
@@ -257,10 +261,11 @@ def _check_floor(description: Description) -> None:
 
 def _check_layout(file: layout_file.LayoutFile) -> None:
     """Raises LayoutFileError for a layout that names files elsewhere."""
-    if file.stock and not is_file_name(file.stock, ".csv"):
-        raise LayoutFileError(
-            f"{file.path}: items: stock is {file.stock!r}; the name of a CSV file was expected,"
-            " which is opened together with the layout"
-        )
+    for key, named in (("stock", file.stock), ("skus", file.skus)):
+        if named and not is_file_name(named, ".csv"):
+            raise LayoutFileError(
+                f"{file.path}: items: {key} is {named!r}; the name of a CSV file was expected,"
+                " which is opened together with the layout"
+            )
     if not all(char.isalnum() or char in "_-" for char in file.building):
         raise LayoutFileError(f"{file.path}: building: the name of a world was expected")

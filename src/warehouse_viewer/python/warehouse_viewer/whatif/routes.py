@@ -18,6 +18,7 @@ from warehouse_operations.sizing.prices import PriceError
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.server.site import WHATIF
+from warehouse_viewer.whatif.design_settings import DesignError, DesignSettings
 from warehouse_viewer.whatif.queue import QueueError
 from warehouse_viewer.whatif.scenario import (
     MOST_MINUTES,
@@ -36,6 +37,10 @@ REPORT_CONTENT = (
     " font-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline';"
     " frame-ancestors 'none'"
 )
+SVG, LAYOUT_TYPE = "image/svg+xml", "text/yaml"
+DRAWING_CONTENT = {
+    "content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'"
+}
 REFUSED = (
     ScenarioError,
     QueueError,
@@ -55,6 +60,7 @@ def routes(workshop: Workshop) -> list[Route]:
     scenario = f"{PAGE}/scenarios/{{name}}"
     posts, work = ["POST"], workshop
     seed = f"{scenario}/seeds/{{seed:int}}"
+    design, designs = f"{PAGE}/designs/{{name}}", work.designs
     return [
         Route(f"{PAGE}/about", _answering(work, lambda _: _about(work))),
         Route(f"{PAGE}/scenarios", _answering(work, lambda _: work.scenarios())),
@@ -74,6 +80,20 @@ def routes(workshop: Workshop) -> list[Route]:
         Route(f"{seed}/report.html", _report(work, lambda r: _its_report(work, r))),
         Route(f"{PAGE}/compare", _answering(work, lambda r: work.compare(_names(r)))),
         Route(f"{PAGE}/report.html", _report(work, lambda r: work.report(_names(r)))),
+        Route(f"{PAGE}/designs", _answering(work, lambda _: {"designs": designs.all()})),
+        Route(f"{PAGE}/designs", _asking(work, designs.create, "name", "settings"), methods=posts),
+        Route(
+            f"{PAGE}/designs/estimate", _asking(work, designs.estimate, "settings"), methods=posts
+        ),
+        Route(design, _asking(work, designs.delete), methods=["DELETE"]),
+        Route(f"{design}/run", _asking(work, designs.run), methods=posts),
+        Route(f"{design}/run", _asking(work, designs.cancel), methods=["DELETE"]),
+        Route(f"{design}/report.html", _report(work, lambda r: designs.report(**r.path_params))),
+        Route(f"{design}/layouts/{{layout}}", _text(work, designs.layout, LAYOUT_TYPE)),
+        Route(
+            f"{design}/layouts/{{layout}}/plan.svg",
+            _text(work, designs.drawing, SVG, DRAWING_CONTENT),
+        ),
     ]
 
 
@@ -88,6 +108,7 @@ def _about(workshop: Workshop) -> Answer:
         "default_policies": DEFAULTS,
         "realism": REALISM,
         "defaults": Scenario().to_json(),
+        "design_defaults": DesignSettings().to_json(),
         "most": {
             "robots": LIMITS["robots"],
             "stations": MOST_STATIONS,
@@ -131,6 +152,25 @@ def _asking(workshop: Workshop, work: Callable[..., Answer], *fields: str) -> En
     return endpoint
 
 
+def _text(
+    workshop: Workshop,
+    work: Callable[..., str],
+    media_type: str,
+    headers: dict[str, str] | None = None,
+) -> Endpoint:
+    """Returns an endpoint that answers with the text that `work` returns for the path's names."""
+
+    async def endpoint(request: Request) -> Response:
+        return await _answered(
+            workshop,
+            lambda: Response(
+                work(**request.path_params), headers=FRESH | (headers or {}), media_type=media_type
+            ),
+        )
+
+    return endpoint
+
+
 def _report(workshop: Workshop, work: Callable[[Request], str]) -> Endpoint:
     headers = FRESH | {"content-security-policy": REPORT_CONTENT}
 
@@ -151,5 +191,7 @@ async def _answered(workshop: Workshop, work: Callable[[], Response]) -> Respons
 
     try:
         return await asyncio.to_thread(opened)
+    except DesignError as error:
+        return JSONResponse({"detail": str(error), "field": error.field}, 409)
     except REFUSED as error:
         return JSONResponse({"detail": str(error)}, 409)

@@ -21,6 +21,7 @@ from warehouse_operations.stock.yaml_file import read_yaml
 FILE = "scenario.yaml"
 DEMAND = ".demand.yaml"  # a description of demand, as `demand` writes it
 LAYOUTS, ORDERS = "layouts", "orders"  # folders beside the scenarios, of files that they share
+DESIGNS = "designs"  # the folder of searches for layouts
 REALISM = ("ideal", "typical", "bad_day")
 MOST_MINUTES, MOST_SEEDS = 24 * 60.0, 50
 NAME = re.compile(r"[^\W_][\w .,+=()-]{0,59}")
@@ -127,7 +128,8 @@ def _is_minutes(value: object) -> bool:
     return math.isfinite(value) and 0 < value <= MOST_MINUTES
 
 
-def _is_layout(value: object) -> bool:
+def is_layout(value: object) -> bool:
+    """Returns whether it is a preset, or the name of a file in LAYOUTS."""
     return isinstance(value, str) and (
         (value in PRESETS and value != "empty") or is_file_name(value, SUFFIX)
     )
@@ -171,16 +173,16 @@ def is_file_name(name: str, suffix: str) -> bool:
 def checked_name(name: object) -> str:
     """Returns a scenario's name, which is that of its folder. Raises ScenarioError."""
     text = name.strip() if isinstance(name, str) else ""
-    if not NAME.fullmatch(text) or text.endswith(".") or text in (LAYOUTS, ORDERS):
+    if not NAME.fullmatch(text) or text.endswith(".") or text in (LAYOUTS, ORDERS, DESIGNS):
         raise ScenarioError(
             f"the name is {name!r}; up to 60 letters, digits, spaces or any of .,+=()-_ were"
-            f" expected, a letter or digit first; {LAYOUTS} and {ORDERS} are taken"
+            f" expected, a letter or digit first; {LAYOUTS}, {ORDERS} and {DESIGNS} are taken"
         )
     return text
 
 
 EXPECTED: dict[str, tuple[Callable[[Any], Any], str]] = {
-    "layout": (_is_layout, f"a preset, or the name of a {SUFFIX} file"),
+    "layout": (is_layout, f"a preset, or the name of a {SUFFIX} file"),
     "robots": _whole(0, LIMITS["robots"]),
     "stations": _whole(0, MOST_STATIONS),
     "orders": (

@@ -9,12 +9,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from warehouse_operations.design import packages
 from warehouse_operations.runs import run_files as runs
 from warehouse_operations.runs.run_files import KPIS, REPORT, Run
 from warehouse_operations.runs.simulation import ERRORS
 from warehouse_operations.runs.sweep import SweepError
 from warehouse_operations.store.locks import FileLock, InUseError
 from warehouse_viewer.whatif import figures, shown, stored
+from warehouse_viewer.whatif.designs import Designs
 from warehouse_viewer.whatif.estimate import Done, Pace
 from warehouse_viewer.whatif.folder import Folder, check
 from warehouse_viewer.whatif.queue import Active, Job, Outcome, Queue
@@ -33,6 +35,7 @@ class Workshop:
     def __init__(self, path: Path, processes: int = 0, command: list[str] | None = None) -> None:
         self.folder = Folder(path.absolute())
         self._queue = Queue(self._ended, processes, command)
+        self.designs = Designs(self.folder.path, self._queue)
         self._lock = threading.RLock()
         self._held: FileLock | None = None
         self._pace = Pace()
@@ -65,6 +68,7 @@ class Workshop:
             cut = [int(k) for k, v in states.read().items() if v.get("state") in ("waits", "runs")]
             if cut:
                 states.put(cut, shown.CUT)
+        self.designs.note_cut()
 
     # --- what is shown
     def about(self) -> Json:
@@ -75,19 +79,24 @@ class Workshop:
             "orders": self.folder.orders(),
             "costs": self.folder.costs_file.is_file(),
             "processes": self._queue.processes,
+            "lacks": packages.lack_of_optuna("whatif"),
         }
 
     def scenarios(self) -> Json:
-        """Returns all scenarios with their runs, and how long the queue takes [s, wall]."""
+        """Returns all scenarios with their runs, all searches, and how long the queue takes
+        [s, wall]."""
         active = {process.job: process for process in self._queue.active()}
         waiting = set(self._queue.waiting())
         done: list[Done] = []
         each = [self._shown(name, active, waiting, done) for name in self.folder.names()]
         self._pace = Pace(done)
-        left = sum(process["left"] for process in each if process["state"] == "runs")
+        designs = self.designs.all()
+        busy = [row for row in (*each, *designs) if row["state"] in ("runs", "waits")]
+        left = sum(row["left"] for row in busy)
         parallel = min(self._queue.processes, max(1, len(active) + len(waiting)))
         return {
             "scenarios": each,
+            "designs": designs,
             "running": len(active),
             "waiting": len(waiting),
             "left": left / parallel,
@@ -279,6 +288,10 @@ class Workshop:
 
     def _ended(self, job: Job, outcome: Outcome) -> None:
         """Notes how a run ended; what it leaves unfinished is removed."""
+        if self.designs.owns(job):
+            with self._lock, contextlib.suppress(OSError):
+                self.designs.ended(job, outcome)
+            return
         folder = job.file.parent
         with self._lock, contextlib.suppress(OSError):
             states = States(folder)

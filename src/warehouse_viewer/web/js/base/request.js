@@ -4,7 +4,7 @@
 import { at } from './root.js';
 
 /** The response, if it is a good one; throws an Error with the reason, and with the `status`
- *  where there is an answer. A text is sent as it is. */
+ *  where there is an answer, and the `field` that it names. A text is sent as it is. */
 export async function send(method, path, body = undefined, signal = undefined) {
   let answer;
   try {
@@ -17,8 +17,8 @@ export async function send(method, path, body = undefined, signal = undefined) {
   }
   const { ok, status, statusText } = answer;
   if (ok) return answer;
-  const { detail } = await answer.json().catch(() => ({}));
-  throw Object.assign(new Error(reasonOf(detail) || `the server failed: ${status} ${statusText}`.trim()), { status });
+  const { detail, field = '' } = await answer.json().catch(() => ({}));
+  throw Object.assign(new Error(reasonOf(detail) || `the server failed: ${status} ${statusText}`.trim()), { status, field });
 }
 
 /** The body of the answer; throws as `send` does. */

@@ -5,7 +5,7 @@
 export const {
   AlwaysDepth, Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
   DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Frustum, Group,
-  HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, LinearFilter,
+  HemisphereLight, InstancedBufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InstancedMesh, InterleavedBufferAttribute, LineBasicMaterial, LineSegments, LinearFilter,
   LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
   OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster,
   RingBufferGeometry, Scene, ShaderMaterial, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,

@@ -12,6 +12,7 @@ const byNumber = (texts) => Object.assign([], texts);
  *  minutes, or stands before an obstacle. */
 export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'];
 export const NEEDS_HELP = 4;
+export const Activity = { WAITING: 3, NEEDS_HELP };
 /** The class that gives each its colour; design.css has them. */
 export const ACTIVITY_CLASS = ACTIVITY.map((word) => word.replace(' ', '-'));
 /** The names of the activities in the API. */
@@ -23,11 +24,11 @@ export const STATION_STATES = {
 /** What a robot does in detail, by State. */
 export const STATE = byNumber({
   [State.IDLE]: 'stands',
-  [State.MOVING_X]: 'drives along x',
-  [State.MOVING_Y]: 'drives along y',
+  [State.MOVING_X]: 'drives',
+  [State.MOVING_Y]: 'drives',
   [State.ROTATING]: 'turns',
   [State.LIFTING]: 'lifts',
-  [State.BLOCKED]: 'blocked',
+  [State.BLOCKED]: 'stands before an obstacle',
   [State.WAITING]: 'waits for its turn',
   [State.STEERED]: 'driven by cmd_vel',
 });
@@ -54,6 +55,14 @@ export function countedWork(work) {
 /** Kinds of events that a person may have to look after. */
 export const TROUBLE = [EventKind.REFUSED, EventKind.BLOCKED, EventKind.COLLISION, EventKind.FAILED,
   EventKind.LOST, EventKind.TIPPED, EventKind.FELL];
+/** What an event says at a glance, by its kind; `ALARM` and `ALARM_OVER` are the viewer's own. */
+export const EVENTS = {
+  [EventKind.ACCEPTED]: 'accepted', [EventKind.REFUSED]: 'refused', [EventKind.DONE]: 'done', [EventKind.BLOCKED]: 'stopped',
+  [EventKind.LIFTED]: 'lifted', [EventKind.DROPPED]: 'put down', [EventKind.COLLISION]: 'collision', [EventKind.SPAWNED]: 'added',
+  [EventKind.DELETED]: 'removed', [EventKind.LOST]: 'lost', [EventKind.FAILED]: 'broken', [EventKind.REPAIRED]: 'repaired',
+  [EventKind.TIPPED]: 'tipped', [EventKind.FELL]: 'fell off', [EventKind.PICKED_UP]: 'picked up',
+  ALARM: 'alarm', ALARM_OVER: 'alarm over',
+};
 /** The state of an order; `at` precedes the name of its station. */
 export const ORDER_STATES = {
   [OrderState.OPEN]: 'open',
@@ -73,8 +82,8 @@ export function counted(counts, none = 'none') {
     .map(([name, count]) => `${count} ${spaced(name)}`).join(', ') || none;
 }
 
-/** {kind: count} of events as a text, under the names that the log has for them. */
-export function countedEvents(counts) {
-  return Object.entries(counts).filter(([, count]) => count > 0)
-    .map(([kind, count]) => `${count} × ${kind}`).join(', ') || 'nothing';
+/** The name of a thing, or a sentence with names in it, as a person reads it: 'unit 12' is storage_unit12. */
+export function shownName(text) {
+  return text.replaceAll(/\bstorage_unit(?=\d)/g, 'unit ').replaceAll(/\bitem(?=\d)/g, 'item ').replaceAll(/\bperson(?=\d)/g, 'person ')
+    .replaceAll(/\bfollow path (?=\d)/g, 'route ');
 }

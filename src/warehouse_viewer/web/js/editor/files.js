@@ -3,7 +3,7 @@
 
 import { $, make, on } from '../base/dom.js';
 import { ask as question, confirmed } from '../base/question.js';
-import { ask as request } from '../base/request.js';
+import { ask as request, send } from '../base/request.js';
 import { ROOT } from '../base/root.js';
 import { ask } from './server.js';
 import { textOf } from './text.js';
@@ -55,6 +55,17 @@ export class Files {
       this.editor.open(drawing);
       showLost(notes);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
+    });
+  }
+
+  /** Opens the layout that the address names, which a search on the page /whatif found. */
+  async openDesigned() {
+    const query = new URLSearchParams(location.search), design = query.get('design'), layout = query.get('layout');
+    if (!design || !layout) return;
+    history.replaceState(null, '', location.pathname);
+    await this.attempt(async () => {
+      const answer = await send('GET', `/whatif/designs/${encodeURIComponent(design)}/layouts/${encodeURIComponent(layout)}`);
+      await this.open([new File([await answer.text()], layout)]);
     });
   }
 

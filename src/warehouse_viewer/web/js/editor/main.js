@@ -78,6 +78,7 @@ async function main() {
   help();
   follow(editor);
   begin(editor, store, about);
+  await parts.files.openDesigned();
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
   $('start').hidden = !about.starts;

@@ -31,6 +31,7 @@ export function jsonOf(drawing) {
     items: drawing.itemCount,
     counts_items: drawing.items === null,
     stock: drawing.stock,
+    skus: drawing.skus,
     policies: drawing.policies,
     building: drawing.building,
     at: drawing.at && [drawing.at[0] + left * drawing.spacing, drawing.at[1] + bottom * drawing.spacing],
@@ -47,8 +48,8 @@ export function drawingOf(json) {
   json.floor.forEach((line, i) => {
     for (let x = 0; x < width; x++) out.cells[(height - 1 - i) * width + x] = line.charCodeAt(x);
   });
-  const { name, spacing, stock, policies, building } = json;
-  Object.assign(out, { name, spacing, stock, policies, building, isShare: json.is_share });
+  const { name, spacing, stock, skus = '', policies, building } = json;
+  Object.assign(out, { name, spacing, stock, skus, policies, building, isShare: json.is_share });
   out.stations = json.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) }));
   out.units = places(json.storage_units);
   out.robots = places(json.robots);
@@ -72,7 +73,7 @@ export function textOf(drawing) {
   lines.push(json.floor[0].startsWith(NOTHING) ? 'floor: |2' : 'floor: |', ...json.floor.map((line) => `  ${line}`));
   if (json.stations.length) lines.push('stations:', ...json.stations.map((s) => `  ${keyText(s.key)}: ${flow(entryOf(s))}`));
   lines.push(`storage_units: ${unitsOf(json)}`, `robots: ${flow(json.robots)}`);
-  lines.push(json.stock ? `items: {stock: ${flow(json.stock)}}` : `items: ${json.items}`);
+  lines.push(json.stock ? `items: {stock: ${flow(json.stock)}${json.skus ? `, skus: ${flow(json.skus)}` : ''}}` : `items: ${json.items}`);
   if (Object.keys(json.policies).length) lines.push(`policies: ${flow(json.policies)}`);
   return { text: `${lines.join('\n')}\n`, origin: json.origin };
 }

@@ -3,6 +3,8 @@
 
 import { $, make, on, press } from '../base/dom.js';
 import { swatches, topOf } from '../base/heat_scale.js';
+import { number, percent } from '../base/numbers.js';
+import { clock } from '../base/time.js';
 import { send } from './server.js';
 import { textOf } from './text.js';
 
@@ -49,12 +51,12 @@ export class Trial {
   end(result, origin) {
     Object.assign(this, { result, origin });
     this.phase('done', '');
-    $('trial-pieces').textContent = Math.round(result.pieces_per_hour).toLocaleString('en');
+    $('trial-pieces').textContent = number(result.pieces_per_hour);
     const share = result.pieces_per_hour / Math.max(1, result.most_pieces_per_hour);
     $('trial-of').textContent = `pieces an hour, ${Math.round(100 * share)} % of what the stations can do${this.comparison(result)}`;
     $('trial-text').textContent = `${result.pieces} pieces and ${result.orders} orders in ${clock(result.seconds)}, ideal robots, from a standstill`;
     $('trial-minutes').replaceChildren(...bars(result.per_minute));
-    const rows = result.stations.map((s) => [s.name, { queue: s.queue.toFixed(1), busy: `${Math.round(100 * s.busy)} %` }]);
+    const rows = result.stations.map((s) => [s.name, { queue: number(s.queue, 1), busy: percent(s.busy) }]);
     $('trial-stations').replaceChildren(...rows.map(([name, { queue, busy }]) => (
       make('tr', {}, ...[name, queue, busy].map((textContent) => make('td', { textContent }))))));
     this.editor.notes = Object.fromEntries(rows);
@@ -62,7 +64,7 @@ export class Trial {
   }
 
   comparison({ pieces_per_hour: now }) {
-    return this.before ? `; ${Math.round(this.before).toLocaleString('en')} before${now > this.before ? ' ↑' : now < this.before ? ' ↓' : ''}` : '';
+    return this.before ? `; ${number(this.before)} before${now > this.before ? ' ↑' : now < this.before ? ' ↓' : ''}` : '';
   }
 
   show(kind) {
@@ -112,8 +114,6 @@ async function linesOf(answer, take) {
     for (const part of parts) take(JSON.parse(part));
   }
 }
-
-const clock = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, '0')}`;
 
 function bars(values) {
   const most = Math.max(1, ...values);

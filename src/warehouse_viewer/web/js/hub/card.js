@@ -2,6 +2,7 @@
 // The card of one simulation in the list.
 
 import { make, setText } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 import { look, paint } from './picture.js';
 
 const PERIOD = 1000; // between two pictures [ms]
@@ -44,8 +45,8 @@ export class Card {
     const texts = Object.entries(row.arguments).map(([name, value]) => `${name}:=${value}`).join(' ');
     const lives = row.uptime_s > 0;
     const facts = {
-      Robots: lives && row.robots, Size: lives && row.storage_units ? `${row.storage_units} storage units, ${row.items} items` : '',
-      Orders: lives && ordersOf(row.orders), Speed: lives && row.rtf ? `${row.rtf.toFixed(2)} ×` : '',
+      Robots: lives && row.robots > 0 && number(row.robots), Size: lives && row.storage_units ? `${number(row.storage_units)} storage units, ${number(row.items)} items` : '',
+      Orders: lives && ordersOf(row.orders), Speed: lives && row.rtf ? `×${number(row.rtf, 2)}` : '',
       Runs: lives && durationOf(row.uptime_s), Arguments: texts,
     };
     const pairs = Object.entries(facts).filter(([, value]) => value);

@@ -3,6 +3,7 @@
 
 import { get } from '../base/api.js';
 import { $, make } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 import { clock, lasting } from '../base/time.js';
 
 const SHOWN = 100;
@@ -15,8 +16,8 @@ export async function showPast() {
     make('span', { textContent: text }),
     make('span', { className: 'dim', textContent: didOf(by, actions) })));
   $('alarm-past-list').replaceChildren(...rows);
-  const ended = total ? `${total.toLocaleString()} ended` : 'None has ended yet';
-  $('alarm-past-sum').textContent = repairs ? `${ended}; mean time to repair ${lasting(mean)} (${repairs.toLocaleString()} repaired)` : ended;
+  const ended = total ? `${number(total)} ended` : 'None has ended yet';
+  $('alarm-past-sum').textContent = repairs ? `${ended}; mean time to repair ${lasting(mean)} (${number(repairs)} repaired)` : ended;
 }
 
 /** Who saw an alarm, and who did what about it. */

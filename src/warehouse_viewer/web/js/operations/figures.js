@@ -3,10 +3,11 @@
 
 import { sparkline } from '../base/charts.js';
 import { $, make } from '../base/dom.js';
+import { number, percent as share } from '../base/numbers.js';
 
-export const count = (value) => Math.round(value).toLocaleString('en');
-const percent = (value) => `${Math.round(100 * value)} %`;
-const exact = (value) => `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %`;
+export const count = (value) => number(value);
+const percent = (value) => share(value);
+const exact = (value) => share(value, value < 0.1 ? 1 : 0);
 
 /** What the server calls each; `most`: less is better. */
 const LEADING = [
@@ -20,10 +21,10 @@ const SMALL = [
   ['orders_waiting', 'orders waiting', count],
   ['orders_at_stations', 'orders at stations', count],
   ['orders_late', 'orders late now', count],
-  ['pile_on', 'pieces per unit visit', (v) => v.toFixed(1)],
+  ['pile_on', 'pieces per unit visit', (v) => number(v, 1)],
   ['station_idle_fraction', 'picking stations idle', percent],
   ['stock_level', 'stock', percent],
-  ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
+  ['real_time_factor', 'real-time factor', (v) => number(v, 2)],
   ['collisions', 'collisions', count],
 ];
 const EXACT = 0.02; // of the target: as good as met

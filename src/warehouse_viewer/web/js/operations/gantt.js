@@ -7,9 +7,10 @@ import { ROOT } from '../base/root.js';
 import { AXIS, outline, paint, palette } from './gantt_paint.js';
 import { GanttPointer } from './gantt_pointer.js';
 import { GanttView, sorted, SORTS } from './gantt_view.js';
+import { GanttWhy } from './gantt_why.js';
 import { Spans } from './spans.js';
 import { clock, lasting } from '../base/time.js';
-import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
+import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, shownName, STATION_STATES } from '../base/words.js';
 
 const HOUR = 3590; // [s], nearly
 const PERIOD = 2000; // between two requests [ms]
@@ -24,7 +25,7 @@ export function knownOf({ begin, now }) {
 
 export class Gantt {
   constructor() {
-    Object.assign(this, { spans: new Spans(), view: new GanttView(), rows: [], chosen: -1, span: null, frames: 0 });
+    Object.assign(this, { spans: new Spans(), view: new GanttView(), why: new GanttWhy(), rows: [], chosen: -1, span: null, frames: 0 });
     this.box = $('gantt');
     this.inside = this.box.firstElementChild;
     this.canvas = this.box.querySelector('canvas');
@@ -155,6 +156,14 @@ export class Gantt {
     return `${row.name}: ${word}, ${lasting(span.to - span.from)}, ${clock(span.from)} to ${clock(span.to)}`;
   }
 
+  /** Says in an element what a row did in a span, and why once that is known. */
+  async explain(row, span, element) {
+    const text = this.describe(row, span);
+    element.textContent = text;
+    const why = await this.why.of(row, span);
+    if (why && element.textContent === text) element.textContent = `${text}: ${shownName(why)}`;
+  }
+
   chosenSpan() {
     const row = this.rows[this.chosen]?.row;
     const i = row && this.span ? row.indexAt(this.span.time) : -1;
@@ -173,7 +182,7 @@ export class Gantt {
     this.span = { time: (Math.max(span.from, row.times[at]) + span.to) / 2 };
     this.view.reveal(span.from, span.to);
     this.reveal();
-    $('gantt-told').textContent = this.describe(row, this.chosenSpan());
+    this.explain(row, this.chosenSpan(), $('gantt-told'));
     this.soon();
   }
 

@@ -87,9 +87,13 @@ export class GanttPointer {
     const tip = $('gantt-tip');
     tip.hidden = !row;
     if (!row) return;
-    tip.textContent = this.gantt.describe(row.row, row.span);
-    const half = tip.offsetWidth / 2;
-    tip.style.left = `${Math.max(half + 4, Math.min(innerWidth - half - 4, clientX))}px`;
-    tip.style.top = `${clientY}px`;
+    const place = () => {
+      const half = tip.offsetWidth / 2;
+      tip.style.left = `${Math.max(half + 4, Math.min(innerWidth - half - 4, clientX))}px`;
+      tip.style.top = `${clientY}px`;
+    };
+    const explained = this.gantt.explain(row.row, row.span, tip);
+    place();
+    explained.then(place);
   }
 }

@@ -144,7 +144,7 @@ class Page {
       $('found').textContent = `${count(pieces)} pieces in ${count(total)} bins`;
       Object.assign($('on-floor'), { hidden: !sku || !total, href: `${ROOT}/#${encodeURIComponent(sku)}` });
       $('places').replaceChildren(...places.map(({ item, shelf_id: unit, sku: held, quantity, reserved }) => (
-        make('li', { textContent: `storage unit ${unit}: ${quantity}${sku ? '' : ` ${held}`} in ${item}${reserved ? `, ${reserved} reserved` : ''}` }))));
+        make('li', { textContent: `unit ${unit}: ${count(quantity)}${sku ? '' : ` ${held}`} in ${item.replace('item', 'bin ')}${reserved ? `, ${reserved} reserved` : ''}` }))));
     } catch (error) {
       $('found').textContent = error.message;
     }

@@ -3,6 +3,7 @@
 
 import { get, post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 
 const TYPING = 150; // after a key [ms]
 const SHOWN = 20; // SKUs that a list offers
@@ -12,7 +13,7 @@ const LARGE = 1e6; // limits from here on say nothing to a person who has mistyp
 /** A whole number in a text, from least to most; an Error that says what was expected. */
 export function whole(text, least, most) {
   const value = /^\s*\d+\s*$/.test(text) ? Number(text) : NaN;
-  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} ${most < LARGE || value > most ? `to ${most.toLocaleString('en')}` : 'on'} was expected`);
+  if (!(value >= least && value <= most)) throw new Error(`a whole number from ${least} ${most < LARGE || value > most ? `to ${number(most)}` : 'on'} was expected`);
   return value;
 }
 
@@ -111,11 +112,11 @@ export class OrderEntry {
 }
 
 class Line {
-  constructor(drop, number) {
-    this.sku = make('input', { placeholder: 'SKU', ariaLabel: `SKU ${number}`, autocomplete: 'off', spellcheck: false });
+  constructor(drop, place) {
+    this.sku = make('input', { placeholder: 'SKU', ariaLabel: `SKU ${place}`, autocomplete: 'off', spellcheck: false });
     this.sku.setAttribute('list', 'skus');
-    this.quantity = make('input', { value: '1', inputMode: 'numeric', ariaLabel: `Pieces of SKU ${number}`, className: 'few', autocomplete: 'off' });
-    this.remove = make('button', { type: 'button', className: 'edged', textContent: '×', ariaLabel: `Leave out SKU ${number}`, click: drop });
+    this.quantity = make('input', { value: '1', inputMode: 'numeric', ariaLabel: `Pieces of SKU ${place}`, className: 'few', autocomplete: 'off' });
+    this.remove = make('button', { type: 'button', className: 'edged', textContent: '×', ariaLabel: `Leave out SKU ${place}`, click: drop });
     [this.skuFault, this.quantityFault] = [1, 2].map((i) => make('p', { className: 'fault', id: `entry-fault-${Line.count = (Line.count ?? 0) + 1}-${i}`, hidden: true }));
     this.sku.setAttribute('aria-describedby', this.skuFault.id);
     this.quantity.setAttribute('aria-describedby', this.quantityFault.id);

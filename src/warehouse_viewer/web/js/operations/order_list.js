@@ -4,6 +4,7 @@
 
 import { get } from '../base/api.js';
 import { $, make, on, press } from '../base/dom.js';
+import { counted } from '../base/numbers.js';
 import { ROOT } from '../base/root.js';
 import { isOver, OrderRow } from './order_row.js';
 
@@ -159,7 +160,7 @@ export class OrderList {
   }
 
   draw() {
-    $('total').textContent = `${this.total.toLocaleString()} orders`;
+    $('total').textContent = counted(this.total, 'order');
     $('news').hidden = !this.fresh && !this.missed;
     $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new orders: show';
     this.inside.style.height = `${this.rowHeight * this.total}px`;

@@ -3,12 +3,11 @@
 
 import { post } from '../base/api.js';
 import { $, make, on } from '../base/dom.js';
+import { counted, number } from '../base/numbers.js';
 
 const MOST = 4_000_000; // characters
 const MOST_FAULTS = 20; // faults that the server lists
 const SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')";
-
-const counted = (n, word) => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
 
 const isFile = (event) => event.dataTransfer?.types.includes('Files');
 
@@ -102,7 +101,7 @@ export class OrderUpload {
 
 /** A file's text; an Error that says why it has none. */
 async function textOf(file) {
-  if (file.size > MOST) throw new Error(`it has ${(file.size / 1e6).toFixed(1)} MB; ${MOST / 1e6} MB or less were expected: split it`);
+  if (file.size > MOST) throw new Error(`it has ${number(file.size / 1e6, 1)} MB; ${MOST / 1e6} MB or less were expected: split it`);
   const bytes = await file.arrayBuffer();
   let text = '';
   try {

@@ -2,6 +2,7 @@
 // How many robots do what at a glance, what work that is, and which of them wait.
 
 import { $, make } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 import { ROOT } from '../base/root.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY, ACTIVITY_CLASS, ACTIVITY_NAMES, counted, countedWork } from '../base/words.js';
@@ -29,7 +30,7 @@ export class RobotShares {
       make('li', {}, make('i', { className: `key ${look}` }), make('b', { textContent: count }), ` ${text}`))));
     const { work, robots: { manual, out_of_service: out }, transports } = fleet;
     $('work').textContent = [countedWork(work), counted({ manual, out_of_service: out }, '')].filter(Boolean).join(', ');
-    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; a plan takes ${fleet.plan_p50.toFixed(1)} ms`;
+    $('fleet').textContent = `${number(transports.under_way)} transports under way, ${number(transports.open)} waiting for a robot`;
     this.showWaits(fleet);
   }
 

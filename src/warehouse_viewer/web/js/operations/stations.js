@@ -5,13 +5,14 @@
 import { put } from '../base/api.js';
 import { $, make, press } from '../base/dom.js';
 import { StationMode } from '../base/message_enums.js';
+import { number, percent } from '../base/numbers.js';
+import { knownPerson } from '../base/person.js';
 import { ROOT } from '../base/root.js';
-import { waitsOf } from '../base/station_waits.js';
+import { Choice, waitsOf } from '../base/station.js';
 import { lasting } from '../base/time.js';
 import { ACTIVITY_CLASS, ACTIVITY_NAMES, STATION_STATES } from '../base/words.js';
 
 const CHIPS = 8; // most robots of a queue that are shown
-const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
 export class Stations {
   /** `act(promise)` waits for what was asked of the server. */
@@ -34,21 +35,6 @@ export class Stations {
   tick(now) {
     this.now = now;
     for (const row of this.rows.values()) row.tick(now);
-  }
-}
-
-/** What was set last. It counts until the server sends it: a state that comes before may be older. */
-export class Choice {
-  /** `choice` is {open, mode}; it was set at `now` [ms]. */
-  note(choice, now) {
-    Object.assign(this, { choice, until: now + HOLDS });
-  }
-
-  /** A station's state of `now` [ms] from the server, with what was set. */
-  upon(station, now) {
-    const { open, mode } = this.choice ?? station;
-    if (now >= this.until || (station.open === open && station.mode === mode)) this.choice = undefined;
-    return { ...station, ...this.choice };
   }
 }
 
@@ -80,7 +66,7 @@ class Row {
   async set(open, mode) {
     for (const button of [this.gate, this.hand]) button.disabled = true;
     try {
-      const answer = await put(`/stations/${this.station.name}`, { open, mode });
+      const answer = await put(`/stations/${this.station.name}`, { open, mode, by: knownPerson() });
       this.choice.note({ open, mode }, performance.now());
       this.show(this.station, this.now);
       return answer;
@@ -102,8 +88,8 @@ class Row {
     this.state.className = `badge ${ACTIVITY_CLASS[ACTIVITY_NAMES.indexOf(activity)] ?? ''}`;
     this.state.textContent = !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity];
     this.orders.lastChild.textContent = picks ? `${station.orders.length} of ${station.slots}` : '–';
-    this.rate.lastChild.textContent = Math.round(station.pieces_per_hour).toLocaleString('en');
-    this.busy.lastChild.textContent = `${Math.round(100 * station.busy_fraction)} %`;
+    this.rate.lastChild.textContent = number(station.pieces_per_hour);
+    this.busy.lastChild.textContent = percent(station.busy_fraction);
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = 'Manual';
     press(this.hand, this.isByHand);
@@ -134,7 +120,7 @@ function cell(className, label) {
 
 function chip({ unit, robot, stands, is_long: isLong }) {
   const waits = robot && stands >= 10;
-  const title = robot ? `storage unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `storage unit ${unit}: a robot is on its way to it`;
+  const title = robot ? `unit ${unit} on kiva${robot}${waits ? `, which has stood for ${lasting(stands)}` : ', under way'}` : `unit ${unit}: a robot is on its way to it`;
   const out = make('span', { className: isLong ? 'chip is-long' : robot ? 'chip' : 'chip is-far', title, textContent: waits ? `${unit} · ${lasting(stands)}` : `${unit}` });
   return out;
 }

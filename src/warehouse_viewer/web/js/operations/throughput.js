@@ -3,6 +3,7 @@
 
 import { axis, faint, font, Plot } from '../base/charts.js';
 import { $, token } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 
 const PARTIAL = 15; // shortest part of the present interval that has a rate [s]
 const HOUR = 60; // [min]
@@ -61,14 +62,14 @@ function look() {
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
         x: axis('minutes ago', { ticks: { stepSize: 15, callback: (minutes) => (minutes ? -minutes : 'now') }, grid: { display: false }, scale: { min: -HOUR, max: 0, offset: false } }),
-        y: axis('pieces per hour', { ticks: { callback: (rate) => rate.toLocaleString('en') }, scale: { beginAtZero: true, grace: '5%' } }),
+        y: axis('pieces per hour', { ticks: { callback: (rate) => number(rate) }, scale: { beginAtZero: true, grace: '5%' } }),
         // Bundles are many pieces at once: upon one scale they would press what is picked to the floor.
-        stored: axis('put in per hour', { ticks: { callback: (rate) => rate.toLocaleString('en') }, grid: { display: false }, scale: { position: 'right', beginAtZero: true, suggestedMax: 10, grace: '5%' } }),
+        stored: axis('put in per hour', { ticks: { callback: (rate) => number(rate) }, grid: { display: false }, scale: { position: 'right', beginAtZero: true, suggestedMax: 10, grace: '5%' } }),
       },
       plugins: {
         legend: { display: false },
         tooltip: { backgroundColor: token('raised'), titleColor: token('text'), bodyColor: token('text'), borderColor: token('line'), borderWidth: 1, titleFont: font(), bodyFont: font(),
-          callbacks: { title: ([{ parsed }]) => `${Math.max(0, Math.round(-parsed.x))} min ago`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${Math.round(parsed.y).toLocaleString('en')}` } },
+          callbacks: { title: ([{ parsed }]) => `${Math.max(0, Math.round(-parsed.x))} min ago`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(parsed.y)}` } },
       },
     },
   };

@@ -3,7 +3,9 @@
 
 import { post } from '../base/api.js';
 import { $, enable, on, setIcon, setText } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 import { confirmed } from '../base/question.js';
+import { clock } from '../base/time.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
 const SAVED_EVERY = 1; // [s], simulated: what undo goes back to
@@ -43,7 +45,7 @@ export class Bar {
   async reset() {
     const lack = this.lacks.checkpoint;
     const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
-    const text = 'Robots, storage units and items go back to where they started, and the time to 0:00. '
+    const text = 'Robots, storage units and items go back to where they started, and the time to 0:00:00. '
       + `Running commands are cancelled; commands sent while the simulation is paused are carried out afterwards. ${undone}`;
     if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
     const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
@@ -71,7 +73,7 @@ export class Bar {
     const reached = this.latest >= UNDO + SAVED_EVERY;
     this.latest = Math.max(this.latest, stamp);
     if (!reached && this.latest >= UNDO + SAVED_EVERY) this.enable();
-    setText($('time'), clock(stamp));
+    setText($('time'), clock(stamp, true));
   }
 
   showLink(live, reason) {
@@ -95,7 +97,7 @@ export class Bar {
     }
     setText($('warehouse'), status.warehouse || 'Warehouse');
     this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
-    setText($('factor'), status.paused ? '' : `×${status.factor.toFixed(2)}`);
+    setText($('factor'), status.paused ? '' : `×${number(status.factor, 2)}`);
     this.stepSize = status.step_size;
     this.showPaused(status.paused);
     this.showSpeed(status.target_factor);
@@ -114,7 +116,7 @@ export class Bar {
     if (document.activeElement === select) return;
     const value = String(Math.round(factor * 100) / 100);
     if (![...select.options].some((option) => option.value === value)) {
-      select.add(new Option(`${value}×`, value));
+      select.add(new Option(`${number(value, 0, 2)}×`, value));
     }
     select.value = value;
   }
@@ -129,11 +131,4 @@ export class Bar {
       enable($(id), lack, id === 'speed' ? $(id).parentElement : $(id));
     }
   }
-}
-
-/** Simulated time [s] as 2:05.3, from an hour on as 1:02:05.3. */
-export function clock(stamp) {
-  const tenths = Math.round(10 * stamp), hours = Math.floor(tenths / 36_000);
-  const minutes = String(Math.floor(tenths / 600) % 60), seconds = ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
-  return hours ? `${hours}:${minutes.padStart(2, '0')}:${seconds}` : `${minutes}:${seconds}`;
 }

@@ -3,6 +3,7 @@
 
 import { get, post, remove } from '../base/api.js';
 import { $, on } from '../base/dom.js';
+import { number } from '../base/numbers.js';
 import { Placer } from './placer.js';
 import { confirmed } from '../base/question.js';
 
@@ -12,7 +13,7 @@ export class Builder extends Placer {
   /** `say(text, kind, at)` shows the person at the page a text; `present()`: what stands here now,
    *  {robots, shelves, items}, and `isWorking`, whether a fleet works there. */
   constructor(say, present) {
-    super('add', { what: 'a robot', hint: 'click a cell for the new robot' }, say);
+    super('add', { what: 'a robot', hint: 'click one of the lit cells for the new robot' }, say);
     Object.assign(this, { present, sizes: { presets: {}, limits: {} } });
     on($('build'), 'click', () => this.open());
     on($('size'), 'change', () => this.showCounts());
@@ -41,7 +42,7 @@ export class Builder extends Placer {
       const field = $(`own-${what}`), limit = this.sizes.limits[what];
       if (!limit) continue;
       field.max = limit;
-      field.parentElement.querySelector('span').textContent = `at most ${limit.toLocaleString('en')}`;
+      field.parentElement.querySelector('span').textContent = `at most ${number(limit)}`;
     }
     this.showCounts();
     $('builder').showModal(); // not before: what a quick hand chose meanwhile would be overwritten

@@ -3,10 +3,9 @@
 
 import { command, post } from '../base/api.js';
 import { $, enable, make, on, press, setText } from '../base/dom.js';
-import { LiftStatus, RobotMode, StationMode, Turn } from '../base/message_enums.js';
-import { vda5050Of } from './vda5050.js';
-import { ROOT } from '../base/root.js';
-import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, STATE, STATION_STATES } from '../base/words.js';
+import { LiftStatus, RobotMode, Turn } from '../base/message_enums.js';
+import { number, percent } from '../base/numbers.js';
+import { ACTIVITY, ACTIVITY_CLASS, FAILURE, MODE_WORDS, shownName, STATE } from '../base/words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
 const COMMANDS = ['left', 'right', 'carry', 'drop', 'remove'];
@@ -21,10 +20,11 @@ const WAITS = 'sent; the simulation is paused: the robot starts when it resumes,
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
    *  `isPaused()`: whether time stands still; `fleet` is the FleetPanel, `fallen` the
-   *  FallenItems, `wayOf(id)` what the coordinator plans for a robot, and `stationOf(name)`
-   *  what the shift says of a station. */
-  constructor(world, select, say, { isPaused, fleet, fallen, wayOf, stationOf }) {
+   *  FallenItems, `wayOf(id)` what the coordinator plans for a robot, `stationOf(name)`
+   *  what the shift says of a station, and `moment()` and `log` what the Care takes. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf, stationOf, moment, log }) {
     Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, stationOf, name: null, robot: null });
+    this.about = { moment, log };
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
@@ -52,12 +52,34 @@ export class Details {
     $('answer').hidden = true;
     this.shownFacts = null;
     this.refresh();
+    if (name) this.careFor();
+  }
+
+  /** What the server says of it comes once something is selected. */
+  async careFor() {
+    const { Care } = await this.load();
+    this.care ??= new Care(this, this.about);
+    this.care.show();
+    this.care.take(this.why);
+    this.refresh();
+  }
+
+  /** Loads what a selection needs. */
+  async load() {
+    this.parts ??= await import('./care.js');
+    return this.parts;
+  }
+
+  /** Takes why the selected robot or station waits; null: the server knows no reason. */
+  takeWhy(why) {
+    this.why = why;
+    this.care?.take(why);
   }
 
   refresh() {
     const { thing } = this;
     if (!this.name) return;
-    $('name').textContent = this.name;
+    setText($('name'), shownName(this.name));
     const isRobot = thing?.kind === 'robot';
     $('orders').hidden = !isRobot;
     for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
@@ -65,9 +87,10 @@ export class Details {
     $('modes').hidden = !isRobot || !this.fleet.runs;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
-    $('fetch').textContent = `Send ${this.robot} beneath it`;
+    setText($('fetch'), `Send ${this.robot} beneath it`);
     $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
     this.facts(thing ? this.factsOf(thing) : [['', 'no longer exists']]);
+    this.care?.refresh();
   }
 
   refreshRobot(i) {
@@ -95,30 +118,31 @@ export class Details {
   factsOf(thing) {
     const [x, y, z, yaw] = this.world.placeOf(thing);
     const { index } = thing;
+    if (thing.kind === 'station') return this.factsOfStation();
     const out = [['position', `${metres(x)}, ${metres(y)} m`]];
     if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
-    if (thing.kind !== 'station') out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
+    out.push(['heading', `${number(Math.round(yaw * 180 / Math.PI) + 0)}°`]);
     return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
-      item: () => this.factsOfItem(index), station: () => this.factsOfStation() }[thing.kind]?.() ?? []);
+      item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
   }
 
   factsOfRobot(index) {
     const { world } = this, { scene } = world;
-    const out = [['activity', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const out = [['motion', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
     const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
     if (broken.length) out.push(['broken', broken.join(', ')]);
-    if (world.charge.some((c) => c < 100)) out.push(['battery', `${world.charge[index]} %`]);
+    if (world.charge.some((c) => c < 100)) out.push(['battery', percent(world.charge[index] / 100)]);
     const load = world.loadOf(index), limit = world.loadLimit[index];
     out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
-    if (limit > 0) out.push(['deceleration', `${limit.toFixed(1)} m/s² at most, so that the load does not tip`]);
+    if (limit > 0) out.push(['deceleration', `${number(limit, 1)} m/s² at most, so that the load does not tip`]);
     if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
-    return [...out, ...vda5050Of(scene.robots[index])];
+    return [...out, ...this.parts?.vda5050Of(scene.robots[index]) ?? []];
   }
 
   factsOfUnit(index) {
     const carrier = this.world.carrier[index];
     const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
-    return [['carried by', carrier ? link(`kiva${carrier}`) : 'no robot'], ['items', items.join(', ') || 'none']];
+    return [['carried by', carrier ? link(`kiva${carrier}`) : 'no robot'], ['items', items.map(shownName).join(', ') || 'none']];
   }
 
   factsOfItem(index) {
@@ -127,17 +151,9 @@ export class Details {
     return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
   }
 
-  /** What a station does, waits for and has in its queue, and the way to its screen. */
+  /** What a station does, waits for and has in its queue. */
   factsOfStation() {
-    const station = this.stationOf(this.name);
-    if (!station) return [['state', 'no shift is running']];
-    const { open, activity, mode, queue } = station;
-    this.words ??= import('../base/station_waits.js').then((words) => Object.assign(this, words)); // the first view is short of room
-    const [waits] = this.waitsOf?.(station, this.world.stamp) ?? [''];
-    const robots = queue.filter(({ robot }) => robot).map(({ robot }) => link(`kiva${robot}`));
-    return [['state', !open && activity === 'RESTING' ? 'closed' : STATION_STATES[activity]],
-      ['works', mode === StationMode.MANUAL ? 'manually' : 'automatically'], ...waits ? [['unit', waits]] : [],
-      ['queue', robots.length ? robots : 'no robot'], ['screen', { link: 'open', href: `${ROOT}/station/${encodeURIComponent(this.name)}` }]];
+    return this.parts?.factsOfStation(this.stationOf(this.name), this.world.stamp, link) ?? [];
   }
 
   /** Where the coordinator sends a robot, and for whom it waits. */
@@ -148,7 +164,7 @@ export class Details {
       const station = this.world.scene.stations.find((s) => Math.hypot(s.x - x, s.y - y) < 0.1);
       out.push(['goes to', station ? link(station.name) : `${metres(x)}, ${metres(y)} m`]);
     }
-    if (way?.waitsFor) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
+    if (way?.waitsFor && !this.care?.why) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
     return out;
   }
 
@@ -160,11 +176,10 @@ export class Details {
       make('dt', { textContent: what }), make('dd', {}, ...[value].flat().map((part) => this.shown(part)))]));
   }
 
-  /** A value as it is shown: a text, a link to a thing, or to a page. */
+  /** A value as it is shown: a text, or a link to a thing. */
   shown(value) {
     if (typeof value !== 'object') return value;
-    const { link: textContent, href } = value;
-    return href ? make('a', { href, textContent }) : make('button', { textContent, click: () => this.select(textContent) });
+    return make('button', { textContent: shownName(value.link), click: () => this.select(value.link) });
   }
 
   // --- commands; `at` is where in the window the answer belongs
@@ -185,16 +200,25 @@ export class Details {
   }
 
   /** Sets whether the coordinator commands the selected robot, a person does, or it is out of service. */
-  async setMode(mode) {
-    const robot = this.name;
+  setMode(mode) {
+    const id = numberOf(this.name);
+    return this.attempt(async () => {
+      const { knownPerson } = await this.load();
+      return post(`/robots/${id}/mode`, { mode, by: knownPerson() });
+    }, MODE[mode]);
+  }
+
+  /** Does what a button says, and shows what became of it. */
+  async attempt(request, done = '') {
+    const { name } = this;
     const answer = (text, kind) => {
-      if (this.name !== robot) return;
+      if (this.name !== name) return;
       Object.assign($('answer'), { hidden: false, textContent: text });
       $('answer').dataset.kind = kind;
     };
     try {
-      await post(`/robots/${numberOf(robot)}/mode`, { mode });
-      answer(MODE[mode], 'done');
+      const { message } = await request();
+      answer(done || message || 'done', 'done');
     } catch (error) {
       answer(`${error.refused ? 'refused: ' : ''}${error.message}`, 'refused');
     }
@@ -230,6 +254,6 @@ export function whyNot(buttons) {
   return [...labels].map(([why, all]) => `${all.join(', ')}: ${why}.`).join(' ');
 }
 
-const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
+const metres = (length) => number(Math.round(100 * length) / 100 + 0, 2); // + 0: never -0.00
 const link = (name) => ({ link: name });
 const numberOf = (name) => Number(name.match(/\d+$/)[0]);

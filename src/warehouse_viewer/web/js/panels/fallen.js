@@ -3,6 +3,7 @@
 
 import { post } from '../base/api.js';
 import { $, on } from '../base/dom.js';
+import { shownName } from '../base/words.js';
 
 const ABOVE = 0.25; // of a name over the item [m]
 
@@ -28,7 +29,7 @@ export class FallenItems {
     const { fallen_item: items, items: names } = this.world.scene;
     return items.map((item) => {
       const [x, y, z] = this.world.placeOfItem(item);
-      return { text: names[item], kind: 'blocked', at: [x, y, z + ABOVE] };
+      return { text: shownName(names[item]), kind: 'blocked', at: [x, y, z + ABOVE] };
     });
   }
 }

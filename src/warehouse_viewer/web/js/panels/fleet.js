@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
-import { $, make } from '../base/dom.js';
-import { EventKind, RobotMode } from '../base/message_enums.js';
-import { counted, countedEvents, countedWork } from '../base/words.js';
+import { $, make, setText } from '../base/dom.js';
+import { RobotMode } from '../base/message_enums.js';
+import { counted as number, number as figure } from '../base/numbers.js';
+import { lasting } from '../base/time.js';
+import { counted, countedWork } from '../base/words.js';
 
 const MOST_WAITING = 50; // rows
 
@@ -15,17 +17,22 @@ export function factsOf({ robots, work, transports, executed_over_planned: execu
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
     ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],
-    ['planning time', `median ${state.plan_p50.toFixed(1)} ms, p99 ${state.plan_p99.toFixed(1)} ms`],
-    ['driven / planned time', executed.toFixed(2)],
-    ['incidents', countedEvents({
-      [EventKind.COLLISION]: state.collisions, [EventKind.BLOCKED]: state.blocked, watchdog: state.watchdog })],
+    ['planning time', `median ${figure(state.plan_p50, 1)} ms, p99 ${figure(state.plan_p99, 1)} ms`],
+    ['driven / planned time', figure(executed, 2)],
+    ['incidents', incidentsOf(state)],
   ];
+}
+
+/** '2 collisions, 1 stop before an obstacle, 20 times without progress'; 'nothing'. */
+function incidentsOf({ collisions, blocked, watchdog }) {
+  return [collisions && number(collisions, 'collision'), blocked && `${number(blocked, 'stop')} before an obstacle`,
+    watchdog && `${number(watchdog, 'time')} without progress`].filter(Boolean).join(', ') || 'nothing';
 }
 
 export class FleetPanel {
   /** `select(name)` is called for a robot that was clicked. */
   constructor(select) {
-    Object.assign(this, { select, fleet: null });
+    Object.assign(this, { select, fleet: null, byCause: null, alarms: null });
   }
 
   get runs() {
@@ -40,16 +47,39 @@ export class FleetPanel {
     if (!fleet) return;
     $('fleet-facts').replaceChildren(...factsOf(fleet).flatMap(([what, text]) => [
       make('dt', { textContent: what }), make('dd', { textContent: text })]));
-    $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
-    $('alarms').hidden = fleet.alarms.length === 0;
+    if (!this.alarms) this.showSentences(fleet.alarms);
+    else this.byCause?.tick(fleet.time);
     const rows = fleet.waiting.slice(0, MOST_WAITING).map((waits) => this.row(waits));
     $('waiting').replaceChildren(...rows);
     $('waiting-title').hidden = rows.length === 0;
   }
 
+  /** What the coordinator says, where nothing joins it by cause: in a recording. */
+  showSentences(texts) {
+    $('alarms').classList.remove('by-cause');
+    $('alarms').replaceChildren(...texts.map((text) => make('li', { textContent: text })));
+    $('alarms').hidden = texts.length === 0;
+  }
+
+  /** The server's alarms, by cause; null: it has none, as in a recording. */
+  async takeAlarms(alarms) {
+    this.alarms = alarms;
+    const count = alarms?.length ?? 0;
+    $('alarm-number').hidden = !count;
+    setText($('alarm-number'), String(count));
+    if (count || (alarms && this.byCause)) await this.showCauses();
+    else this.showSentences(alarms ? [] : this.fleet?.alarms ?? []);
+  }
+
+  async showCauses() {
+    const { AlarmPanel } = await import('./alarm_panel.js');
+    if (!this.alarms) return; // the past is shown meanwhile
+    this.byCause ??= new AlarmPanel(this.select);
+    this.byCause.take(this.alarms, this.fleet?.time ?? 0);
+  }
+
   row({ robot, since, text: reason }) {
-    const seconds = Math.round(this.fleet.time - since);
-    const text = `kiva${robot} ${reason}, ${seconds} s`;
+    const text = `kiva${robot} waits ${reason}, for ${lasting(this.fleet.time - since)}`;
     return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
   }
 

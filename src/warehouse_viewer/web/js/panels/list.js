@@ -4,7 +4,8 @@
 import { $, make, on, press, setText } from '../base/dom.js';
 import { RobotMode } from '../base/message_enums.js';
 import { found, rowsOf, wanted } from '../base/search.js';
-import { ACTIVITY, ACTIVITY_CLASS, MODE_WORDS, STATE } from '../base/words.js';
+import { number } from '../base/numbers.js';
+import { ACTIVITY, ACTIVITY_CLASS, MODE_WORDS, shownName, STATE } from '../base/words.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
 
@@ -43,7 +44,7 @@ export class RobotList {
     const { units, items, scenery, stations } = this.world.scene;
     const names = found([...new Set([...stations.map(({ name }) => name), ...units, ...items, ...scenery])], this.text);
     $('found').replaceChildren(...names.map((name) => (
-      make('button', { textContent: name, click: () => this.find(name) }))));
+      make('button', { textContent: shownName(name), click: () => this.find(name) }))));
     $('found').hidden = names.length === 0;
     this.refresh();
     this.unknown(names.length || this.rows.length ? '' : text);
@@ -60,9 +61,9 @@ export class RobotList {
     if (!sku) return;
     const all = [...units.values()].reduce((sum, pieces) => sum + pieces, 0);
     $('found').replaceChildren(make('p', { className: 'dim', textContent: all
-      ? `${sku}: ${all} pieces on ${units.size} units` : `no pieces of ${sku}` }),
-    ...[...units].map(([number, pieces]) => make('button', {
-      textContent: `unit ${number}: ${pieces}`, click: () => this.find(`storage_unit${number}`) })));
+      ? `${sku}: ${number(all)} pieces on ${number(units.size)} units` : `no pieces of ${sku}` }),
+    ...[...units].map(([unit, pieces]) => make('button', {
+      textContent: `unit ${unit}: ${number(pieces)}`, click: () => this.find(`storage_unit${unit}`) })));
     $('found').hidden = false;
     this.refresh();
   }
@@ -89,7 +90,7 @@ export class RobotList {
     for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      setText(button.querySelector('b'), isKnown ? String(filter === '' ? activity.length : counts[filter]) : '');
+      setText(button.querySelector('b'), isKnown ? number(filter === '' ? activity.length : counts[filter]) : '');
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
@@ -119,7 +120,7 @@ export class RobotList {
     const { activity, state, shelf } = this.world;
     const name = this.nameOf(i);
     const does = activity[i], byPerson = this.byPerson(i);
-    const load = shelf[i] ? `carries ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
+    const load = shelf[i] ? `unit ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
       make('span', { className: `badge ${ACTIVITY_CLASS[does]}`, textContent: ACTIVITY[does] }), name,
       ...byPerson ? [make('span', { className: 'badge', textContent: byPerson })] : [],

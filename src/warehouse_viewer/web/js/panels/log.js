@@ -2,7 +2,8 @@
 // The running log of events, and those of one model.
 
 import { $, make, on } from '../base/dom.js';
-import { TROUBLE } from '../base/words.js';
+import { clock } from '../base/time.js';
+import { EVENTS, shownName, TROUBLE } from '../base/words.js';
 
 const KEPT = 1000, SHOWN = 150, OWN = 20;
 
@@ -11,6 +12,7 @@ export class EventLog {
   constructor(select) {
     this.select = select;
     this.events = [];
+    this.own = { name: null, events: [] }; // older ones of the selected, which the server keeps
     this.lastId = 0;
     on($('trouble'), 'change', () => this.drawAll());
   }
@@ -36,24 +38,34 @@ export class EventLog {
     $('events').replaceChildren(...shown.map((event) => this.line(event)).reverse());
   }
 
+  /** Older events of the selected. */
+  addOwn(name, events) {
+    this.own = { name, events };
+    this.drawOwn(name);
+  }
+
   /** The last events of a model into the panel of the selection. */
   drawOwn(name) {
-    const own = this.events.filter((e) => e.model === name || e.other === name).slice(-OWN);
+    const all = this.events.filter((e) => e.model === name || e.other === name);
+    const older = this.own.name === name ? this.own.events.filter(({ id }) => id < (all[0]?.id ?? Infinity)) : [];
+    const own = [...older, ...all].slice(-OWN);
     const lines = own.map((event) => this.line(event)).reverse();
     if (!lines.length) lines.push(make('li', { className: 'dim', textContent: 'none' }));
     $('own-events').replaceChildren(...lines);
   }
 
   line({ time, kind, model, other, text }) {
-    const out = make('li', { click: () => this.select(model), title: text },
-      make('span', { textContent: time.toFixed(1) }), make('span', { textContent: kind }),
-      make('span', { textContent: model }),
-      make('span', { textContent: text.includes(other) ? text : [other, text].filter(Boolean).join(': ') }));
-    if (TROUBLE.includes(kind)) out.dataset.trouble = '';
+    const words = shownName(text.includes(other) ? text : [other, text].filter(Boolean).join(': ')).replace(/^(done|lifted|repaired|broken): /, '');
+    const out = make('li', { click: () => this.select(model), title: words },
+      make('span', { textContent: clock(time) }), make('span', { textContent: EVENTS[kind] ?? kind }),
+      make('span', { textContent: shownName(model) }), make('span', { textContent: words }));
+    if (isTrouble(kind)) out.dataset.trouble = '';
     return out;
   }
 }
 
 function wanted({ kind }) {
-  return !$('trouble').checked || TROUBLE.includes(kind);
+  return !$('trouble').checked || isTrouble(kind);
 }
+
+const isTrouble = (kind) => kind === 'ALARM' || TROUBLE.includes(kind);

@@ -10,7 +10,7 @@ export const isPerson = (name) => /^person\d+$/.test(name ?? '');
 export class People extends Placer {
   /** `say(text, kind, at)` shows the person at the page a text. */
   constructor(say) {
-    super('add-person', { what: 'a person', hint: 'click where to put the person' }, say);
+    super('add-person', { what: 'a person', hint: 'click one of the lit cells for the person' }, say);
   }
 
   /** Adds a person at [x, y] [m]. */

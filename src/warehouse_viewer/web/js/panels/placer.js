@@ -6,7 +6,7 @@ import { $, isPressed, on, press } from '../base/dom.js';
 export class Placer {
   /** `what` it puts and `hint` are for the person; `say(text, kind, at)` shows them a text. */
   constructor(button, { what, hint }, say) {
-    Object.assign(this, { button: $(button), what, hint, say });
+    Object.assign(this, { button: $(button), what, hint, say, changed: () => {} });
     on(this.button, 'click', () => this.want(!this.wantsCell));
   }
 
@@ -16,25 +16,42 @@ export class Placer {
   }
 
   want(wants) {
+    if (wants === this.wantsCell) return;
     press(this.button, wants);
-    if (wants) this.say(this.hint, 'sent');
+    this.changed(); // the page shows which cells are free
+    if (wants) this.say(`${this.hint}; Esc ends it`, 'sent');
   }
 
-  /** Asks the server for one at [x, y] by `request`; `at` is where in the window the answer belongs. */
+  /** A click that puts nothing says why. */
+  refuse(why, at) {
+    this.say(`${why}: ${this.hint}`, 'refused', at);
+  }
+
+  /** Asks the server for one at [x, y] by `request`; `at` is where in the window the answer belongs. What is
+   *  refused can be tried elsewhere at once. */
   async put(request, [x, y], at) {
     this.want(false);
-    await this.attempt(async () => {
+    const isDone = await this.attempt(async () => {
       const { name } = await request();
       return { message: `${name} stands at ${x}, ${y}` };
     }, at);
+    if (!isDone) this.again();
   }
 
+  again() {
+    press(this.button, true);
+    this.changed();
+  }
+
+  /** True if it was done. */
   async attempt(request, at) {
     try {
       const { message } = await request();
       this.say(message || 'done', 'done', at);
+      return true;
     } catch (error) {
       this.say(error.message, 'refused', at);
+      return false;
     }
   }
 }

@@ -3,7 +3,7 @@
 // where it is known, else by that of the shift; with &see=kiva7 for what is selected, and &from= for
 // where the camera is, what it looks at, and its zoom from above.
 
-import { readClock } from './clock.js';
+import { readClock } from '../base/time.js';
 
 const DAY = 86400; // [s]
 

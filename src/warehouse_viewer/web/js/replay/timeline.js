@@ -2,7 +2,8 @@
 // The time line at the bottom of the floor: the last hour of a running warehouse, or a recording.
 
 import { $, on, press, setIcon } from '../base/dom.js';
-import { hms, wallClock } from './clock.js';
+import { number } from '../base/numbers.js';
+import { clock, wallClock } from '../base/time.js';
 import { freeze } from './frozen.js';
 import { linkTo, lookOf, momentOf, timeOf, wallAt } from './link.js';
 import { Player } from './player.js';
@@ -40,7 +41,7 @@ export class Timeline {
     const { page } = this;
     return {
       scene: (scene) => page.takeScene(scene),
-      reset: () => page.overlays?.trails.clear(),
+      reset: () => page.trails?.clear(),
       update: (update) => page.takeUpdate(update),
       past: (events) => page.log.replace(events),
       events: (events) => page.takeEvents(events),
@@ -167,7 +168,7 @@ export class Timeline {
 
   textOf(time) {
     const wall = wallAt(time, this.recording.chunks);
-    return wall === null ? hms(time) : `${hms(time)} (${wallClock(wall)})`;
+    return wall === null ? clock(time) : `${clock(time)} (${wallClock(wall)})`;
   }
 
   drawIndex() {
@@ -201,8 +202,8 @@ export class Timeline {
     const { kpis } = this;
     const rows = [...(kpis ? [['pieces/h', Math.round(kpis.item_throughput_per_hour)],
       ['orders done', kpis.orders_completed], ['late', kpis.orders_late]] : []),
-    ['at work', `${working}/${activity.length}`]];
-    const text = rows.map(([name, value]) => `${value.toLocaleString('en')} ${name}`).join(' · ');
+    ['at work', `${number(working)}/${number(activity.length)}`]];
+    const text = rows.map(([name, value]) => `${typeof value === 'number' ? number(value) : value} ${name}`).join(' · ');
     if ($('replay-figures').textContent !== text) $('replay-figures').textContent = text;
   }
 }

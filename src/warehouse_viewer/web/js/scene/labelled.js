@@ -36,7 +36,7 @@ export function apart(signs) {
   return out;
 }
 
-const matters = ({ kind }) => Number(kind !== 'sign');
+const matters = ({ kind }) => Number(kind !== 'sign' && kind !== 'sign small');
 
 function overlap(a, b) {
   const [dx, dy] = [0, 1].map((i) => Math.abs(a.pixel[i] - b.pixel[i]));

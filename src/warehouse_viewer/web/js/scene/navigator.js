@@ -84,6 +84,22 @@ export class Navigator {
     this.stage.invalidate();
   }
 
+  /** Moves the picture to the side by pixels, as far as that is at [x, y, z]. */
+  slide(pixels, [x, y, z]) {
+    const { stage } = this, { camera, controls } = stage;
+    const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
+    const metre = stage.pixelOf(x + right.x, y + right.y, z)[0] - stage.pixelOf(x, y, z)[0];
+    const step = right.multiplyScalar(-pixels / metre);
+    const zoom = stage.isAbove && camera.zoom;
+    const from = { position: camera.position.toArray(), target: controls.target.toArray(), zoom };
+    const to = { position: camera.position.clone().add(step).toArray(), target: controls.target.clone().add(step).toArray(), zoom };
+    if (STILL.matches) this.take(to);
+    else {
+      this.flight = { from, to, since: performance.now() };
+      stage.invalidate();
+    }
+  }
+
   /** Follows what `place()` returns; null ends it. */
   follow(place) {
     this.followed = place;

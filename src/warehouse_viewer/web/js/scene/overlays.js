@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines and marks over the warehouse: the selection, the cell to go to, paths, scans, trails.
+// Lines and marks over the warehouse: the selection, the cell to go to, paths, scans.
 
 import * as THREE from '/three/build/three.module.js';
-import { Trails } from './trails.js';
-import { Ways } from './ways.js';
+import { Ribbons } from './ribbons.js';
 import { within } from '../base/world.js';
 
 const ACCENT = { dark: 0x6cacff, light: 0x1257c4 }; // as design.css has it
@@ -14,23 +13,22 @@ export class Overlays {
   constructor(stage, world) {
     Object.assign(this, { stage, world });
     this.ring = lines(squareCorners(1, 0.05));
+    this.way = new Ribbons({ width: 4 });
     this.cell = throughAll(mesh(new THREE.PlaneBufferGeometry(0.94, 0.94), 0.35));
-    this.path = throughAll(lines([]));
     this.goal = mesh(new THREE.RingBufferGeometry(0.22, 0.32, 24), 0.9);
     this.fan = mesh(new THREE.BufferGeometry(), 0.2);
-    this.trails = new Trails(world);
-    this.ways = new Ways(stage, world);
+    this.path = this.way.object;
     for (const object of [this.ring, this.cell, this.path, this.goal, this.fan]) {
       object.visible = false;
       object.frustumCulled = false;
       stage.scene.add(object);
     }
-    stage.scene.add(this.trails.object);
     this.setTheme(document.documentElement.dataset.theme);
   }
 
   setTheme(theme) {
-    for (const object of [this.ring, this.cell, this.path, this.goal]) {
+    this.way.setColor(ACCENT[theme]);
+    for (const object of [this.ring, this.cell, this.goal]) {
       object.material.color.set(ACCENT[theme]);
     }
     this.fan.material.color.set(0xd55e00);
@@ -56,14 +54,10 @@ export class Overlays {
 
   /** Draws a path from [x, y] along points [[x, y], …], and a mark at `goal`; no points: no path. */
   showPath(from, points, goal = points[points.length - 1]) {
-    this.path.visible = points.length > 0;
     this.goal.visible = Boolean(goal);
     if (goal) this.goal.position.set(...goal, 0.02);
-    if (points.length) {
-      const corners = [from, ...points];
-      const segments = corners.slice(1).flatMap((to, i) => [[...corners[i], 0.03], [...to, 0.03]]);
-      setPoints(this.path, segments);
-    }
+    const corners = [from, ...points];
+    this.way.set(points.flatMap((to, i) => [...corners[i], 0.03, ...to, 0.03]));
     this.stage.invalidate();
   }
 

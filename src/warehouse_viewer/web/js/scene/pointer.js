@@ -2,12 +2,13 @@
 // Mouse and fingers on the picture: select what is clicked, send the chosen robot to a cell.
 
 import { on } from '../base/dom.js';
+import { shownName } from '../base/words.js';
 
 const STILL = { mouse: 6, touch: 14 }; // [px]; further, it was a drag
 const FINGER = 22; // largest distance of a finger from a robot [px]
 
 export class Pointer {
-  /** `page` has choose(name), details, world and take(cell), which may want the next cell. */
+  /** `page` has choose(name, at), miss(at), details, world and take(cell, at), which may want the next cell. */
   constructor(page, picker, overlays) {
     Object.assign(this, { page, picker, overlays, hovered: null });
     const { canvas } = picker.stage;
@@ -34,8 +35,9 @@ export class Pointer {
     const meant = this.at(at);
     const { cell } = meant;
     const hit = meant.hit ?? (isTouch && !cell && this.picker.robotNear(...at, FINGER));
-    if (hit) this.page.choose(this.page.world.nameOf(hit));
+    if (hit) this.page.choose(this.page.world.nameOf(hit), at);
     else if (cell) this.page.take(cell, at);
+    else this.page.miss(at);
   }
 
   /** What a click there means: {hit: {kind, index}} of a thing, {cell: [x, y]}, or neither.
@@ -75,7 +77,7 @@ export class Pointer {
     this.overlays.point(hit ? null : cell);
     this.picker.stage.canvas.style.cursor = hit || cell ? 'pointer' : '';
     this.hovered = hit ?? null;
-    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && this.page.textOf(cell), at);
+    this.page.tip.hover(hit ? shownName(this.page.world.nameOf(hit)) : cell && this.page.textOf(cell), at);
   }
 
   leave() {

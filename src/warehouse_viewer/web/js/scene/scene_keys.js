@@ -56,5 +56,5 @@ export function nextFrom([x, y], [wx, wy], points, own = -1) {
 export function speak(world, index) {
   const name = world.nameOf({ kind: 'robot', index }), load = world.shelf[index];
   const [x, y] = world.placeOf({ kind: 'robot', index });
-  $('spoken').textContent = `${name}, ${ACTIVITY[world.activity[index]]}${load ? `, carries ${load}` : ''}, at ${x.toFixed(0)}, ${y.toFixed(0)}`;
+  $('spoken').textContent = `${name}, ${ACTIVITY[world.activity[index]]}${load ? `, carries unit ${load}` : ''}, at ${x.toFixed(0)}, ${y.toFixed(0)}`;
 }

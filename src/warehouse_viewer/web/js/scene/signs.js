@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signs at stations: their names, how many robots queue there, and whether one waits for a person.
+// Signs at stations: their names, how many robots queue there, and whether one waits for a person or for
+// a unit that does not come.
 
 import * as THREE from '/three/build/three.module.js';
 import { STILL } from './backdrop.js';
@@ -8,11 +9,14 @@ import { apart, namedStations } from './labelled.js';
 
 const TALL = 2.4, THICK = 0.06; // of a post [m]
 const SOON = 10, LONG = 60; // waiting for a person from which a sign is shown, and is red [s]
+const NARROW = globalThis.matchMedia?.('(max-width: 760px)'); // as in floor.css: signs would hide robots
+const LARGE = 18; // from which a sign has room on a narrow page [px/m]
 const POST = { dark: 0x6b7889, light: 0x8d99a8 };
 
 export class Signs {
-  constructor(stage, world) {
-    Object.assign(this, { stage, world, queues: {}, stations: new Map(), changes: null, posts: null });
+  /** `takeAlarms(alarms)` gets the server's alarms by cause, null where none are known. */
+  constructor(stage, world, takeAlarms) {
+    Object.assign(this, { stage, world, takeAlarms, queues: {}, stations: new Map(), changes: null, posts: null });
   }
 
   /** New posts, for the World's scene. */
@@ -49,7 +53,9 @@ export class Signs {
     if (isOn === Boolean(this.changes)) return;
     this.changes?.close();
     this.stations.clear();
-    this.changes = isOn ? new Changes(['stations'], {
+    if (!isOn) this.takeAlarms(null);
+    this.changes = isOn ? new Changes(['stations', 'alarms'], {
+      alarms: ({ alarms }) => this.takeAlarms(alarms),
       shift: ({ runs }) => runs || this.stations.clear(),
       stations: ({ stations }) => this.showStations(stations),
     }) : null;
@@ -63,7 +69,9 @@ export class Signs {
   labels(view) {
     return apart(namedStations(this.world.scene.stations, view).map(({ name, x, y }) => {
       const at = [x, y, view.isParallel ? 0 : TALL];
-      return { text: name, at, pixel: this.stage.pixelOf(...at), ...signOf(this.queues[name], this.stations.get(name)) };
+      const sign = signOf(this.queues[name], this.stations.get(name));
+      const isSmall = NARROW?.matches && sign.kind === 'sign' && view.scaleAt(x, y, 0, 0.5) < LARGE;
+      return { text: name, at, pixel: this.stage.pixelOf(...at), ...isSmall ? { kind: 'sign small', note: '' } : sign };
     }));
   }
 }
@@ -73,6 +81,7 @@ export function signOf(queue, station) {
   const count = queue ? String(queue) : '';
   if (station && !station.open) return { kind: 'sign', note: [count, 'closed'].filter(Boolean).join(' · ') };
   const waits = Math.floor(station?.waiting ?? 0);
+  if (waits < SOON && station?.activity === 'WAITING') return { kind: 'sign waiting', note: [count, 'no unit'].filter(Boolean).join(' · ') };
   if (waits < SOON) return { kind: 'sign', note: count };
   const text = waits < LONG ? `${waits} s` : `${Math.floor(waits / 60)} min`;
   return { kind: `sign ${waits < LONG ? 'waiting' : 'needs-help'}`, note: [count, text].filter(Boolean).join(' · ') };

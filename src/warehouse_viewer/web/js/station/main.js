@@ -58,7 +58,7 @@ class Page {
 
   take(stations) {
     const sound = this.bench.take(stations);
-    if (sound) this.show({ ok: true, sound, text: `storage unit ${this.bench.state.shelf_id} is here` });
+    if (sound) this.show({ ok: true, sound, text: `unit ${this.bench.state.shelf_id} is here` });
     this.view.show();
   }
 

@@ -26,7 +26,7 @@ export class View {
 
   show() {
     const { bench } = this, { task, state } = bench;
-    $('unit').textContent = state?.shelf_id ? `storage unit ${state.shelf_id}` : '';
+    $('unit').textContent = state?.shelf_id ? `unit ${state.shelf_id}` : '';
     for (const id of ['take', 'buttons']) $(id).hidden = !task && !(id === 'buttons' && bench.undoable);
     $('put').hidden = state?.mode !== StationMode.MANUAL || !bench.isPicking || !state.slots;
     $('idle').hidden = Boolean(task);

@@ -7,6 +7,7 @@ import { ask as asked, confirmed } from '../base/question.js';
 import { Notice } from './notice.js';
 import { Card } from './card.js';
 import { Comparison } from './comparison.js';
+import { Designs } from './designs.js';
 import { Form } from './form.js';
 import { Intro, named } from './intro.js';
 import { Picks } from './picks.js';
@@ -26,6 +27,7 @@ class Page {
     this.comparison = new Comparison((name) => this.picks.makeFirst(name));
     this.form = new Form(about, (...kept) => this.keep(...kept));
     this.intro = new Intro(about, (pairs) => this.attempt(() => this.start(pairs)));
+    this.designs = new Designs(this);
     this.actions = this.makeActions();
     $('folder').textContent = `Kept in ${about.folder}`;
     $('draw-one').hidden = false;
@@ -82,8 +84,9 @@ class Page {
     this.timer = setTimeout(() => document.hidden || this.look(), pause);
   }
 
-  show({ scenarios, running, waiting, left }) {
+  show({ scenarios, designs, running, waiting, left }) {
     this.scenarios = scenarios;
+    this.designs.show(designs);
     const text = running + waiting ? `${plural(running, 'run')} under way, ${waiting} waiting, about ${duration(left)} left` : 'nothing runs';
     this.showLink(running ? 'live' : 'idle', text);
     this.picks.keep(this.names);
@@ -230,8 +233,10 @@ class Page {
         else if (!isStock) await this.takeFile(this.kind, name);
       }
     } catch (error) {
-      if (!this.form.dialog.open) throw error;
-      this.form.say(error.message, 'refused');
+      const fields = { layouts: 'building', orders: 'demand', costs: 'costs' };
+      if (this.designs.form.dialog.open) this.designs.form.refuse(fields[this.kind], error.message);
+      else if (this.form.dialog.open) this.form.say(error.message, 'refused');
+      else throw error;
     }
   }
 
@@ -241,6 +246,7 @@ class Page {
     this.showCosts();
     this.compared = null;
     if (this.scenarios) await this.compare();
+    if (this.designs.form.dialog.open) this.designs.form.took('costs');
   }
 
   showCosts() {
@@ -251,7 +257,8 @@ class Page {
   async takeFile(kind, name) {
     Object.assign(this.about, await ask('GET', '/about'));
     this.intro.offer();
-    if (!this.form.dialog.open) $('second-layout').value = name;
+    if (this.designs.form.dialog.open) this.designs.form.took(kind, name);
+    else if (!this.form.dialog.open) $('second-layout').value = name;
     else if (kind === 'layouts') this.form.take({ ...this.form.settings(), layout: name });
     else this.form.fillFiles(name);
     this.intro.changed();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios and figures in words.
 
+import { number } from '../base/numbers.js';
 import { linesOf } from './events.js';
 
 export const DAYS = {
@@ -31,9 +32,7 @@ export const BADGES = {
   wrong: ['needs-help', 'can’t be read'],
 };
 
-export function number(value, digits = 0) {
-  return value.toLocaleString('en', { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace('-', '−');
-}
+export { number };
 
 /** What limits a scenario, and when: 'the picking stations, 3:20 to 5:20'. */
 export const limitOf = ({ what, when }) => (when ? `${what}, ${when}` : what);

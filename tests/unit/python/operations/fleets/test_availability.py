@@ -109,7 +109,9 @@ def fleet_that_fails(duration, kind):
     where = site()
     cells = list(where.units.values())
     fleet = IdealFleet(where.plan, {1: cells[5], 2: cells[-1]}, where.units)
-    fleet.keep_up(Availability(None, Failures(per_robot_hour=0.0)), np.random.default_rng(1), {})
+    fleet.keep_up(
+        Availability(None, Failures(per_robot_hour=0.0)), np.random.default_rng(1), lambda _: 0.0
+    )
     fleet.submit(1, "pick1")
     events, broken = [], 0
     while fleet.time < 3000:
@@ -148,6 +150,9 @@ def test_a_robot_that_is_repaired_soon_goes_on():
 
 def test_a_realism_of_presets_has_the_drain_of_its_file(tmp_path):
     file = tmp_path / "worn.yaml"
-    file.write_text("energy: {rolling_resistance: 0.03, health: 0.8}\n")
-    energy = availability.read(str(file)).energy
-    assert energy.drain == Drain(rolling_resistance=0.03) and energy.health == 0.8
+    file.write_text(
+        "energy: {rolling_resistance: 0.03, health: 0.8}\nactuation: {motor_lag: 0.05}\n"
+    )
+    read = availability.read(str(file))
+    assert read.drain == Drain(rolling_resistance=0.03, motor_lag=0.05)
+    assert read.energy.health == 0.8

@@ -8,9 +8,9 @@ from collections import Counter
 import paths
 import pytest
 
-from warehouse_operations.slotting import sku_master
+from warehouse_layout.file import sku_master
+from warehouse_layout.file.sku_master import Sku, SkuMasterError
 from warehouse_operations.slotting.proposal import Lot, Pairs, propose
-from warehouse_operations.slotting.sku_master import Sku, SkuMasterError
 from warehouse_operations.stock.order_file import OrderDraft
 
 SLOT = paths.ROOT / "src" / "warehouse_operations" / "nodes" / "slot"

@@ -10,7 +10,7 @@ sys.path.append(str(paths.ROOT / "tests" / "assistant"))
 
 from served_hub import PATIENCE, ServedHub, until  # noqa: E402, F401 (for the tests)
 
-from warehouse_sim.hub.process import descendants  # noqa: E402
+from warehouse_sim.hub.process import descendants, marked  # noqa: E402
 
 
 class Hub(ServedHub):
@@ -18,4 +18,6 @@ class Hub(ServedHub):
         """Ends the hub; returns the processes that it and they had started."""
         below = descendants(self.process.pid)
         super().end(number)
+        if number == signal.SIGINT:
+            assert not marked(self.home), "processes outlive the hub"
         return below

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from hub_process import Hub, until
 
-from warehouse_sim.hub.process import descendants, free_port
+from warehouse_sim.hub.process import MARK, descendants, free_port, marked, sweep
 
 
 @pytest.fixture
@@ -184,6 +184,22 @@ def test_a_restart_begins_again(hub):
     assert (status, row["state"]) == (202, "STARTING")
     assert not living(below)
     assert hub.wait_for("one", "RUNNING")["state"] == "RUNNING"
+
+
+def test_what_roslaunch_leaves_is_swept(tmp_path):
+    """A node that starts while roslaunch ends has a session of its own, and no parent any more."""
+    folder, other = tmp_path / "one", tmp_path / "one-more"
+    programs = [
+        subprocess.Popen(["sleep", "100"], env={MARK: str(at)}, start_new_session=True)
+        for at in (folder, folder, other)
+    ]
+    assert sorted(marked(folder)) == sorted(p.pid for p in programs[:2])
+    assert len(marked(tmp_path)) == 3
+    sweep(folder)
+    assert [p.wait() for p in programs[:2]] == [-signal.SIGKILL] * 2
+    assert programs[2].poll() is None
+    sweep(tmp_path)
+    assert programs[2].wait() == -signal.SIGKILL and not marked(tmp_path)
 
 
 @pytest.mark.parametrize("body", ["{", "[]", '{"name": 3}', "null"])

@@ -8,6 +8,8 @@ from rostest_support.browser import browser
 
 STATE = "document.querySelector('.simulation .badge')?.textContent"
 LIVE = "document.getElementById('link').dataset.state === 'live'"
+WEIGHT = "performance.getEntriesByType('resource').reduce((sum, e) => sum + e.transferSize, 0)"
+FIRST_VIEW = 300_000  # of the page with the recording that it plays, compressed [bytes]
 BUTTON = "[...document.querySelectorAll('.simulation button')].find((b) => b.textContent === '{}')"
 
 
@@ -24,6 +26,17 @@ def page(hub):
         chromium.open(hub.url + "/")
         chromium.until(LIVE)
         yield chromium
+
+
+def test_0_the_first_view_is_light_and_the_recording_comes_after_it(hub):
+    with browser(PATIENCE, (1440, 900)) as fresh:
+        fresh.open(hub.url + "/")
+        fresh.until(LIVE)
+        fresh.until("!document.getElementById('example').hidden")
+        names = fresh.read("performance.getEntriesByType('resource').map((e) => e.name)")
+        first = next(i for i, name in enumerate(names) if "/api/v1/simulations" in name)
+        assert not any("/recordings/" in name or "/replay/" in name for name in names[:first])
+        assert 10_000 < fresh.read(WEIGHT) < FIRST_VIEW
 
 
 def click(page, expression):

@@ -25,6 +25,7 @@ from editor_page import (
     saved,
 )
 from rostest_support import axe, pictures
+from rostest_support.task import Task
 
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile, StationEntry
@@ -101,6 +102,18 @@ def test_a_first_layout_is_drawn_tried_and_saved(chromium, tmp_path):
     drawn = layout_file.read(file)
     assert file_check.faults(drawn) == []
     assert (drawn.robots, len(drawn.stations), np.sum(drawn.floor == "s")) == (6, 2, 36)
+
+
+def test_ten_robots_are_drawn_and_tried_in_five_steps(page):
+    with Task(page, "ten robots drawn and tried") as task:
+        task.click("#new")
+        task.type("#new-robots", "10")
+        task.click("#creator [value=yes]")
+        page.until("page.editor.drawing.places > 0 && !page.checker.isStale")
+        task.click("#try")
+    page.until("document.getElementById('trial').dataset.phase === 'done'")
+    assert page.text("count-robots") == "10"
+    assert int(page.text("trial-pieces").replace(",", "")) > 100
 
 
 def test_the_page_is_for_all_and_looks_as_it_did(page):

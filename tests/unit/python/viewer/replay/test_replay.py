@@ -406,7 +406,7 @@ def faults_on_a_phone(url):
         at = lambda part: (box["left"] + part * box["width"], box["top"] + box["height"] / 2)  # noqa: E731
         page.swipe([at(0.1), at(0.4), at(0.75)])
         page.until("Math.abs(page.timeline.player.time - 45) < 1")
-        page.until("document.getElementById('time').textContent.startsWith('0:45')")
+        page.until("document.getElementById('time').textContent.startsWith('0:00:45')")
         # What the coordinator knew then: queues at the stations, and nothing that is of now.
         assert page.read("page.signs.queues.pick1") >= 1 and not page.read("page.signs.changes")
         assert page.read("page.fleet.runs") and not page.read(WAYS)

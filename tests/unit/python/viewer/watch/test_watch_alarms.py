@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is wrong becomes alarms: since when, the cause, what to do, the person that saw it."""
 
+import stat
+
 import pytest
 from sample_messages import fleet
 
 from warehouse_layout.message_enums import EventKind
 from warehouse_msgs.msg import CoordinatorState, StationState
-from warehouse_viewer.watch import troubles
-from warehouse_viewer.watch.alarm_book import AlarmBook, Trouble
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.watch import alarm_file, troubles
+from warehouse_viewer.watch.alarm_book import GRACE, AlarmBook, Trouble
+from warehouse_viewer.watch.alarm_file import AlarmFile
 from warehouse_viewer.watch.alarm_kinds import KINDS, SEVERITIES
 
 BROKEN = Trouble("ROBOT_BROKEN", "kiva3", "kiva3: drive")
@@ -138,3 +142,67 @@ def test_the_watchdog_is_told_when_it_acts_again():
     assert moments.lasting(11.0) == []
     moments.take_watchdog(5, 20.0)
     assert [trouble.kind for trouble in moments.lasting(21.0)] == ["WATCHDOG"]
+
+
+def test_alarms_outlast_a_restart_with_who_saw_and_did_what(tmp_path):
+    book, file = AlarmBook(), AlarmFile(tmp_path / "alarms" / "run.json")
+    assert file.read() is None
+    book.update(5, [NOTICE])
+    book.update(10, [BROKEN._replace(consequences=("1 robot waits behind it: kiva4",))])
+    number = book.as_json()[0]["id"]
+    book.see(number, "Anna")
+    book.note("kiva3", "Anna", "Tow")
+    file.write(book.state())
+    assert stat.S_IMODE((tmp_path / "alarms" / "run.json").stat().st_mode) == 0o600
+    again = AlarmBook()
+    again.restore(file.read())
+    again.update(20, [])  # what raised it is not known yet
+    (alarm,) = again.as_json()
+    assert (alarm["id"], alarm["since"], alarm["seen_by"]) == (number, 10, "Anna")
+    assert alarm["consequences"] == ["1 robot waits behind it: kiva4"]
+    assert alarm["actions"] == [{"time": 10, "by": "Anna", "what": "Tow"}]
+    assert [row["cause"] for row in again.history()] == [NOTICE.text]
+    again.update(20 + GRACE, [NOTICE])
+    assert [row["cause"] for row in again.history()] == [BROKEN.text, NOTICE.text]
+    assert again.time_to_repair() == (1, 20)
+    assert again.as_json()[0]["id"] > number
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"alarms": [{}], "ended": [], "last": 1, "now": 1}'])
+def test_a_damaged_file_of_alarms_is_an_error(tmp_path, text):
+    (tmp_path / "run.json").write_text(text)
+    with pytest.raises((ValueError, KeyError, TypeError)):
+        AlarmBook().restore(AlarmFile(tmp_path / "run.json").read())
+
+
+def test_files_of_old_launches_go(tmp_path):
+    for number in range(alarm_file.KEPT + 3):
+        AlarmFile(tmp_path / f"{number}.json").write(AlarmBook().state())
+    assert len(list(tmp_path.iterdir())) == alarm_file.KEPT
+    path = alarm_file.default_path("a1-b2", "/sim1/", {"ROS_HOME": "/home"})
+    assert str(path) == "/home/warehouse/alarms/a1-b2_sim1.json"
+
+
+def test_what_begins_and_ends_is_news_once():
+    book = AlarmBook()
+    book.update(10, [BROKEN])
+    begun, ended = book.news()
+    assert ([row["subject"] for row in begun], ended) == (["kiva3"], [])
+    assert book.news() == ([], [])
+    book.update(30, [])
+    begun, ended = book.news()
+    assert (begun, [row["duration"] for row in ended]) == ([], [20])
+
+
+def test_a_model_keeps_its_troubles_where_many_events_pass():
+    journal = Journal(kept=3)
+    event = {"time": 1.0, "command": 0, "other": "", "text": ""}
+    journal.add(event | {"kind": "FAILED", "model": "kiva3"})
+    journal.add(event | {"kind": "DONE", "model": "kiva3"})
+    for _ in range(5):
+        journal.add(event | {"kind": "DONE", "model": "kiva4"})
+    assert [e["kind"] for e in journal.since(0, "kiva3")] == ["FAILED"]
+    journal.add(event | {"kind": "REPAIRED", "model": "kiva3"})
+    assert [e["kind"] for e in journal.since(0, "kiva3")] == ["FAILED", "REPAIRED"]
+    assert [e["kind"] for e in journal.since(1, "kiva3")] == ["REPAIRED"]
+    assert len(journal.since(0)) == 3

@@ -141,7 +141,7 @@ def test_robot_and_station_say_the_same_cause():
     why = reasons.find("kiva9")
     assert why.sentence == (
         "kiva9 waits in the queue of pick4 behind kiva16, which is broken; "
-        "brings storage unit 23 to pick4 for order 17"
+        "brings unit 23 to pick4 for order 17"
     )
     assert (why.cause, why.behind, why.order) == ("kiva16", "kiva16", 17)
     station = reasons.find("pick4")
@@ -156,7 +156,7 @@ def test_a_robot_on_its_way_to_a_unit_says_for_which_station():
     message = fleet(3, loads={3: 40})
     assigned = {2: (23, "pick4"), 3: (40, "pick4")}
     reasons, _ = situation(message, state, [STATION], assigned=assigned)
-    assert reasons.robot(2).sentence == "kiva2 fetches storage unit 23 for pick4 for order 17"
+    assert reasons.robot(2).sentence == "kiva2 fetches unit 23 for pick4 for order 17"
     assert reasons.robot(3).errand == ""
     assert reasons.station("pick4").text == "waits for unit 23, which kiva2 fetches"
 

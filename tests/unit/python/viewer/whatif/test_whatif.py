@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import pytest
 from asgi import request
@@ -16,8 +17,8 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFileError
 from warehouse_layout.file.request import PRESETS
 from warehouse_layout.generate import generator, layout_choice
+from warehouse_operations.runs import early_check, sweep
 from warehouse_operations.runs import run_files as runs
-from warehouse_operations.runs import sweep
 from warehouse_operations.runs.run_files import Run
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.whatif import figures
@@ -187,7 +188,9 @@ def test_a_run_ends_with_its_server(tmp_path):
     assert not (tmp_path / "long" / "seed-1" / "kpis.json").exists()
 
 
-def test_an_error_of_a_run_is_told_in_its_words(tmp_path):
+def test_an_error_of_a_run_is_told_in_its_words(tmp_path, monkeypatch):
+    """The file of orders changes once it is checked."""
+    monkeypatch.setattr(early_check, "check", lambda _: None)
     workshop = Workshop(tmp_path)
     workshop.open()
     rows = "reference,sku,quantity\nA-1,sku-999999,1\n"
@@ -198,7 +201,8 @@ def test_an_error_of_a_run_is_told_in_its_words(tmp_path):
     workshop.run("a")
     until(lambda: states(workshop, "a")[0] == "failed", "the run fails")
     text = workshop.scenarios()["scenarios"][0]["runs"][0]["text"]
-    assert text.startswith("orders/monday.csv:2: ") and "sku-999999" in text
+    assert "orders/monday.csv:2: " in text and "sku-999999" in text
+    assert str(tmp_path) not in text
     assert not (tmp_path / "a" / "seed-1").exists()
     workshop.close()
 
@@ -298,6 +302,35 @@ def test_layouts_are_kept_and_must_name_no_files_elsewhere(workshop):
             workshop.add_layout("x.layout.yaml", text)
     with pytest.raises(ScenarioError, match="NAME.layout.yaml was expected"):
         workshop.add_layout("../x.layout.yaml", SMALL)
+
+
+@pytest.mark.parametrize(
+    ("event", "fault"),
+    [
+        ({"close": "pick9"}, r"events\[0\]: close is pick9; there are pick1, pick2"),
+        ({"picker": {"station": "pick9", "pickers": 2}}, r"events\[0\]: picker is pick9"),
+        ({"fail": "robot 99"}, r"events\[0\]: fail is robot 99; there are 1 to 4"),
+        ({"sku_out": "green"}, r"events\[0\]: sku_out is green; the stock has no such SKU"),
+    ],
+)
+def test_events_of_what_does_not_exist_are_refused_by_the_form(workshop, event, fault):
+    settings = SHORT | {"events": [{"at": 60, **event}]}
+    for ask_for in (workshop.estimate, lambda chosen: workshop.create("x", chosen)):
+        with pytest.raises(ScenarioError, match=fault):
+            ask_for(settings)
+    assert workshop.scenarios()["scenarios"] == []
+
+
+def test_orders_of_skus_that_the_stock_lacks_are_refused_by_the_form(workshop):
+    workshop.add_stock("stock.csv", "sku,quantity,storage_unit\nred,20,1\n")
+    file = replace(generator.of_request(PRESETS["small"], "own"), items=0, stock="stock.csv")
+    layout = workshop.add_layout("own.layout.yaml", layout_file.text_of(file))["name"]
+    for sku, orders in (("green", "bad.csv"), ("red", "good.csv")):
+        workshop.add_orders(orders, f"reference,sku,quantity\na,{sku},1\n")
+    settings = SHORT | {"layout": layout}
+    with pytest.raises(ScenarioError, match="orders/bad.csv.*green"):
+        workshop.estimate(settings | {"orders": "bad.csv"})
+    assert workshop.estimate(settings | {"orders": "good.csv"})["robots"] == 4
 
 
 def test_a_damaged_file_is_told_and_hinders_no_other(workshop):

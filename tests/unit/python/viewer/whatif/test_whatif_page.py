@@ -9,6 +9,7 @@ import paths
 import pytest
 from rostest_support import axe
 from rostest_support.browser import browser
+from rostest_support.task import Task
 
 from warehouse_layout.file import layout_file
 from warehouse_layout.file.request import PRESETS
@@ -41,6 +42,25 @@ def page(tmp_path_factory):
         chromium.open(address)
         chromium.until("document.getElementById('intro').checkVisibility()")
         yield chromium
+
+
+def test_medium_with_8_and_with_12_robots_takes_five_steps(tmp_path):
+    with server(tmp_path / "kept") as address, browser(PATIENCE, (1440, 900)) as page:
+        page.open(address)
+        page.until("document.getElementById('intro').checkVisibility()")
+        # Shorter than what the page proposes, so that the test is; no part of the task.
+        write(page, "intro-minutes", "1")
+        write(page, "intro-seeds", "2")
+        with Task(page, "medium with 8 and 12 robots") as task:
+            task.choose("#first-layout", "medium")
+            task.type("#first-robots", "8")
+            task.choose("#second-layout", "medium")
+            task.type("#second-robots", "12")
+            task.click("#intro-form .strong")
+        page.until(DONE)
+        page.until("Boolean(page.comparison.figures && page.comparison.chart)")
+        assert page.read(COLUMNS) == ["medium 8 robots", "medium 12 robots"]
+        assert page.complaints() == []
 
 
 def write(page, element, text):

@@ -34,11 +34,10 @@ async def get_stations(backend: ApiBackend = BACKEND) -> object:
 async def set_station(body: SetStation, name: str = NAME, backend: ApiBackend = BACKEND) -> object:
     """Opens or closes a station; MANUAL: it waits for confirmations."""
     fields = name, body.open, MODES.index(body.mode)
-    return {
-        "message": (
-            await backend.call(backend.operations.call, "set_station", srv.SetStation, *fields)
-        ).message
-    }
+    answer = await backend.call(backend.operations.call, "set_station", srv.SetStation, *fields)
+    done = f"{'Open' if body.open else 'Close'}, {body.mode.lower()}"
+    backend.monitor.note(name, body.by.strip(), done)
+    return {"message": answer.message}
 
 
 @router.post("/stations/{name}/confirm", response_model=Done, responses=problems(*SENT))

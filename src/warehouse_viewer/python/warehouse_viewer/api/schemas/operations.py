@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 from pydantic import BaseModel, Field, StrictBool
 
-from warehouse_viewer.api.schemas.base import INT32, UInt8
+from warehouse_viewer.api.schemas.base import INT32, Person, UInt8
 from warehouse_viewer.api.schemas.pydantic_versions import (
     Body,
     characters,
@@ -251,6 +251,7 @@ class SetStation(Body):
 
     open: StrictBool
     mode: Mode = "AUTOMATIC"
+    by: Person = Field("", description="name of the person that sets it; empty: not known")
 
 
 class Confirmation(Line):

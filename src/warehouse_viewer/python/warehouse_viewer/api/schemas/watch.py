@@ -54,7 +54,7 @@ class EndedAlarm(Alarm):
 
 
 class AlarmHistory(BaseModel):
-    """The alarms that have ended since the viewer began, the newest first; the last 500."""
+    """The alarms that have ended since the launch began, the newest first; the last 500."""
 
     total: int
     alarms: list[EndedAlarm]

@@ -2,11 +2,11 @@
 // Where on the floor robots drive and where they wait, as colours.
 
 import * as THREE from '/three/build/three.module.js';
-import { STILL } from './backdrop.js';
+import { STILL } from '../scene/backdrop.js';
 import { Changes } from '../base/changes.js';
 import { $, on, press } from '../base/dom.js';
 import { STOPS, swatches, topOf } from '../base/heat_scale.js';
-import { behind } from './paint.js';
+import { behind } from '../scene/paint.js';
 
 const HEIGHT = 0.004; // over the floor, beneath robots [m]
 const LEGEND = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a station waits for, in the same words wherever one asks.
+// What a station waits for, in the same words on all pages; and what a person has just set there.
 
 import { lasting } from './time.js';
 
 const UNATTENDED = 60; // [s], simulated
+const HOLDS = 5000; // [ms] after which the server has surely sent what was set
 
 /** [what a station waits for and for how long, the class of how bad that is] at `now` [s]. */
 export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open, orders, why }, now) {
@@ -18,4 +19,19 @@ export function waitsOf({ waiting, shelf_id: unit, since, queue, activity, open,
 function reasonOf(next, why, hasWork) {
   if (next) return why || `waits for unit ${next}`;
   return hasWork ? 'waits for a unit' : '';
+}
+
+/** What was set last. It counts until the server sends it: a state that comes before may be older. */
+export class Choice {
+  /** `choice` is {open, mode}; it was set at `now` [ms]. */
+  note(choice, now) {
+    Object.assign(this, { choice, until: now + HOLDS });
+  }
+
+  /** A station's state of `now` [ms] from the server, with what was set. */
+  upon(station, now) {
+    const { open, mode } = this.choice ?? station;
+    if (now >= this.until || (station.open === open && station.mode === mode)) this.choice = undefined;
+    return { ...station, ...this.choice };
+  }
 }

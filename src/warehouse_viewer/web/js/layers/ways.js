@@ -2,7 +2,7 @@
 // Where a coordinated fleet drives: what each robot has been released, what is planned beyond, and who
 // waits for whom.
 
-import * as THREE from '/three/build/three.module.js';
+import { Ribbons } from '../scene/ribbons.js';
 
 const WAY = 0x009e73, WAITS = 0xcc79a7; // as RViz has them
 const HEIGHT = 0.04, TIE_HEIGHT = 0.3; // [m]
@@ -10,10 +10,10 @@ const HEIGHT = 0.04, TIE_HEIGHT = 0.3; // [m]
 export class Ways {
   constructor(stage, world) {
     Object.assign(this, { stage, world, ways: new Map(), shown: [] });
-    this.released = lines(WAY, 1);
-    this.planned = lines(WAY, 0.75);
-    this.ties = lines(WAITS, 0.9);
-    stage.scene.add(this.released, this.planned, this.ties);
+    this.released = new Ribbons({ color: WAY, width: 4 });
+    this.planned = new Ribbons({ color: WAY, opacity: 0.8, width: 3 });
+    this.ties = new Ribbons({ color: WAITS, opacity: 0.9, width: 3 });
+    for (const { object } of [this.released, this.planned, this.ties]) stage.scene.add(object);
   }
 
   /** `ways` as protocol.js reads them; `ids` of the robots whose ways are drawn, null: of all. */
@@ -26,8 +26,8 @@ export class Ways {
       addSolid(released, this.placeOf(id), way.released);
       addDashes(planned, way.released.subarray(-2), way.planned);
     }
-    fill(this.released, released);
-    fill(this.planned, planned);
+    this.released.set(released);
+    this.planned.set(planned);
     this.follow();
   }
 
@@ -39,7 +39,7 @@ export class Ways {
       if (!this.world.robotOf.has(waitsFor)) continue;
       ties.push(...this.placeOf(id), TIE_HEIGHT, ...this.placeOf(waitsFor), TIE_HEIGHT);
     }
-    fill(this.ties, ties);
+    this.ties.set(ties);
     this.stage.invalidate();
   }
 
@@ -66,27 +66,4 @@ export function addDashes(out, [x, y], points) {
     if (dx || dy) out.push(x + 0.3 * dx, y + 0.3 * dy, HEIGHT, x + 0.7 * dx, y + 0.7 * dy, HEIGHT);
     [x, y] = [toX, toY];
   }
-}
-
-/** Line segments that show even where something stands in front. */
-function lines(color, opacity) {
-  const out = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial(
-    { color, opacity, transparent: true, depthTest: false }));
-  Object.assign(out, { frustumCulled: false, renderOrder: 2 });
-  fill(out, []);
-  return out;
-}
-
-/** The buffer grows where it must: it is filled five times a second. */
-function fill(object, numbers) {
-  const { geometry } = object;
-  let { position } = geometry.attributes;
-  if (!position || position.array.length < numbers.length) {
-    position = new THREE.BufferAttribute(new Float32Array(2 * numbers.length + 6), 3);
-    geometry.setAttribute('position', position);
-  }
-  position.array.set(numbers);
-  position.needsUpdate = true;
-  geometry.setDrawRange(0, numbers.length / 3);
-  object.visible = numbers.length > 0;
 }

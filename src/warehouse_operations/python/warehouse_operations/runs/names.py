@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The stations, robots and SKUs of a shift, of which events and settings name some."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+from warehouse_operations.runs.event_file import Event
+from warehouse_operations.stock.days import check_stock
+from warehouse_operations.stock.order_file import DemandError, read_csv
+
+MOST_NAMED = 8  # in a message
+
+
+@dataclass(frozen=True)
+class Names:
+    """What there is in a shift. skus: None where they are not known. ideal: its robots are."""
+
+    stations: Sequence[str]
+    robots: Collection[int]
+    skus: Collection[str] | None
+    ideal: bool
+
+    def check(self, event: Event) -> None:
+        """Raises EventError if an event could not happen."""
+        value = event.value
+        if event.kind in ("close", "open", "picker"):
+            self._check_station(event, value["station"] if event.kind == "picker" else value)
+        elif event.kind == "fail" and isinstance(value, int):
+            if value not in self.robots:
+                raise event.fault(f"is robot {value}; there are 1 to {max(self.robots, default=0)}")
+        elif event.kind == "speed" and not self.ideal:
+            raise event.fault("holds for ideal robots; simulated ones have that of their model")
+        elif event.kind == "sku_out" and self.skus is not None and value not in self.skus:
+            raise event.fault(f"is {value}; the stock has no such SKU")
+        elif event.kind == "orders" and self.skus is not None:
+            asked = {sku: 0 for order in read_csv(value) for sku, _ in order.lines}
+            try:
+                check_stock(value, asked, self.skus)
+            except DemandError as error:
+                raise event.fault(str(error)) from error
+
+    def _check_station(self, event: Event, name: str) -> None:
+        if name not in self.stations:
+            more = " …" if len(self.stations) > MOST_NAMED else ""
+            named = ", ".join(self.stations[:MOST_NAMED])
+            raise event.fault(f"is {name}; there are {named}{more}")
