@@ -29,8 +29,7 @@ void checkHasNothingToDo(const FleetState& f, int robot) {
   if (task.phase == Phase::kIdle) return;
   throw Refusal(
       "it carries out a command: wait for its end, or end it by /cancel; a robot that a "
-      "coordinator "
-      "drives needs mode 1 (MANUAL) first");
+      "coordinator drives needs mode 1 (MANUAL) first");
 }
 
 double turnRateOf(const DriveParameters& drive) {
