@@ -275,10 +275,11 @@ void describe(A& a, DriveVelocity& v) {
 
 template <class A>
 void describe(A& a, Steering& s) {
-  DESCRIBED(Steering, 15);
+  DESCRIBED(Steering, 16);
   FIELDS(s.kiva_id, s.asked, s.silence, s.command, s.lagged, within(s.room, 0, kEndless),
          s.obstacle, s.looks, s.since_look, s.approach, within(s.curvature, -kEndless, kEndless),
-         within(s.measured, -kEndless, kEndless), s.since_measured, s.bumped, s.origin);
+         within(s.measured, -kEndless, kEndless), s.since_measured, s.bumped, s.origin,
+         s.per_separation);
 }
 
 template <class A>

@@ -15,9 +15,11 @@ void beginOdometry(RobotView& world, int robot);
 PlanarPose countedPose(const FleetState& fleet, int robot);
 /// Keeps the pose in that frame although the robot was put elsewhere by hand.
 void keepOdometry(RobotView& world, int robot, const PlanarPose& counted);
-/// Adds the uncertainty of the way since the last call, once that is long enough.
+/// Adds the uncertainty of the way since the last call, once that is long enough. That of the
+/// wheels' separation is kept apart: it is the same error in every turn, and adds up.
 void growUncertainty(RobotView& world, int robot);
-/// Changes the robot's odometry from world to the frame of its own.
-void makeLocal(const FleetState& fleet, int robot, Odometry* odometry);
+/// Adds the uncertainty of the wheels' separation to the robot's odometry, and changes that from
+/// world to the frame of its own.
+void makeLocal(const Scene& world, int robot, Odometry* odometry);
 
 }  // namespace kiva

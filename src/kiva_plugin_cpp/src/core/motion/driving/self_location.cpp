@@ -133,7 +133,8 @@ void readCode(RobotView& world, int robot, bool stands) {
 
 namespace {
 
-/// Returns the odometry in world, by the estimate that codes correct.
+/// Returns the odometry in world, by the estimate that codes correct; without the uncertainty of a
+/// steered robot's wheel separation, which makeLocal() adds.
 Odometry estimateOf(const Scene& world, int robot) {
   const Fleet& fleet = world.fleet;
   const FleetState& f = world.fleet;
@@ -148,7 +149,7 @@ Odometry estimateOf(const Scene& world, int robot) {
   Localisation l = f.localisation[robot];
   const double alike = l.stretch.under_way ? l.slip_for : kSlipLength;
   l.settle(f.reference[robot], f.wheel_angle[0][robot], f.wheel_angle[1][robot]);
-  l.propagate(real.slip, real.wheel_separation_error);
+  l.propagate(real.slip, f.tasks[robot].isSteered() ? 0 : real.wheel_separation_error);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       out.pose_covariance[3 * i + j] = l.covariance[i * Localisation::kStates + j];
@@ -167,7 +168,7 @@ Odometry estimateOf(const Scene& world, int robot) {
 
 Odometry odometryOf(const Scene& world, int robot) {
   Odometry out = estimateOf(world, robot);
-  if (world.fleet.tasks[robot].isSteered()) makeLocal(world.fleet, robot, &out);
+  if (world.fleet.tasks[robot].isSteered()) makeLocal(world, robot, &out);
   return out;
 }
 

@@ -33,6 +33,8 @@ struct Steering {
   bool bumped = false;  ///< It was in a collision, and stands until the client asks it to stop.
   /// Pose in world, as the robot believes, of the frame in which its wheels count its way.
   PlanarPose origin;
+  /// Error of the pose in world, for each share by which the wheels' separation is wrong.
+  PlanarPose per_separation;
 
   /// Returns whether it stands, and has nothing to do until it is asked for a velocity.
   bool rests() const { return asked.isNone() && command.isNone() && lagged.isNone() && !bumped; }

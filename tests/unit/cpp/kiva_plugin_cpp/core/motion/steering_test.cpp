@@ -439,6 +439,35 @@ TEST(SteeredWithRealWheels, DriftAsTheirCovarianceSays) {
   EXPECT_LT(likelihood, 2);
 }
 
+TEST(SteeredWithRealWheels, DriftInTurnsAsTheirCovarianceSays) {
+  constexpr int kRobots = 40;
+  double likelihood[2] = {0, 0};
+  for (int seed = 1; seed <= kRobots; ++seed) {
+    WorldOptions options;
+    options.seed = seed;
+    options.realism = wheelsThatSlip();
+    Warehouse w(Floorplan{60, 1, 0.001, "", options});
+    w.spawn("kiva", "kiva1", 0, 0);
+    w.world.beginSteering(1);
+    w.run(20, [&] { w.world.steer(1, 0, 3); });  // some 60 rad, in place
+    w.run(4, [&] { w.world.steer(1, 1, 0); });
+    const Odometry odometry = w.world.odometry(0);
+    const double yaw_off = std::remainder(odometry.pose.Z() - w.yaw(1), 2 * M_PI);
+    likelihood[0] += yaw_off * yaw_off / odometry.pose_covariance[8] / kRobots;
+    // Across its last, straight way.
+    const double c = std::cos(w.yaw(1)), s = std::sin(w.yaw(1));
+    const double across = c * (odometry.pose.Y() - w.y(1)) - s * (odometry.pose.X() - w.x(1));
+    const double variance = s * s * odometry.pose_covariance[0] +
+                            c * c * odometry.pose_covariance[4] -
+                            2 * s * c * odometry.pose_covariance[1];
+    likelihood[1] += across * across / variance / kRobots;
+  }
+  for (const double share : likelihood) {
+    EXPECT_GT(share, 0.5);
+    EXPECT_LT(share, 1.7);
+  }
+}
+
 TEST(SteeredWithRealWheels, KnowTheirPlaceOnceTheyAreBack) {
   WorldOptions options;
   options.realism = wheelsThatSlip();
