@@ -8,12 +8,15 @@ import signal
 import subprocess
 import urllib.error
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 from hub_process import Hub, until
 
+from warehouse_sim.hub import simulation, wish
 from warehouse_sim.hub.process import MARK, descendants, free_port, marked, sweep
+from warehouse_viewer.replay.file import NAME, FileRecording
 
 
 @pytest.fixture
@@ -134,6 +137,23 @@ def test_a_simulation_that_dies_says_why(hub):
     assert row["state"] == "FAILED"
     assert "gazebo" in row["reason"]
     until(lambda: not living(below), "processes are left")
+    entry = hub.ask("GET", "/api/v1/journal?simulation=one")[1]["entries"][-1]
+    assert (entry["kind"], entry["action"]) == ("hub", "end") and "gazebo" in entry["outcome"]
+
+
+def test_what_a_warehouse_recorded_outlives_its_crash(tmp_path, monkeypatch):
+    monkeypatch.setattr(simulation, "KEEPING", 0.0)
+    one = simulation.Simulation(wish.read({"name": "one", "size": "small"}, tmp_path), tmp_path)
+    one.start(dict(os.environ))
+    try:
+        until(lambda: one.look(1 << 40) or (tmp_path / NAME).exists(), "nothing is recorded")
+        for number in one.process.tree():
+            with suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
+        until(lambda: one.look(1 << 40) or not one.lives, "it lives on")
+    finally:
+        one.stop(keeps_recording=False)
+    assert FileRecording(tmp_path / NAME).chunks
 
 
 def test_what_is_kept_needs_no_simulation(hub):
@@ -237,6 +257,9 @@ def test_a_simulation_that_takes_too_much_is_ended(tmp_path, limit, state, reaso
     hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
     row = hub.wait_for("one", state)
     assert row["state"] == state and reason in row["reason"]
+    entries = hub.ask("GET", "/api/v1/journal?simulation=one")[1]["entries"]
+    assert [entry["action"] for entry in entries] == ["start", "end"]
+    assert reason in entries[-1]["outcome"]
     assert not living(hub.end())
 
 
