@@ -7,6 +7,7 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 
 from warehouse_sim.hub.answers import answered
 from warehouse_sim.hub.assistant import Assistant
+from warehouse_sim.hub.description import OPENAPI
 from warehouse_sim.hub.journal import Journal
 from warehouse_sim.hub.recordings import Recordings
 from warehouse_sim.hub.served_pages import (
@@ -52,6 +53,7 @@ def routes(
         Route(f"{WORLDS}/{{name}}", answered(worlds.put), methods=["PUT"]),
         Route(f"{WORLDS}/{{name}}", answered(worlds.delete), methods=["DELETE"]),
         Route("/api/v1/recordings", answered(shelf.recordings), methods=["GET"]),
+        Route(OPENAPI, answered(shelf.description), methods=["GET"]),
         Route(JOURNAL, answered(shelf.journal), methods=["GET"]),
         Route(JOURNAL, answered(shelf.note), methods=["POST"]),
         Route(f"{RECORDED}/{{name}}", to_recording),

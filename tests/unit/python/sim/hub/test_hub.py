@@ -10,11 +10,12 @@ import urllib.error
 import urllib.request
 from contextlib import suppress
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from hub_process import Hub, until
 
-from warehouse_sim.hub import simulation, wish
+from warehouse_sim.hub import description, routes, simulation, wish
 from warehouse_sim.hub.process import MARK, descendants, free_port, marked, sweep
 from warehouse_viewer.replay.file import NAME, FileRecording
 
@@ -235,6 +236,35 @@ def test_a_body_that_is_no_wish_is_refused(hub, body):
 def test_without_its_packages_the_assistant_says_what_lacks(hub):
     status, answer = hub.ask("POST", "/mcp", {})
     assert status == 503 and "make serve" in answer["detail"]
+
+
+def test_its_description_has_each_request(hub):
+    api = hub.ask("GET", description.OPENAPI)[1]
+    served = {
+        (route.path, method.lower())
+        for route in routes.routes(*[Mock()] * 4)
+        if route.path.startswith("/api/v1/") and route.path != description.OPENAPI
+        for method in route.methods - {"HEAD"}
+    }
+    described = {(path, method) for path, does in api["paths"].items() for method in does}
+    assert {row for row in described if not row[0].startswith("/whatif/")} == served
+    assert ("/whatif/scenarios", "post") in described
+
+    # What it answers has the fields that it says, and no others.
+    row = hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})[1]
+    entry = hub.ask("GET", "/api/v1/journal")[1]["entries"][0]
+    recording = hub.ask("GET", "/api/v1/recordings")[1]["recordings"][0]
+    argument = hub.ask("GET", "/api/v1/simulation-arguments")[1]["arguments"][0]
+    fault = hub.ask("POST", "/api/v1/simulations", {"name": "Two!"})[1]
+    answers = {
+        "Simulation": row,
+        "JournalEntry": entry,
+        "Recording": recording,
+        "Argument": argument,
+        "Fault": fault,
+    }
+    for name, answer in answers.items():
+        assert set(answer) == set(api["components"]["schemas"][name]["properties"]), name
 
 
 def test_large_layouts_may_be_sent(hub):
