@@ -21,7 +21,7 @@ from warehouse_viewer.editor.routes import Editor
 from warehouse_viewer.server import documentation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import Server, config_of
-from warehouse_viewer.server.site import DOCS, HUB, LAYOUT, WHATIF, Site
+from warehouse_viewer.server.site import API, DOCS, HUB, LAYOUT, WHATIF, Site
 
 # Requests a second of each address: the pages of several simulations and the assistant's own
 # requests come from one.
@@ -57,7 +57,7 @@ class Hub:
                 ),
                 Route(f"{WHATIF.path}/{{rest:path}}", what_if),
                 *Editor(compares=True, starts=True).routes(),
-                *Site(HUB, LAYOUT, WHATIF, DOCS).routes(),
+                *Site(HUB, LAYOUT, WHATIF, API, DOCS).routes(),
                 *documentation.routes(),
             ]
         )
