@@ -35,7 +35,7 @@ def written() -> str:
 
 def written_of_hub() -> str:
     """Returns the page of the hub's requests."""
-    from warehouse_sim.hub import description
+    from warehouse_sim.hub.api import description
 
     return page_of(
         description.described(),

@@ -15,7 +15,8 @@ from unittest.mock import Mock
 import pytest
 from hub_process import Hub, until
 
-from warehouse_sim.hub import description, routes, simulation, wish
+from warehouse_sim.hub import simulation, sizing, wish
+from warehouse_sim.hub.api import description, routes
 from warehouse_sim.hub.process import MARK, descendants, free_port, marked, sweep
 from warehouse_viewer.replay.file import NAME, FileRecording
 
@@ -242,7 +243,7 @@ def test_its_description_has_each_request(hub):
     api = hub.ask("GET", description.OPENAPI)[1]
     served = {
         (route.path, method.lower())
-        for route in routes.routes(*[Mock()] * 4)
+        for route in routes.routes(*[Mock()] * 5)
         if route.path.startswith("/api/v1/") and route.path != description.OPENAPI
         for method in route.methods - {"HEAD"}
     }
@@ -265,6 +266,54 @@ def test_its_description_has_each_request(hub):
     }
     for name, answer in answers.items():
         assert set(answer) == set(api["components"]["schemas"][name]["properties"]), name
+
+
+def test_it_says_how_many_robots_a_warehouse_needs(hub):
+    body = {"size": "small", "orders_per_hour": 100, "hours": 0.5, "late": 0.05}
+    status, row = hub.ask("POST", "/api/v1/sizings", body)
+    assert (status, row["id"], row["state"]) == (202, 1, "RUNNING")
+    status, answer = hub.ask("POST", "/api/v1/sizings", body)
+    assert status == 409 and "sizing 1 runs" in answer["detail"]
+    until(lambda: hub.ask("GET", "/api/v1/sizings/1")[1]["state"] != "RUNNING", "it runs on")
+    row = hub.ask("GET", "/api/v1/sizings/1")[1]
+    assert (row["state"], row["url"]) == ("DONE", "/api/v1/sizings/1/report.html"), row
+    meets = r"\d robots? and \d open picking stations? .* 100 orders an hour"
+    assert re.match(meets, row["answer"])
+    api = hub.ask("GET", description.OPENAPI)[1]
+    assert set(row) == set(api["components"]["schemas"]["Sizing"]["properties"])
+
+    # One that can't be met says so, one that runs ends with a request, and all are kept.
+    hub.ask("POST", "/api/v1/sizings", {**body, "orders_per_hour": 100_000})
+    until(lambda: hub.ask("GET", "/api/v1/sizings/2")[1]["state"] != "RUNNING", "it runs on")
+    row = hub.ask("GET", "/api/v1/sizings/2")[1]
+    assert row["state"] == "IMPOSSIBLE" and "162,750 are asked for" in row["answer"], row
+    hub.ask("POST", "/api/v1/sizings", {**body, "size": "large", "hours": 8})
+    assert hub.ask("DELETE", "/api/v1/sizings/3")[1]["state"] == "STOPPED"
+    hub.end()
+    again = Hub(hub.home)
+    assert [row["id"] for row in again.ask("GET", "/api/v1/sizings")[1]["sizings"]] == [2, 1]
+    again.end()
+
+
+@pytest.mark.parametrize(
+    "body, field",
+    [
+        ({"size": "small"}, "orders_per_hour"),
+        ({"orders_per_hour": 10}, "size"),
+        ({"size": "empty", "orders_per_hour": 10}, "size"),
+        ({"size": "small", "orders_per_hour": 1e999}, "orders_per_hour"),
+        ({"size": "small", "orders_per_hour": 10, "late": 0}, "late"),
+        ({"size": "small", "orders_per_hour": 10, "hours": True}, "hours"),
+        ({"size": "smal", "orders_per_hour": 10}, "size"),
+        ({"layout": "kiva_layout: 1\nx", "orders_per_hour": 10}, "layout"),
+        ({"size": "small", "orders_per_hour": 10, "realism": "rainy"}, "realism"),
+        ({"size": "small", "orders_per_hour": 10, "robots": 3}, "robots"),
+    ],
+)
+def test_a_question_that_is_wrong_names_its_field(body, field, tmp_path):
+    with pytest.raises(wish.WishError) as error:
+        sizing.read(body, tmp_path)
+    assert error.value.field == field
 
 
 def test_large_layouts_may_be_sent(hub):

@@ -6,8 +6,8 @@ import asyncio
 from starlette.requests import Request
 from starlette.responses import Response
 
-from warehouse_sim.hub import description
-from warehouse_sim.hub.answers import Book, body_of, whole
+from warehouse_sim.hub.api import description
+from warehouse_sim.hub.api.answers import Book, body_of, whole
 from warehouse_sim.hub.journal import KEPT, Journal
 from warehouse_sim.hub.recordings import Recordings
 from warehouse_sim.hub.wish import WishError

@@ -22,13 +22,14 @@ from warehouse_viewer.server.openapi import (
 )
 
 OPENAPI = "/api/v1/openapi.json"
-ROW, WORLD, RECORDING, ENTRY, ARGUMENT, FAULT = (
+ROW, WORLD, RECORDING, ENTRY, ARGUMENT, FAULT, SIZING = (
     "Simulation",
     "World",
     "Recording",
     "JournalEntry",
     "Argument",
     "Fault",
+    "Sizing",
 )
 REFUSED = {
     "404": "There is no such thing",
@@ -102,8 +103,30 @@ SCHEMAS: Json = {
     ),
 }
 
+SCHEMAS[SIZING] = object_of(
+    "How many robots and stations a warehouse needs for a rate of orders.",
+    id=WHOLE,
+    state=TEXT
+    | {
+        "enum": ["RUNNING", "DONE", "IMPOSSIBLE", "FAILED", "STOPPED"],
+        "description": "IMPOSSIBLE: no number of robots and stations suffices",
+    },
+    question=object_of(
+        "What was asked.",
+        layout=TEXT,
+        orders_per_hour=NUMBER,
+        late=NUMBER,
+        hours=NUMBER,
+        realism=TEXT,
+    ),
+    seconds=NUMBER | {"description": "since it began, while it runs [s, wall]"},
+    progress=TEXT | {"description": "the last shift, while it runs"},
+    answer=TEXT | {"description": "in sentences, or why there is none"},
+    url=TEXT | {"description": "of its report; empty before there is one"},
+)
+
 _request = Requests("hub", FAULT, REFUSED).request
-NAME = (in_path("name"),)
+NAME, NUMBERED = (in_path("name"),), (in_path("number"),)
 SAVED = TEXT | {"description": "its name: small letters, digits and '-'"}
 REPLACE = TRUTH | {"description": "a saved world of that name", "default": False}
 CREATE = asked(
@@ -216,6 +239,33 @@ PATHS: Json = {
         "get": _request(
             "All recordings.", object_of("All.", recordings=list_of(reference(RECORDING)))
         )
+    },
+    "/api/v1/sizings": {
+        "get": _request(
+            "All sizings, the newest first.", object_of("All.", sizings=list_of(reference(SIZING)))
+        ),
+        "post": _request(
+            "Finds the fewest robots and picking stations for a rate of orders, by simulating"
+            " shifts of ideal robots; `size` or `layout` is needed. One runs at a time.",
+            reference(SIZING),
+            asked(
+                ("size", "layout", "late", "hours", "realism"),
+                size=TEXT | {"description": "a preset"},
+                layout=TEXT | {"description": "a layout file, or its text"},
+                orders_per_hour=NUMBER,
+                late=NUMBER | {"default": 0.01, "description": "share of orders that may be"},
+                hours=NUMBER | {"default": 8, "maximum": 24, "description": "of a shift"},
+                realism=TEXT | {"description": "batteries and failures: typical, bad_day"},
+            ),
+            code="202",
+        ),
+    },
+    "/api/v1/sizings/{number}": {
+        "get": _request("A sizing.", reference(SIZING), None, NUMBERED),
+        "delete": _request("Ends a sizing, and deletes it.", reference(SIZING), None, NUMBERED),
+    },
+    "/api/v1/sizings/{number}/report.html": {
+        "get": _request("Its report.", TEXT, None, NUMBERED, media_type="text/html")
     },
     "/api/v1/journal": {
         "get": _request(
