@@ -56,5 +56,7 @@ def _row(row: dict[str, Any]) -> str:
         f" hour, at most {100 * asked['late']:g} % late in {asked['hours']:g} h:"
     )
     if row["state"] == "RUNNING":
-        return sentence(f"{text} runs for {duration(row['seconds'])}; {plain(row['progress'], 160)}")
+        return sentence(
+            f"{text} runs for {duration(row['seconds'])}; {plain(row['progress'], 160)}"
+        )
     return sentence(f"{text} {row['state'].lower()}: {plain(row['answer'], 900)}")

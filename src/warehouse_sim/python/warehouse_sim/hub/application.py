@@ -32,7 +32,8 @@ RATE = 400.0
 class Hub:
     """Simulations, recordings, sizings, what-if, editor and documentation.
 
-    run() serves until it is stopped. tokens: the token that every client needs, "": without, and an alternative one.
+    run() serves until it is stopped. tokens: the token that every client needs, "": without, and an
+    alternative one.
     """
 
     def __init__(

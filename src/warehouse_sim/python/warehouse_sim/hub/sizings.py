@@ -69,9 +69,9 @@ class Sizings:
     def delete(self, number: str) -> dict[str, Any]:
         """Ends a sizing if it runs, and deletes what it wrote. Raises Missing."""
         with self._lock:
-            found = self._of(number)
-            found.end()
-            row = found.row()
+            sizing_of = self._of(number)
+            sizing_of.end()
+            row = sizing_of.row()
             self._delete(int(number))
             return row
 

@@ -145,16 +145,18 @@ def test_a_simulation_that_dies_says_why(hub):
 
 def test_what_a_warehouse_recorded_outlives_its_crash(tmp_path, monkeypatch):
     monkeypatch.setattr(simulation, "KEEPING", 0.0)
-    one = simulation.Simulation(wish.read({"name": "one", "size": "small"}, tmp_path), tmp_path)
-    one.start(dict(os.environ))
+    warehouse = simulation.Simulation(
+        wish.read({"name": "one", "size": "small"}, tmp_path), tmp_path
+    )
+    warehouse.start(dict(os.environ))
     try:
-        until(lambda: one.look(1 << 40) or (tmp_path / NAME).exists(), "nothing is recorded")
-        for number in one.process.tree():
+        until(lambda: warehouse.look(1 << 40) or (tmp_path / NAME).exists(), "nothing is recorded")
+        for number in warehouse.process.tree():
             with suppress(ProcessLookupError):
                 os.kill(number, signal.SIGKILL)
-        until(lambda: one.look(1 << 40) or not one.lives, "it lives on")
+        until(lambda: warehouse.look(1 << 40) or not warehouse.lives, "it lives on")
     finally:
-        one.stop(keeps_recording=False)
+        warehouse.stop(keeps_recording=False)
     assert FileRecording(tmp_path / NAME).chunks
 
 
