@@ -19,8 +19,8 @@ MapTopic::MapTopic(ros::NodeHandle& root, SimulationThread& simulation, double r
       map_(root, "map", kMapQueue,
            [this](int change) {
              subscribers_ += change;
-             if (change > 0)
-               simulation_.post([this](kiva::World& world) { publishIfStale(world); });
+             if (change <= 0) return;
+             simulation_.post([this](kiva::World& world) { publishIfStale(world); });
            }),
       server_(root.advertiseService("static_map", &MapTopic::get, this)) {}
 
