@@ -30,6 +30,7 @@ from warehouse_assistant.tools import (
     reading,
     robots,
     simulations,
+    sizing,
     stations,
     whatif,
 )
@@ -48,7 +49,7 @@ HOW_TO_ALLOW = (
 )
 KEY, ALLOW, CLIENT = "x-warehouse-key", "x-warehouse-allow", "x-warehouse-client"  # the hub's
 MOST_BODY = 64 * 1024  # of a request [bytes], as the hub has it
-SUBJECTS = (simulations, overview, floor, robots, orders, stations, whatif, reading)
+SUBJECTS = (simulations, overview, floor, robots, orders, stations, whatif, sizing, reading)
 
 
 class AssistantServer(MCPServer):

@@ -118,6 +118,10 @@ def test_defaults_are_right(path, place):
         ("world", "bogus", "there is no world 'bogus'; tried"),
         ("viewer_token_file", "token", "token: No such file"),
         ("viewer_host", "no.such host", "an address of this machine"),
+        ("cmd_vel", "kiva0", "names of robots were expected, such as 'kiva1 kiva2'"),
+        ("cmd_vel", "kiva1 rover", "names of robots were expected"),
+        ("map_resolution", "0", "a cell of 0.01 to 1 m"),
+        ("map_resolution", "2", "a cell of 0.01 to 1 m"),
     ],
 )
 def test_one_sentence_names_argument_value_and_what_was_expected(name, wrong, expected, place):
@@ -128,6 +132,11 @@ def test_one_sentence_names_argument_value_and_what_was_expected(name, wrong, ex
         assert part in rest, text
         rest = rest[rest.index(part) + len(part) :]
     assert "\n" not in text
+
+
+@pytest.mark.parametrize("text", ["", "kiva1", "kiva1 kiva23", "1,2", "kiva1000000"])
+def test_robots_are_named_or_numbered(text, place):
+    assert not launch_arguments.faults({"cmd_vel": text}, place)
 
 
 @pytest.mark.parametrize("path", of_ours(), ids=lambda path: path.name)

@@ -8,5 +8,6 @@ robots         commands to robots, transports of storage units
 orders         orders and stock
 stations       stations, and picks that are confirmed
 whatif         what-if runs
+sizing         how many robots and stations a warehouse needs
 reading        the documentation; the rest of long replies
 """
