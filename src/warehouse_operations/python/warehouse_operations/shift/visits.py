@@ -76,6 +76,15 @@ class Visits:
         self._context.journal.visit(visit)
         return visit
 
+    def restore(self, visit: Visit) -> None:
+        """Adds a visit of an earlier run that is under way."""
+        self._ids = itertools.count(visit.visit_id + 1)
+        self.free_units.discard(visit.unit)
+        self._floor.cells.pop(visit.unit, None)
+        self._by_transport[visit.transport_id] = visit
+        self._away[visit.unit] += 1
+        visit.station.inbound[visit.visit_id] = visit
+
     def release(self, visit: Visit) -> None:
         """Lets the unit leave the station."""
         visit.released = self._context.clock.now

@@ -34,6 +34,9 @@ class DrawsOrders(Protocol):
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Returns the order that comes now, or None."""
 
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
+
 
 class Customers:
     """Draws orders from an assortment; the same generator state gives the same orders."""
@@ -60,6 +63,10 @@ class Customers:
         due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
         return OrderDraft(tuple(lines.items()), now, now + due)
 
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
+        self._rng = rng
+
     def _draw(self) -> int:
         if not hasattr(self, "_sums"):
             self._sums = np.cumsum(self.assortment.popularity)
@@ -73,6 +80,10 @@ class Fill:
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
         self.bundles_per_hour = 0.0
+
+    def draw_anew(self, rng: np.random.Generator, _now: float) -> None:
+        """Draws the orders to come by another generator."""
+        self.customers.draw_anew(rng)
 
     def next_time(self) -> float:
         """Returns inf: new orders replace those that leave the backlog."""
@@ -105,6 +116,12 @@ class Poisson:
         self._next = now
         self._wait()
 
+    def draw_anew(self, rng: np.random.Generator, now: float) -> None:
+        """Draws what comes after a time [s] by another generator."""
+        self._rng, self._next = rng, now
+        self.customers.draw_anew(rng)
+        self._wait()
+
     def next_time(self) -> float:
         """Returns when the next order comes [s]."""
         return self._next
@@ -132,6 +149,14 @@ class FromFile:
     def __init__(self, drafts: Iterable[OrderDraft]) -> None:
         self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
+
+    def draw_anew(self, _rng: np.random.Generator, _now: float) -> None:
+        """Does nothing: what comes is known."""
+
+    def skip_to(self, now: float) -> None:
+        """Drops the orders up to a time [s]."""
+        while self._drafts and self._drafts[-1].at <= now:
+            self._drafts.pop()
 
     def next_time(self) -> float:
         """Returns when the next order comes [s]; inf after the last."""
