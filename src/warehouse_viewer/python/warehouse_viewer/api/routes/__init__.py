@@ -7,6 +7,7 @@ from warehouse_viewer.api.routes import (
     coordinator,
     events,
     figures,
+    forecasts,
     models,
     orders,
     robots,
@@ -29,6 +30,7 @@ for _subject in (
     orders,
     stations,
     figures,
+    forecasts,
     watch,
 ):
     router.include_router(_subject.router)
