@@ -27,6 +27,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "parameters.md": launching.parameters,
     "http.md": http.written,
     "vda5050-fields.md": vda5050.written,
+    "vda5050-cases.md": vda5050.cases,
     "commands.md": commands.written,
     "policies.md": policies.written,
     "realism-parameters.md": numbers.realism,
