@@ -140,6 +140,10 @@ def _robots(text: str, place: Place) -> str:
     return "" if right else "names of robots were expected, such as 'kiva1 kiva2'"
 
 
+def _file_name(text: str, place: Place) -> str:
+    return "" if text and "/" not in text else "a part of a file's name was expected, without /"
+
+
 def _new_file(text: str, place: Place) -> str:
     """Accepts a writable file, and ""."""
     path = place.cwd / text
@@ -230,6 +234,7 @@ CHOICES = {
 }
 OF_THE_SHIFT = ("orders", "policies", "database")
 ARGUMENTS: dict[str, Check] = {
+    "name": _file_name,
     "world": _world,
     "replay": _file("a recording"),
     "size": _one_of(*CHOICES["size"]),
@@ -259,5 +264,6 @@ ARGUMENTS: dict[str, Check] = {
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,
+    "checked": _flag,
     **{name: _shift_takes(name) for name in OF_THE_SHIFT},
 }
