@@ -26,6 +26,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "launch.md": launching.launches,
     "parameters.md": launching.parameters,
     "http.md": http.written,
+    "hub-http.md": http.written_of_hub,
     "vda5050-fields.md": vda5050.written,
     "vda5050-cases.md": vda5050.cases,
     "commands.md": commands.written,

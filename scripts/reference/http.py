@@ -20,16 +20,9 @@ def described() -> dict[str, Any]:
 
 
 def written() -> str:
-    """Returns the page of all requests, WebSockets and what they carry."""
-    api = described()
-    requests = [
-        section(path, method, operation)
-        for path, methods in api["paths"].items()
-        for method, operation in methods.items()
-    ]
-    sockets = [socket(path, about) for path, about in api["x-websockets"].items()]
-    schemas = [schema(name, about) for name, about in sorted(api["components"]["schemas"].items())]
-    return page(
+    """Returns the page of a warehouse's requests, WebSockets and what they carry."""
+    return page_of(
+        described(),
         "HTTP",
         "A running viewer has the same at `/api/docs`, where each request can be tried, and at "
         "`/api/v1/openapi.json` for programs. `GET /metrics` is for Prometheus. Units"
@@ -37,10 +30,37 @@ def written() -> str:
         "radians, the frame is `world`. Beyond this machine each request brings the "
         "viewer's token: "
         "`Authorization: Bearer …`.",
+    )
+
+
+def written_of_hub() -> str:
+    """Returns the page of the hub's requests."""
+    from warehouse_sim.hub.api import description
+
+    return page_of(
+        description.described(),
+        "HTTP of the hub",
+        "[The hub](../how-to/hub.md) has the same at `/api/docs` and `/api/v1/openapi.json`. Each"
+        " warehouse has [an API of its own](http.md) beneath `/s/NAME/`. Units are SI, angles"
+        " radians.",
+    )
+
+
+def page_of(api: dict[str, Any], title: str, about: str) -> str:
+    """Returns the page of an OpenAPI description."""
+    requests = [
+        section(path, method, operation)
+        for path, methods in api["paths"].items()
+        for method, operation in methods.items()
+    ]
+    sockets = [socket(path, about) for path, about in api.get("x-websockets", {}).items()]
+    schemas = [schema(name, about) for name, about in sorted(api["components"]["schemas"].items())]
+    return page(
+        title,
+        about,
         "## Requests",
         *requests,
-        "## WebSockets",
-        *sockets,
+        *(["## WebSockets", *sockets] if sockets else []),
         "## Objects",
         *schemas,
     )

@@ -138,6 +138,34 @@ def test_an_order_is_submitted_put_first_and_cancelled(talk):
     talk(conversation)
 
 
+def test_a_shift_is_forecast(talk):
+    async def conversation(assistant):
+        as_it_is = await assistant.done("forecast_shift", minutes=20)
+        without = await assistant.done("forecast_shift", minutes=20, changes=["+0 close pick1"])
+        wrong = await assistant.refused("forecast_shift", changes=["+0 close pick99"])
+        return as_it_is, without, wrong
+
+    as_it_is, without, wrong = talk(conversation)
+    assert "Orders in 20 min, of " in as_it_is and "against as it is" in without
+    assert "pick99" in wrong
+
+
+def test_a_warehouse_is_sized(talk, hub):
+    async def conversation(assistant):
+        asked = {"layout": "small", "orders_per_hour": 100, "hours": 0.5, "late_percent": 5}
+        return await assistant.done("size_warehouse", **asked)
+
+    assert talk(conversation).startswith("Sizing 1 runs")
+    until(lambda: hub.ask("GET", "/api/v1/sizings/1")[1]["state"] != "RUNNING", "it runs on")
+
+    async def answer(assistant):
+        return await assistant.done("sizing_results")
+
+    text = talk(answer)
+    assert "small, 100 orders an hour, at most 5 % late in 0.5 h: done: " in text
+    assert "robot" in text and "open picking station" in text
+
+
 def test_a_robot_is_sent_by_hand(talk):
     async def conversation(assistant):
         await assistant.done("set_robot_mode", robot=2, mode="MANUAL")

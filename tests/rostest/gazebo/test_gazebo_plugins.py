@@ -177,6 +177,25 @@ class Spawning(unittest.TestCase):
         with Collector("/rover/joint_states", JointState) as joints:
             joints.first()
 
+    def test_a_second_robot_of_one_description_has_frames_of_its_own(self):
+        spawn_rover()
+        self.addCleanup(delete, "rover2")
+        answer = call(
+            "/gazebo/spawn_urdf_model", SpawnModel, "rover2", URDF, "/second", pose(y=5.0), ""
+        )
+        self.assertTrue(answer.success, answer.status_message)
+        with Collector("/second/odom", Odometry) as odom, Collector("/tf", TFMessage) as tf:
+            second = odom.first()
+            names = (second.header.frame_id, second.child_frame_id)
+            self.assertEqual(names, ("rover2/odom", "rover2/base_footprint"))
+            places = {
+                (t.header.frame_id, t.child_frame_id): t.transform.translation.y
+                for message in tf.next(200)
+                for t in message.transforms
+            }
+        self.assertAlmostEqual(places["odom", "base_footprint"], 0, 1)
+        self.assertAlmostEqual(places["rover2/odom", "rover2/base_footprint"], 5, 1)
+
     def test_without_a_namespace_each_plugin_has_that_of_gazebo_ros(self):
         spawn_rover(namespace="")
         topics = {"/rover/odom": Odometry, "/rover/joint_states": JointState}

@@ -28,6 +28,9 @@ OPTIONS = (
 THEME = """const { dataset } = document.documentElement;
 if (dataset.theme) dataset.theme = arguments[0];"""
 
+# A person who was here before is not invited again.
+KNOWN = "localStorage.setItem('start-shown', 'yes'); localStorage.setItem('toured', 'yes');"
+
 CENTRE = (
     "(r => [r.x + r.width / 2, r.y + r.height / 2])"
     "(document.getElementById('{}').getBoundingClientRect())"
@@ -66,6 +69,11 @@ class Browser:
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": has_fingers}
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
         self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": has_fingers})
+
+    def be_known(self):
+        """Is no newcomer, in what is opened from now on."""
+        script = f"if (location.protocol.startsWith('http')) {{ {KNOWN} }}"
+        self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
 
     def be_desktop(self):
         """Takes be_phone() and be_screen() back."""
@@ -185,8 +193,9 @@ class Browser:
 
 
 @contextmanager
-def browser(patience, size=(1280, 720)):
-    """A Browser that is closed in the end, its window of that size [px]."""
+def browser(patience, size=(1280, 720), is_newcomer=False):
+    """A Browser that is closed in the end, its window of that size [px]. `is_newcomer`: the floor's
+    page invites, as it does a person at first."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
         window = f"--window-size={size[0]},{size[1]}"
@@ -197,6 +206,9 @@ def browser(patience, size=(1280, 720)):
         driver.set_page_load_timeout(patience)
         driver.set_script_timeout(patience)
         try:
-            yield Browser(driver, patience)
+            page = Browser(driver, patience)
+            if not is_newcomer:
+                page.be_known()
+            yield page
         finally:
             driver.quit()

@@ -24,6 +24,8 @@ enum class State : std::uint8_t {
   kBlocked = 5,
   /// Stands at the last released point of its path.
   kWaiting = 6,
+  /// Is driven by /kiva<id>/cmd_vel.
+  kSteered = 7,
 };
 
 /// The kinds of events.

@@ -100,6 +100,23 @@ struct Occupancy {
   static constexpr std::uint8_t kTaken = 100;  ///< Building, no floor, or too close to either.
 };
 
+/// The floor as robots' lasers see it: walls, belts, other static models, and the legs of storage
+/// units where these stand now. Robots, people, items and what moves freely are left out.
+struct LaserMap {
+  double x = 0, y = 0;             ///< Corner of lowest x and y, in world [m].
+  double z = 0;                    ///< Height of the floor.
+  double resolution = 0;           ///< Edge of a cell [m].
+  int columns = 0, rows = 0;       ///< Cells along x and y.
+  std::vector<std::int8_t> cells;  ///< Row by row, x first.
+
+  // Values of cells, as of a nav_msgs/OccupancyGrid.
+  static constexpr std::int8_t kFree = 0;
+  static constexpr std::int8_t kOccupied = 100;
+  static constexpr std::int8_t kUnknown = -1;  ///< No floor.
+};
+
+constexpr double kLeastMapResolution = 0.01, kMostMapResolution = 1;  // [m]
+
 /// One robot's status at the moment when it changed.
 struct StatusChange {
   double time = 0;
@@ -210,7 +227,8 @@ class World {
   /// Returns the pose that the robot believes to have: (x, y, yaw) in world [m, rad], yaw
   /// unwrapped. Robots drive by this pose. It is the true pose unless localisation is realistic.
   Vector3 believedPose(int robot) const;
-  /// Returns the believed pose and the motion by the wheels, with covariances.
+  /// Returns the believed pose and the motion by the wheels, with covariances. A steered robot
+  /// believes in the frame of its own odometry, whose origin is where it was handed over.
   Odometry odometry(int robot) const;
   /// Returns the largest acceleration at which the robot's load does not tip [m/s²]. It is +inf
   /// without a load, and if loads are ideal.
@@ -221,6 +239,9 @@ class World {
   std::uint64_t unitsRevision() const;
   const FloorExtent& floor() const;
   Occupancy occupancy() const;
+  /// Returns the map with cells of that size, or of the next centimetre with which it has at most
+  /// 16 million. Throws std::invalid_argument unless the size is 0.01 to 1 [m].
+  LaserMap laserMap(double resolution) const;
   double gridSpacing() const;  ///< [m]
 
   // --- commands
@@ -228,6 +249,22 @@ class World {
   void post(const Command& command);
   /// Queues a path. A change of the path under way is answered only if it is refused.
   void post(FollowPath path);
+
+  // --- robots that clients drive by velocities
+  /// Hands an idle robot over to a client, which drives it by steer(). Throws
+  /// std::invalid_argument with the reason if the robot is not idle, or can't drive.
+  void beginSteering(int kiva_id);
+  /// Asks a steered robot for a speed ahead [m/s] and a turn rate to the left [rad/s], for half a
+  /// second or until the next call. Its accelerations are limited, and its laser stops it before
+  /// obstacles. Throws std::invalid_argument, with nothing changed, if it is not steered, or if a
+  /// number is not finite.
+  void steer(int kiva_id, double speed, double turn_rate);
+  /// Gives a steered robot back to the grid. Throws std::invalid_argument, with what to do, unless
+  /// it stands on a grid point, along the grid.
+  void endSteering(int kiva_id);
+  bool isSteered(int robot) const;
+  /// Returns the ids of the steered robots, in the order in which they were handed over.
+  std::vector<int> steeredRobots() const;
 
   // --- what happened since the last call
   std::vector<Event> takeEvents();

@@ -29,6 +29,7 @@
 #include "core/state/views/fleet_plugin.h"
 #include "core/state/world_state.h"
 #include "plugins/plugin_table.h"
+#include "plugins/steered_drive.h"
 
 namespace kiva {
 namespace {
@@ -112,6 +113,7 @@ void decide(WorldState& world) {
 /// Sets the commands of motors and towers.
 void control(ContactView& world) {
   for (const auto& plugin : world.plugins.fleet) plugin->control(world);
+  driveSteered(world);
 }
 
 /// Scans, and looks ahead of robots that drive.

@@ -4,7 +4,9 @@
 #include <stdexcept>
 
 #include "core/communication/command_link.h"
+#include "core/control/route.h"
 #include "core/control/shadows.h"
+#include "core/control/steering.h"
 #include "core/disturbances/failures.h"
 #include "core/disturbances/falling_items.h"
 #include "core/people/protective_fields.h"
@@ -13,6 +15,23 @@
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
+namespace {
+
+/// Calls act(robot) for the robot of that id. Throws std::invalid_argument, which names the robot,
+/// for a refusal.
+template <typename Act>
+void withRobot(const WorldState& world, int kiva_id, Act act) {
+  const std::string name = "kiva" + std::to_string(kiva_id);
+  const int robot = world.fleet.find(kiva_id);
+  if (robot < 0) throw std::invalid_argument("there is no robot " + name);
+  try {
+    act(robot);
+  } catch (const Refusal& refusal) {
+    throw std::invalid_argument(name + ": " + refusal.what());
+  }
+}
+
+}  // namespace
 
 void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
@@ -33,6 +52,31 @@ void World::post(FollowPath path) {
   command.kiva_id = path.kiva_id;
   send(state_->command_link, state_->inbox, state_->view, {command, std::move(path)});
 }
+
+void World::beginSteering(int kiva_id) {
+  withRobot(*state_, kiva_id, [&](int robot) {
+    if (isShadow(kiva_id)) throw Refusal("it is the shadow of a robot elsewhere");
+    kiva::beginSteering(state_->view, robot);
+  });
+}
+
+void World::steer(int kiva_id, double speed, double turn_rate) {
+  withRobot(*state_, kiva_id, [&](int robot) {
+    kiva::steer(state_->view, robot, {speed, turn_rate});
+  });
+}
+
+void World::endSteering(int kiva_id) {
+  withRobot(*state_, kiva_id, [&](int robot) { kiva::endSteering(state_->view, robot); });
+}
+
+std::vector<int> World::steeredRobots() const {
+  std::vector<int> ids;
+  for (const Steering& steering : state_->fleet.steerings) ids.push_back(steering.kiva_id);
+  return ids;
+}
+
+bool World::isSteered(int robot) const { return state_->fleet.tasks[robot].isSteered(); }
 
 void World::fail(int kiva_id, Failure failure, double repair_after) {
   injectFailure(state_->view, state_->failures, kiva_id, failure, repair_after);

@@ -23,23 +23,6 @@ constexpr double kSpins = 0.2;       // difference of profile and gyro that prov
 constexpr double kLeast = 0.1;       // smallest acceleration, where nothing grips [rad/s²]
 constexpr double kReserve = 0.9;     // share of the motors' torque, the rest corrects errors
 
-/// Returns the acceleration of a turn [rad/s²]. A turn by 90° from rest to rest takes T: 4·90°/T²
-/// in its first half, minus that in its second, within the limits of motors and floor. T = 0: at
-/// once, where motors and floor have no limit.
-double turnAcceleration(const Scene& world, int i, double angle) {
-  const double time =
-      world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
-  Vehicle vehicle = plannedVehicle(world, i);
-  vehicle.torque *= kReserve;
-  const double acceleration = std::min(2 * M_PI / (time * time), turningLimit(vehicle, angle));
-  return std::isinf(acceleration) ? 0 : acceleration;
-}
-
-double turnSpeed(const Robot& robot, double dt) {
-  const double time = robot.drive.quarter_turn_time;
-  return time == 0 ? 2 * M_PI / dt : M_PI / time;
-}
-
 /// Stops a turn with its final deceleration, and stays.
 void holdTurn(RobotView& world, int i) {
   FleetState& f = world.fleet;
@@ -112,6 +95,22 @@ void turnSegment(TaskView& world, Obstacles& obstacles, int i) {
 }
 
 }  // namespace
+
+// A turn by 90° from rest to rest takes T: 4·90°/T² in its first half, minus that in its second.
+// T = 0: at once, where motors and floor have no limit.
+double turnAcceleration(const Scene& world, int i, double angle) {
+  const double time =
+      world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
+  Vehicle vehicle = plannedVehicle(world, i);
+  vehicle.torque *= kReserve;
+  const double acceleration = std::min(2 * M_PI / (time * time), turningLimit(vehicle, angle));
+  return std::isinf(acceleration) ? 0 : acceleration;
+}
+
+double turnSpeed(const Robot& robot, double dt) {
+  const double time = robot.drive.quarter_turn_time;
+  return time == 0 ? 2 * M_PI / dt : M_PI / time;
+}
 
 void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.drive.rotationFields(robot.drive, p.reader());

@@ -13,4 +13,10 @@ class RotationPlugin : public FleetPlugin {
   void control(ContactView& world) const override;
 };
 
+/// Returns the acceleration of a turn by that angle [rad/s²], within the limits of motors and
+/// floor; 0 = at once.
+double turnAcceleration(const Scene& world, int i, double angle);
+/// Returns the speed that no turn exceeds [rad/s].
+double turnSpeed(const Robot& robot, double dt);
+
 }  // namespace kiva

@@ -155,6 +155,21 @@ void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
 }
 
+void steer(Host& host, std::int32_t kiva_id, double speed, double turn_rate) {
+  const auto lock = host.use();
+  host.world.steer(kiva_id, speed, turn_rate);
+}
+
+void beginSteering(Host& host, std::int32_t kiva_id) {
+  const auto lock = host.use();
+  host.world.beginSteering(kiva_id);
+}
+
+void endSteering(Host& host, std::int32_t kiva_id) {
+  const auto lock = host.use();
+  host.world.endSteering(kiva_id);
+}
+
 /// Posts a path for each row, or none if one is wrong. Row i has the next `points[i]` entries of x
 /// and y.
 void follow(Host& host, const ArrayLike& kiva_id, const ArrayLike& path_id, const ArrayLike& first,
@@ -251,6 +266,20 @@ errors as of mov().)");
 
 The failure is repaired after so many seconds; 0: only by FailureKind.REPAIRED. ValueError for an
 unknown robot or kind, or a time that is negative or not finite.)");
+  world.def("begin_steering", &beginSteering, py::arg("kiva_id"),
+            R"(Hands an idle robot over to steer(): commands along the grid are refused from now on.
+
+ValueError, with the reason, if the robot is not idle, or can't drive.)");
+  world.def("steer", &steer, py::arg("kiva_id"), py::arg("speed"), py::arg("turn_rate"),
+            R"(Asks a steered robot for a speed ahead [m/s] and a turn rate to the left [rad/s].
+
+They hold for half a second, or until the next call. The robot's accelerations are limited, and its
+laser stops it before obstacles: BLOCKED. After a collision it stands until it is asked to stop.
+ValueError if the robot is not steered, or a number is not finite.)");
+  world.def("end_steering", &endSteering, py::arg("kiva_id"),
+            R"(Gives a steered robot back to the grid.
+
+ValueError, with what to do, unless it stands on a grid point, along the grid.)");
 }
 
 }  // namespace kiva::python

@@ -36,10 +36,12 @@
 #include "ros/services/warehouse/command_topics.h"
 #include "ros/services/warehouse/failure_service.h"
 #include "ros/services/warehouse/map_service.h"
+#include "ros/services/warehouse/map_topic.h"
 #include "ros/services/warehouse/mode_service.h"
 #include "ros/services/warehouse/people_services.h"
 #include "ros/services/warehouse/pick_up_service.h"
 #include "ros/services/warehouse/shadow_topic.h"
+#include "ros/services/warehouse/velocity_drive.h"
 #include "ros/services/warehouse/visualization_topics.h"
 #include "ros/simulation/simulation_thread.h"
 #include "ros/transport/callback_thread.h"
@@ -110,10 +112,12 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Reporter reporter(world, settings.rates, rtf, subscribers, publish_queue, snapshots);
   SimulationThread simulation(world, reporter, rtf, settings.lockstep);
   subscribers.onSubscribe([&simulation] { simulation.post([](kiva::World&) {}); });
-  Broadcaster broadcaster(root, node, subscribers, snapshots);
+  Broadcaster broadcaster(root, node, subscribers, snapshots, settings.map_to_odom);
   std::optional<CommandTopics> commands;
   if (!replayer) commands.emplace(root, simulation);  // a replay has its own
   ShadowTopic shadows(root, inputs);
+  VelocityDrive velocity_drive(root, simulation, reporter, inputs, world,
+                               replayer ? std::vector<int>() : settings.cmd_vel);
   CallbackThread stepping(node), spawning(node), saving(root);
   StepService step_service(stepping.node(), simulation);
   SimulationServices simulation_services(node, simulation);
@@ -128,6 +132,8 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths, sources);
   SourceService source_service(root, simulation, sources);
   MapService map_service(root, simulation);
+  MapTopic map_topic(root, simulation, settings.map_resolution);
+  simulation.add(map_topic);
   FailureService failure_service(root, simulation);
   ModeService mode_service(node, simulation);
   PeopleServices people_services(root, simulation, settings.model_paths);
@@ -150,6 +156,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
     simulation.add(*replayer);
   }
   simulation.add(inputs);
+  simulation.add(velocity_drive);
   std::optional<Recorder> recorder;
   if (!settings.record.empty()) {
     simulation.add(recorder.emplace(settings.record));

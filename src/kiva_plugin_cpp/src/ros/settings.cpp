@@ -177,6 +177,32 @@ Paths joined(Paths first, const Paths& second) {
   return first;
 }
 
+/// Returns the ids of robots in a text such as `kiva1 kiva2` or `1,2`.
+std::vector<int> robotIds(const ros::NodeHandle& node, const std::string& name) {
+  std::string names = text(node, name, "");
+  std::replace(names.begin(), names.end(), ',', ' ');
+  std::vector<int> ids;
+  std::istringstream words(names);
+  for (std::string word; words >> word;) {
+    const std::string digits = word.rfind("kiva", 0) == 0 ? word.substr(4) : word;
+    const bool is_number = !digits.empty() && digits.size() <= 7 &&
+                           digits.find_first_not_of("0123456789") == std::string::npos;
+    const int id = is_number ? std::stoi(digits) : 0;
+    if (id < 1 || id > kiva::kMaxKivaId) {
+      refuse(node, name, XmlRpc::XmlRpcValue(names), "names of robots, such as 'kiva1 kiva2',");
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
+double mapResolution(const ros::NodeHandle& node, double fallback) {
+  const std::string expected = "a cell of 0.01 to 1 m";
+  const double out = number(node, "map_resolution", fallback, 0.01, expected);
+  if (out > 1) refuse(node, "map_resolution", XmlRpc::XmlRpcValue(out), expected);
+  return out;
+}
+
 /// Returns a path; a relative one begins in the user's working directory.
 std::string pathOf(const ros::NodeHandle& node, const std::string& name) {
   const std::string path = text(node, name, "");
@@ -210,6 +236,9 @@ Settings readSettings(const ros::NodeHandle& node) {
   out.record = pathOf(node, "record");
   out.replay = pathOf(node, "replay");
   out.replay_stays = flag(node, "replay_stays", true);
+  out.cmd_vel = robotIds(node, "cmd_vel");
+  out.map_to_odom = flag(node, "map_to_odom", true);
+  out.map_resolution = mapResolution(node, out.map_resolution);
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
   out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
   out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
@@ -45,6 +46,11 @@ namespace kiva_ros {
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 ///   ~fleet_rate              [Hz] of simulated time, of /warehouse/fleet; default 10, at most 100
+///   ~cmd_vel                 robots that take velocities as soon as they are spawned: names or
+///                            numbers with blanks between; empty (default): none
+///   ~map_to_odom             true (default): map -> kiva<id>/odom of these robots is published;
+///                            false: that is left to a localisation of the user's own
+///   ~map_resolution          [m], edge of a cell of /map, 0.01 to 1; default 0.05
 struct Settings {
   std::string world_file;
   kiva::ModelPaths model_paths;        ///< For spawn requests; ours come first.
@@ -57,6 +63,9 @@ struct Settings {
   std::uintmax_t checkpoint_limit = 0;  ///< [bytes]
   std::string record, replay;           ///< Paths, or empty.
   bool replay_stays = true;
+  std::vector<int> cmd_vel;  ///< Ids of robots.
+  bool map_to_odom = true;
+  double map_resolution = 0.05;  ///< [m]
   Reporter::Rates rates;
 };
 

@@ -25,11 +25,13 @@ from warehouse_assistant.library import Library
 from warehouse_assistant.toolbox import Toolbox
 from warehouse_assistant.tools import (
     floor,
+    forecasts,
     orders,
     overview,
     reading,
     robots,
     simulations,
+    sizing,
     stations,
     whatif,
 )
@@ -48,7 +50,18 @@ HOW_TO_ALLOW = (
 )
 KEY, ALLOW, CLIENT = "x-warehouse-key", "x-warehouse-allow", "x-warehouse-client"  # the hub's
 MOST_BODY = 64 * 1024  # of a request [bytes], as the hub has it
-SUBJECTS = (simulations, overview, floor, robots, orders, stations, whatif, reading)
+SUBJECTS = (
+    simulations,
+    overview,
+    floor,
+    robots,
+    orders,
+    stations,
+    forecasts,
+    whatif,
+    sizing,
+    reading,
+)
 
 
 class AssistantServer(MCPServer):

@@ -87,6 +87,14 @@ _WAREHOUSE = {
         any_number=frozenset({"load_limit"}),
     ),
     "FollowPath": Contract(tables=("x y",)),
+    "ForecastResult": Contract(
+        source=_SHIFT,
+        tables=(
+            "time done_p10 done_p50 done_p90 open_p10 open_p50 open_p90 late_p10 late_p50 late_p90"
+            " pieces_per_hour_p10 pieces_per_hour_p50 pieces_per_hour_p90",
+        ),
+        any_number=frozenset({"finish_p10", "finish_p50", "finish_p90"}),
+    ),
     "HeatMap": Contract(
         source=_SHIFT, tables=("traffic waiting",), positive=frozenset({"spacing", "width"})
     ),

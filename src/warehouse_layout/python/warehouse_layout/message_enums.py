@@ -23,6 +23,7 @@ class State(IntEnum):
     LIFTING = 4
     BLOCKED = 5
     WAITING = 6  # stands at the last released point of its path
+    STEERED = 7  # is driven by /kiva<id>/cmd_vel
 
 
 class EventKind(IntEnum):

@@ -22,6 +22,7 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     slotting  which SKUs lie together, and what that gains
     sizing    numbers of robots and stations for a wish or a day, with costs
     design    layouts that a search finds
+    forecast  what comes of a shift that runs, by many runs ahead
     ros       the nodes
 """
 

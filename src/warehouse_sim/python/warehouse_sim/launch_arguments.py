@@ -133,6 +133,17 @@ def _count(text: str, place: Place) -> str:
     return _whole(LIMITS["robots"])(text, place) if text else ""
 
 
+def _robots(text: str, place: Place) -> str:
+    """Accepts names or numbers of robots, and ""."""
+    words = text.replace(",", " ").split()
+    right = all(re.fullmatch(r"(kiva)?0*[1-9]\d{0,5}|(kiva)?1000000", word) for word in words)
+    return "" if right else "names of robots were expected, such as 'kiva1 kiva2'"
+
+
+def _file_name(text: str, place: Place) -> str:
+    return "" if text and "/" not in text else "a part of a file's name was expected, without /"
+
+
 def _new_file(text: str, place: Place) -> str:
     """Accepts a writable file, and ""."""
     path = place.cwd / text
@@ -223,6 +234,7 @@ CHOICES = {
 }
 OF_THE_SHIFT = ("orders", "policies", "database")
 ARGUMENTS: dict[str, Check] = {
+    "name": _file_name,
     "world": _world,
     "replay": _file("a recording"),
     "size": _one_of(*CHOICES["size"]),
@@ -242,6 +254,9 @@ ARGUMENTS: dict[str, Check] = {
     "viewer_port": _whole(MOST_PORT),
     "viewer_host": _host,
     "viewer_token_file": _token_file,
+    "cmd_vel": _robots,
+    "map_to_odom": _flag,
+    "map_resolution": _number(lambda edge: 0.01 <= edge <= 1, "a cell of 0.01 to 1 m"),
     "pose_topics": _whole(MOST_WHOLE),
     "actions": _flag,
     "coordinator": _flag,
@@ -249,5 +264,6 @@ ARGUMENTS: dict[str, Check] = {
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,
+    "checked": _flag,
     **{name: _shift_takes(name) for name in OF_THE_SHIFT},
 }

@@ -14,7 +14,8 @@ async function show() {
       $('operations').append(section(api, path, method, operation));
     }
   }
-  for (const [path, about] of Object.entries(api['x-websockets'])) $('operations').append(socket(api, path, about));
+  const sockets = api['x-websockets'] ?? {};
+  for (const [path, about] of Object.entries(sockets)) $('operations').append(socket(api, path, about));
 }
 
 /** A WebSocket, with what it sends. */
@@ -79,11 +80,17 @@ async function attempt(filled, path, method, parameters) {
   const text = String(query) ? `${url}?${query}` : url;
   try {
     const answer = await fetch(at(text), { method: method.toUpperCase(), headers, body });
-    const came = JSON.stringify(await answer.json(), null, 2);
+    const came = await textOf(answer);
     return `${method.toUpperCase()} ${text}\n${answer.status} ${answer.statusText}\n${came}`;
   } catch (error) {
     return error.message;
   }
+}
+
+/** An answer's text: JSON in lines. */
+async function textOf(answer) {
+  const isJson = (answer.headers.get('content-type') ?? '').includes('json');
+  return isJson ? JSON.stringify(await answer.json(), null, 2) : answer.text();
 }
 
 function resolve(api, { oneOf, ...schema }) {

@@ -26,6 +26,7 @@ import { Requested } from './panels/requested.js';
 import { SceneKeys, speak } from './scene/scene_keys.js';
 import { Signs } from './scene/signs.js';
 import { Stage } from './scene/stage.js';
+import { Start } from './panels/start.js';
 import { Tip } from './base/tip.js';
 import { shownName } from './base/words.js';
 import { World } from './base/world.js';
@@ -60,6 +61,7 @@ class Page {
       stationOf: (name) => this.signs?.stations.get(name), moment: () => this.moment, log: this.log });
     this.drawers = new Drawers(() => this.fitPanels());
     new ResizeObserver(() => this.uncover()).observe($('details-panel'));
+    this.start = new Start(this);
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
     this.floor = '';
@@ -185,6 +187,7 @@ class Page {
 
   takeStatus(status) {
     this.bar.showStatus(status);
+    this.start.takeStatus(status);
     if (!status.away) this.stage?.pace.yieldTo(status.paused ? 1 : status.factor, status.paused ? 1 : status.target_factor);
   }
 
@@ -207,6 +210,7 @@ class Page {
     this.fleet.take(fleet);
     this.signs?.take(fleet, past);
     if (!came) return;
+    this.start.refresh();
     if (!fleet) this.takeWays(new Map());
     this.list.search($('search').value);
     this.watch();

@@ -31,7 +31,7 @@ namespace kiva {
 /// Prints a state by name in gtest's messages.
 inline void PrintTo(State state, std::ostream* out) {
   static const char* const names[] = {"IDLE",    "MOVING_X", "MOVING_Y", "ROTATING",
-                                      "LIFTING", "BLOCKED",  "WAITING"};
+                                      "LIFTING", "BLOCKED",  "WAITING",  "STEERED"};
   *out << names[static_cast<int>(state)];
 }
 inline void PrintTo(Status status, std::ostream* out) {

@@ -10,7 +10,7 @@ from warehouse_fleet.robots.robot_table import NOWHERE, REPORT
 from warehouse_fleet.transports.lifts import LiftOrder
 from warehouse_fleet.transports.transport_book import Kind, Step
 from warehouse_fleet.transports.unit_map import UnitPoses
-from warehouse_layout.message_enums import FailureKind, RobotMode, Status
+from warehouse_layout.message_enums import FailureKind, RobotMode, State, Status
 
 STATION = "pick1"
 WHERE = site(robots=2)
@@ -180,3 +180,19 @@ def test_a_unit_that_stands_in_a_street_is_no_obstacle_to_its_robot(begin):
     fleet.tick()
     robot = next(iter(transports.book)).robot
     assert robot != NOWHERE and fleet.controller.robots.goal[robot] == STREET
+
+
+def test_a_robot_that_is_driven_by_velocities_is_manual_until_it_is_given_back(begin):
+    fleet = begin()
+    fleet.reports["status"][0], fleet.reports["state"][0] = Status.BUSY, State.STEERED
+    fleet.tick()
+    assert fleet.controller.robots.mode.tolist() == [RobotMode.MANUAL, RobotMode.AUTOMATIC]
+    fleet.reports["status"][0], fleet.reports["state"][0] = Status.BLOCKED, State.BLOCKED
+    fleet.tick()
+    with pytest.raises(ValueError, match="kiva1 is driven by /kiva1/cmd_vel: give it back"):
+        fleet.controller.set_mode(1, RobotMode.AUTOMATIC)
+    fleet.reports["status"][0], fleet.reports["state"][0] = Status.IDLE, State.IDLE
+    fleet.tick()
+    fleet.controller.set_mode(1, RobotMode.AUTOMATIC)
+    fleet.tick()
+    assert fleet.controller.robots.mode.tolist() == [RobotMode.AUTOMATIC] * 2

@@ -503,3 +503,24 @@ def test_the_readmes_example_runs():
     )
     assert done.returncode == 0, done.stderr
     assert len(done.stdout.strip("[] \n").split()) == 20  # where each robot of medium is
+
+
+def test_a_robot_can_be_driven_by_velocities_and_is_given_back_on_a_grid_point():
+    world = World.preset("small")
+    world.begin_steering(1)
+    x, y = world.fleet.x[0], world.fleet.y[0]
+    world.movx(1, 1)
+    world.step()
+    assert [event["kind"] for event in world.events()][-1] == EventKind.REFUSED
+    for _ in range(20):
+        world.steer(1, 0.2, 0.0)
+        world.step(100)
+    way = np.hypot(world.fleet.x[0] - x, world.fleet.y[0] - y)
+    assert way == pytest.approx(0.2 * 2 - 0.2**2 / 2, abs=0.01)  # v t - v²/2a
+    with pytest.raises(ValueError, match="ask it to stop first"):
+        world.end_steering(1)
+    world.step(1500)  # nothing is heard: it stops
+    with pytest.raises(ValueError, match=r"kiva1: it stands 0\.\d\d m off the grid point"):
+        world.end_steering(1)
+    with pytest.raises(ValueError, match="finite numbers were expected"):
+        world.steer(1, float("nan"), 0.0)

@@ -118,6 +118,10 @@ def test_defaults_are_right(path, place):
         ("world", "bogus", "there is no world 'bogus'; tried"),
         ("viewer_token_file", "token", "token: No such file"),
         ("viewer_host", "no.such host", "an address of this machine"),
+        ("cmd_vel", "kiva0", "names of robots were expected, such as 'kiva1 kiva2'"),
+        ("cmd_vel", "kiva1 rover", "names of robots were expected"),
+        ("map_resolution", "0", "a cell of 0.01 to 1 m"),
+        ("map_resolution", "2", "a cell of 0.01 to 1 m"),
     ],
 )
 def test_one_sentence_names_argument_value_and_what_was_expected(name, wrong, expected, place):
@@ -130,10 +134,17 @@ def test_one_sentence_names_argument_value_and_what_was_expected(name, wrong, ex
     assert "\n" not in text
 
 
+@pytest.mark.parametrize("text", ["", "kiva1", "kiva1 kiva23", "1,2", "kiva1000000"])
+def test_robots_are_named_or_numbered(text, place):
+    assert not launch_arguments.faults({"cmd_vel": text}, place)
+
+
 @pytest.mark.parametrize("path", of_ours(), ids=lambda path: path.name)
 def test_what_no_launch_file_knows_is_refused_with_the_nearest_name(path, place):
-    line = caller("warehouse_sim", path.name, "wrold:=paper")
-    with pytest.raises(LaunchError, match=r"no argument 'wrold' \(did you mean 'world'\?\)"):
+    known = launching.known_arguments(path, launching.SHARE)
+    typed, meant = ("wrold", "world") if "world" in known else ("sede", "seed")
+    line = caller("warehouse_sim", path.name, f"{typed}:=paper")
+    with pytest.raises(LaunchError, match=rf"no argument '{typed}' \(did you mean '{meant}'\?\)"):
         launching.check_arguments({}, line, place)
 
 

@@ -88,6 +88,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
   FIELDS(world.fleet, world.storage.units, world.storage.items);
   if (!std::is_same_v<A, Hasher>) FIELDS(within(world.fleet.mode, 0, kMostMode));
+  if (!std::is_same_v<A, Hasher> || !world.fleet.steerings.empty()) FIELDS(world.fleet.steerings);
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
   if (world.settings.realism.loads.enabled) FIELDS(world.fleet.sway, world.fallen.items);
   if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);

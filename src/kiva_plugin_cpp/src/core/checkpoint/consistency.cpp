@@ -247,7 +247,8 @@ bool fits(const Task& task, std::size_t units) {
   if (task.phase == Phase::kWaiting) {
     return task.follows() && (!at || at->kind == MotionSegment::Kind::kDrive);
   }
-  if ((task.phase == Phase::kIdle) != (at == nullptr)) return false;
+  const bool has_none = task.phase == Phase::kIdle || task.isSteered();
+  if (has_none != (at == nullptr)) return false;
   for (const MotionSegment& segment : task.segments) {
     if (!isInOrNone(segment.unit, units)) return false;
   }
@@ -311,6 +312,23 @@ void checkRobot(const WorldState& world, int i) {
   }
 }
 
+/// Checks that there is a steering for each steered robot.
+void checkSteerings(const WorldState& world) {
+  const FleetState& f = world.fleet;
+  std::set<int> ids;
+  for (std::size_t i = 0; i < f.steerings.size(); ++i) {
+    const Steering& s = f.steerings[i];
+    const int robot = f.find(s.kiva_id);
+    const bool fits = robot >= 0 && f.tasks[robot].isSteered() && ids.insert(s.kiva_id).second;
+    require(fits, "fleet.steerings", i, "kiva_id", "it leads to a robot that is not steered");
+    require(isInOrNone(s.obstacle, world.models.size()), "fleet.steerings", i, "obstacle",
+            "there is no such model");
+  }
+  const auto steered = static_cast<std::size_t>(std::count_if(
+      f.tasks.begin(), f.tasks.end(), [](const Task& task) { return task.isSteered(); }));
+  require(steered == ids.size(), "fleet.steerings", ids.size(), "", "a steered robot is missing");
+}
+
 void checkFleet(WorldState& world) {
   FleetState& f = world.fleet;
   ColumnCheck columns(f.robots.size());
@@ -334,6 +352,7 @@ void checkFleet(WorldState& world) {
   require(f.localisation.size() == (f.localises ? f.robots.size() : 0), "fleet.localisation",
           f.localisation.size(), "", "there is one for every robot that has to find out");
   for (int i = 0; i < f.size(); ++i) checkRobot(world, i);
+  checkSteerings(world);
   for (std::size_t id = 0; id < f.index_of_id.size(); ++id) {
     const int i = f.index_of_id[id];
     const bool leads_back = isIn(i, f.robots.size()) && f.robots[i].id == static_cast<int>(id);

@@ -26,10 +26,10 @@ constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
 constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kPickedUp; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
-constexpr State lastOf(State) { return State::kWaiting; }
+constexpr State lastOf(State) { return State::kSteered; }
 constexpr Drive lastOf(Drive) { return Drive::kJointed; }
 constexpr MotionSegment::Kind lastOf(MotionSegment::Kind) { return MotionSegment::Kind::kLower; }
-constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
+constexpr Phase lastOf(Phase) { return Phase::kSteered; }
 constexpr Failure lastOf(Failure) { return Failure::kWheelSlip; }
 constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
 
@@ -268,8 +268,23 @@ void describe(A& a, Localisation& l) {
 }
 
 template <class A>
+void describe(A& a, DriveVelocity& v) {
+  DESCRIBED(DriveVelocity, 2);
+  FIELDS(within(v.speed, -1e3, 1e3), within(v.turn_rate, -1e6, 1e6));
+}
+
+template <class A>
+void describe(A& a, Steering& s) {
+  DESCRIBED(Steering, 16);
+  FIELDS(s.kiva_id, s.asked, s.silence, s.command, s.lagged, within(s.room, 0, kEndless),
+         s.obstacle, s.looks, s.since_look, s.approach, within(s.curvature, -kEndless, kEndless),
+         within(s.measured, -kEndless, kEndless), s.since_measured, s.bumped, s.origin,
+         s.per_separation);
+}
+
+template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 30);  // fields of realism are described with the world
+  DESCRIBED(FleetState, 31);  // fields of realism are described with the world
   // Some fields are derived from other state: failures, charge, and the next points to count. The
   // allowed speed is derived from people.
   DESCRIBED(Fleet, 27);

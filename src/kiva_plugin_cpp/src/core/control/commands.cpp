@@ -141,12 +141,13 @@ CommandPlan plan(const Scene& world, int robot, const Command& command) {
 
 const char* stateName(State state) {
   static const char* const names[] = {"IDLE",    "MOVING_X", "MOVING_Y", "ROTATING",
-                                      "LIFTING", "BLOCKED",  "WAITING"};
+                                      "LIFTING", "BLOCKED",  "WAITING",  "STEERED"};
   return names[static_cast<int>(state)];
 }
 
 void checkIdle(const FleetState& fleet, int robot) {
   if (fleet.status[robot] == Status::kIdle) return;
+  if (fleet.tasks[robot].isSteered()) throw Steered(fleet.robots[robot].name);
   throw Refusal(std::string("it is not idle but ") + stateName(fleet.state[robot]));
 }
 

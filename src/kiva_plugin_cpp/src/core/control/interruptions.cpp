@@ -40,6 +40,7 @@ void shortenDrive(RobotView& world, Obstacles& obstacles, int robot) {
 void cancel(TaskView& world, Obstacles& obstacles, int robot) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) throw Refusal("it is idle: there is nothing to cancel");
+  if (task.isSteered()) throw Steered(world.fleet.robots[robot].name);
   if (task.phase == Phase::kHalting || task.phase == Phase::kAbandoning) {
     throw Refusal("its command ends already, blocked");
   }

@@ -23,6 +23,13 @@ struct Wedged : Refusal {
   Wedged() : Refusal("it is off the grid, and it reaches no free grid point nearby") {}
 };
 
+/// A refusal because a client drives the robot by velocities.
+struct Steered : Refusal {
+  explicit Steered(const std::string& name)
+      : Refusal("it is driven by /" + name +
+                "/cmd_vel: give it back to the grid first, by /warehouse/set_cmd_vel") {}
+};
+
 /// Tolerance of goals that clients computed [m].
 constexpr double kGoalTolerance = 0.001;
 

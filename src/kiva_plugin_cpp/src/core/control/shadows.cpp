@@ -94,6 +94,9 @@ bool isThere(const Fleet& f, int robot, const RobotReport& report) {
 void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowReport& shadow) {
   checkReport(shadow);
   const int robot = findRobot(world, kiva_id);
+  if (world.fleet.tasks[robot].isSteered()) {
+    fail(world.fleet.robots[robot].name + " is driven by velocities, and can't be a shadow");
+  }
   const int unit = findLoad(world, robot, shadow.report.shelf_id);
   if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, shadow.report)) {
     place(world, robot, shadow.report);

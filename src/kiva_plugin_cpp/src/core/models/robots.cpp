@@ -8,6 +8,7 @@
 #include "core/contact/activation.h"
 #include "core/geometry/angle.h"
 #include "core/models/load.h"
+#include "core/motion/driving/dead_reckoning.h"
 #include "core/motion/driving/drives.h"
 #include "core/motion/driving/self_location.h"
 #include "core/motion/joints/jointed_body.h"
@@ -145,6 +146,17 @@ void stand(FleetState& f, int robot, const EntityState& at) {
   f.yaw_rate[robot] = at.twist.angular.Z();
 }
 
+/// Stops a steered robot that was put elsewhere. Its wheels have not turned.
+void restartSteering(TaskView& world, int robot, const PlanarPose& counted) {
+  Steering fresh;
+  Steering& steering = world.fleet.steering(robot);
+  fresh.kiva_id = steering.kiva_id;
+  steering = fresh;
+  for (auto& target : world.fleet.wheel_target) target[robot] = 0;
+  keepOdometry(world, robot, counted);
+  setStatus(world, robot, Status::kBusy, State::kSteered);
+}
+
 /// Varies motors and tyres a little from the values in the file, by which plans are made.
 void setSpread(const WorldSettings& settings, Robot* robot) {
   constexpr double kMost = 3;  // limit in standard deviations
@@ -211,12 +223,15 @@ void Robots::remove(ModelView& world, Model& model) const {
 
 void Robots::place(ModelView& world, Model& model, const EntityState& state) const {
   const int robot = model.index;
-  if (world.fleet.tasks[robot].phase != Phase::kIdle) {
+  const bool is_steered = world.fleet.tasks[robot].isSteered();
+  const PlanarPose counted = is_steered ? countedPose(world.fleet, robot) : PlanarPose();
+  if (!is_steered && world.fleet.tasks[robot].phase != Phase::kIdle) {
     endBlocked(world, robot, "", "was moved by hand");
   }
   moved(world.fleet, robot);
   stand(world.fleet, robot, state);
   if (world.fleet.localises) relocate(world, robot);
+  if (is_steered) restartSteering(world, robot, counted);
   rebuildBody(world, model);
 }
 
@@ -237,6 +252,7 @@ void Robots::reset(ModelView& world, Model& model) const {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
   if (fleet.localises) relocate(world, robot);  // its wheels are at 0 now
+  if (fleet.tasks[robot].isSteered()) beginOdometry(world, robot);
 }
 
 EntityState Robots::state(const Scene& world, const Model& model) const {

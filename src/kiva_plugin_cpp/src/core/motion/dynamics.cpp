@@ -60,6 +60,7 @@ void readBody(RobotView& world, int robot) {
 bool hasNothingToDo(const FleetState& f, int robot) {
   const Phase phase = f.tasks[robot].phase;
   if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;
+  if (phase == Phase::kSteered) return f.steering(robot).rests();
   return isHeld(f, robot) && (phase == Phase::kStarting || f.reference_speed[robot] == 0);
 }
 

@@ -66,10 +66,25 @@ Braking brakingOf(const Scene& world, int robot) {
   return {period, at_once ? kInfinity : plannedBraking(world, robot)};
 }
 
-Seen seenFrom(const Scene& world, int robot, const MotionSegment& segment, const Walker& walker) {
+/// The way of a robot, which may be backwards along its heading.
+struct Way {
+  double yaw = 0;  // [rad]
+  bool reverse = false;
+};
+
+Way wayOf(const FleetState& f, int robot) {
+  if (f.tasks[robot].isSteered()) {
+    const Steering& s = f.steering(robot);
+    return {f.yaw[robot], s.asked.speed < 0 || s.command.speed < 0};
+  }
+  const MotionSegment& segment = f.tasks[robot].segments.front();
+  return {segment.yaw, segment.reverse};
+}
+
+Seen seenFrom(const Scene& world, int robot, const Way& way, const Walker& walker) {
   const Robot& r = world.fleet.robots[robot];
-  const double sign = segment.reverse ? -1 : 1;
-  const double c = sign * std::cos(segment.yaw), s = sign * std::sin(segment.yaw);
+  const double sign = way.reverse ? -1 : 1;
+  const double c = sign * std::cos(way.yaw), s = sign * std::sin(way.yaw);
   const Vector3& at = world.models[walker.model]->pose.Pos();
   const double dx = at.X() - world.fleet.x[robot], dy = at.Y() - world.fleet.y[robot];
   return {c * dx + s * dy - halfLength(r), std::max(0.0, std::abs(c * dy - s * dx) - halfWidth(r)),
@@ -77,9 +92,9 @@ Seen seenFrom(const Scene& world, int robot, const MotionSegment& segment, const
 }
 
 double whileDriving(const Scene& world, int robot, const Walker& walker) {
-  const MotionSegment& segment = world.fleet.tasks[robot].segments.front();
   const double top = world.fleet.robots[robot].drive.speed;
-  return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
+  const Seen person = seenFrom(world, robot, wayOf(world.fleet, robot), walker);
+  return safeSpeed(person, brakingOf(world, robot), top);
 }
 
 /// Returns the distance beyond which a person does not limit the robot's speed [m].
@@ -102,10 +117,18 @@ double whileTurning(const Scene& world, int robot, const Walker& walker) {
   return isWithin(world, robot, walker, reach) ? 0 : kInfinity;
 }
 
+/// Returns whether it turns in place, or is to.
+bool turnsInPlace(const FleetState& f, int robot) {
+  const Task& task = f.tasks[robot];
+  if (!task.isSteered()) return task.isAt(MotionSegment::Kind::kTurn);
+  const Steering& s = f.steering(robot);
+  return s.asked.speed == 0 && s.command.speed == 0;
+}
+
 double allowedSpeed(const Scene& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
-  if (!task.movesOnFloor()) return kInfinity;
-  const bool turns = task.isAt(MotionSegment::Kind::kTurn);
+  if (!task.movesOnFloor() && !task.isSteered()) return kInfinity;
+  const bool turns = turnsInPlace(world.fleet, robot);
   const double reach = farthestOf(world, robot);
   double least = kInfinity;
   for (const Walker& walker : world.people.walkers) {
@@ -138,7 +161,7 @@ void holdTurns(RobotView& world) {
   for (const Walker& walker : world.people.walkers) {
     for (int i = 0; i < f.size(); ++i) {
       if (!isWithin(world, i, walker, kBeside)) continue;
-      const bool turns = f.tasks[i].isAt(MotionSegment::Kind::kTurn);
+      const bool turns = turnsInPlace(f, i);
       if (turns && whileTurning(world, i, walker) == 0) allow(world, i, 0);
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel/workers.h"
+#include "core/sensing/arc_look.h"
 #include "core/sensing/room.h"
 #include "core/sensing/scans.h"
 #include "core/state/places/footprints.h"
@@ -90,6 +91,7 @@ void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   const auto count = static_cast<int>(robots.size());
   world.schedule.workers->share(count, kLooksTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
+      if (looksAlongArc(f, robots[k])) lookAlongArc(world, scans, robots[k]);
       if (!isOnGuard(f, robots[k])) continue;
       looked[k] = 1;
       Task& task = f.tasks[robots[k]];
@@ -102,12 +104,13 @@ void lookAhead(RobotView& world, Scans& scans, const std::vector<int>& robots) {
   }
 }
 
-/// Returns the robots that have begun to drive, which look at once.
+/// Returns the robots that have begun to drive, or are asked for another way: they look at once.
 std::vector<int> beginners(const Scene& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;
   for (int i : world.schedule.stepped_singly) {
-    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) out.push_back(i);
+    const bool begins = isOnGuard(f, i) && !f.tasks[i].sighting.taken;
+    if (begins || (looksAlongArc(f, i) && f.steering(i).looks)) out.push_back(i);
   }
   return out;
 }

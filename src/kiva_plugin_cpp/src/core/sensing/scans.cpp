@@ -11,11 +11,6 @@ namespace {
 
 constexpr int kMostTogether = 16;
 
-double rayAngle(const LaserParameters& laser, int ray) {
-  const double span = laser.max_angle - laser.min_angle;
-  return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
-}
-
 /// Returns the number of robots with successive ids that scan in the same step, if several have to.
 /// They mostly stand side by side and see the same models, which then are in the processor's cache.
 /// It is a power of two, so that robots' schedules seldom change as robots come and go.
@@ -97,13 +92,19 @@ void setRays(Scans& scans, Robot* robot) {
   const auto at = std::find_if(scans.fans.begin(), scans.fans.end(), same);
   robot->ray_fan = static_cast<int>(at - scans.fans.begin());
   if (at != scans.fans.end()) return;
-  RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}, {}};
-  for (int ray = 0; ray < laser.rays; ++ray) {
-    fan.c.push_back(std::cos(rayAngle(laser, ray)));
-    fan.s.push_back(std::sin(rayAngle(laser, ray)));
+  scans.fans.push_back(fanOf(laser.rays, laser.min_angle, laser.max_angle));
+}
+
+RayFan fanOf(int rays, double min_angle, double max_angle) {
+  RayFan fan{rays, min_angle, max_angle, {}, {}, {}};
+  const double span = max_angle - min_angle;
+  for (int ray = 0; ray < rays; ++ray) {
+    const double angle = min_angle + (rays > 1 ? span * ray / (rays - 1) : 0);
+    fan.c.push_back(std::cos(angle));
+    fan.s.push_back(std::sin(angle));
     fan.per_aside.push_back(1 / std::max(1e-9, std::abs(fan.s.back())));
   }
-  scans.fans.push_back(std::move(fan));
+  return fan;
 }
 
 Sensor sensorOf(const Scene& world, int robot) {

@@ -21,6 +21,9 @@ bool isBlind(const FleetState& fleet, int robot);
 /// Gives the robot the directions of its laser's rays, shared with others of the same kind.
 void setRays(Scans& scans, Robot* robot);
 
+/// Returns the directions of that many rays between two angles to the heading [rad].
+RayFan fanOf(int rays, double min_angle, double max_angle);
+
 Sensor sensorOf(const Scene& world, int robot);
 
 /// Casts the robot's rays, with noise if the realism has it.

@@ -71,10 +71,11 @@ kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_que
       return std::make_shared<Lacking>(context, advice);
     };
   }
+  const auto frames = std::make_shared<FrameOwners>();
   return [=, &root, &publish_queue, &inputs](const std::string& filename,
                                              const kiva::SensorDescription* sensor) {
     const auto entry = table.find(filename);
-    const PluginContext context{root, publish_queue, inputs, sensor};
+    const PluginContext context{root, publish_queue, inputs, frames, sensor};
     return entry == table.end() ? nullptr : entry->second(context);
   };
 }

@@ -30,10 +30,11 @@ std_msgs::String hashMessage(const std::string& hash) {
 }  // namespace
 
 Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
-                         SubscriberCounts& subscribers, SnapshotQueue& snapshots)
+                         SubscriberCounts& subscribers, SnapshotQueue& snapshots,
+                         bool locates_steered)
     : snapshots_(snapshots),
       robots_(root, subscribers),
-      transforms_(root, subscribers),
+      transforms_(root, subscribers, locates_steered),
       clock_(root, "clock", kStreamQueue, [](int) {}),
       events_(root.advertise<warehouse_msgs::Event>("warehouse/events", kEventQueue)),
       collisions_(root.advertise<warehouse_msgs::Collision>("warehouse/collisions", kEventQueue)),

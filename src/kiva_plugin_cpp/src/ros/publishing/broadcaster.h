@@ -25,9 +25,9 @@ namespace kiva_ros {
 /// messages and writes to sockets.
 class Broadcaster {
  public:
-  /// `node` holds the node's private names.
+  /// `node` holds the node's private names. For `locates_steered` see RobotTransforms.
   Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, SubscriberCounts& subscribers,
-              SnapshotQueue& snapshots);
+              SnapshotQueue& snapshots, bool locates_steered);
   ~Broadcaster() { stop(); }
   /// Publishes the snapshots that are queued, and none after them.
   void stop();

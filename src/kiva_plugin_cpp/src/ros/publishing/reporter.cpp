@@ -45,6 +45,9 @@ RobotPose poseOf(const kiva::World& world, int i) {
   out.twist.angular = {0, 0, f.yaw_rate[i]};
   for (int wheel = 0; wheel < 2; ++wheel) out.wheel_angle[wheel] = f.wheel_angle[wheel][i];
   out.tower = f.tower[i];
+  if (!world.isSteered(i)) return out;
+  const kiva::Vector3 at = world.odometry(i).pose;
+  out.counted = kiva::Pose(at.X(), at.Y(), 0, 0, 0, at.Z());
   return out;
 }
 
@@ -56,6 +59,7 @@ bool isSilent(const kiva::World& world, int robot) {
 /// Returns a robot's pose and twist by its own odometry.
 RobotPose believedOf(const kiva::World& world, int i) {
   RobotPose out = poseOf(world, i);
+  if (out.counted) out.base = *out.counted;
   if (!world.realism().localisation.enabled) return out;
   const kiva::Odometry odometry = world.odometry(i);
   const kiva::Vector3& at = odometry.pose;

@@ -35,13 +35,14 @@ struct Scan {
 
 struct RobotPose {
   int kiva_id = 0;
-  kiva::Pose base;       ///< In world.
+  kiva::Pose base;       ///< In world; of the odometry of a steered robot, in kiva<id>/odom.
   kiva::Twist twist;     ///< In base_link.
   bool is_exact = true;  ///< Whether pose and twist are the true ones; then all that follows is 0.
   std::array<double, 9> pose_covariance{};   ///< Covariance of x, y, yaw.
   std::array<double, 4> twist_covariance{};  ///< Covariance of forward speed and turn rate.
   double wheel_angle[2] = {0, 0};            ///< Left, right [rad].
   double tower = 0;                          ///< Height above its rest [m].
+  std::optional<kiva::Pose> counted;         ///< Of a steered robot: base_link in kiva<id>/odom.
 };
 
 /// The states of all models, or of all links.

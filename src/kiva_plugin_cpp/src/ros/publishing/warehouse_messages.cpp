@@ -121,8 +121,9 @@ sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& 
 
 nav_msgs::Odometry toMessage(const RobotPose& robot, double time) {
   nav_msgs::Odometry out;
-  out.header = header(time, "world");
-  out.child_frame_id = robotName(robot.kiva_id) + "/base_link";
+  const std::string name = robotName(robot.kiva_id);
+  out.header = header(time, robot.counted ? name + "/odom" : "world");
+  out.child_frame_id = name + "/base_link";
   out.pose.pose = toMessage(robot.base);
   out.twist.twist = toMessage(robot.twist);
   if (robot.is_exact) return out;

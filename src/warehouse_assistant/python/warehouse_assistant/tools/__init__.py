@@ -7,6 +7,8 @@ floor          the picture of the floor
 robots         commands to robots, transports of storage units
 orders         orders and stock
 stations       stations, and picks that are confirmed
+forecasts      what will come of a shift
 whatif         what-if runs
+sizing         how many robots and stations a warehouse needs
 reading        the documentation; the rest of long replies
 """

@@ -157,7 +157,8 @@ class FleetController:
 
     def set_mode(self, kiva_id: int, mode: RobotMode) -> list[int]:
         """Sets the side that commands a robot; returns the ids of those whose paths are to end at
-        once. Raises ValueError if there is no such robot."""
+        once. Raises ValueError as check_mode()."""
+        self.check_mode(kiva_id, mode)
         robot = self._present(kiva_id)
         self._handover.end(robot)
         self.robots.mode[robot] = mode
@@ -166,9 +167,15 @@ class FleetController:
         self._handover.begin(robot)
         return [] if self.robots.stands[robot] else [kiva_id]
 
-    def check_present(self, kiva_id: int) -> None:
-        """Raises ValueError if there is no such robot, or it is gone."""
-        self._present(kiva_id)
+    def check_mode(self, kiva_id: int, mode: RobotMode) -> None:
+        """Raises ValueError if there is no such robot, if it is gone, or if it is to be AUTOMATIC
+        while a client drives it by velocities."""
+        robot = self._present(kiva_id)
+        if mode == RobotMode.AUTOMATIC and self.robots.steered[robot]:
+            raise ValueError(
+                f"kiva{kiva_id} is driven by /kiva{kiva_id}/cmd_vel: give it back to the grid "
+                "first, by /warehouse/set_cmd_vel"
+            )
 
     def _present(self, kiva_id: int) -> int:
         robot = self.robots.index(kiva_id)

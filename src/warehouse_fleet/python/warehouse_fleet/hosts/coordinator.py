@@ -152,8 +152,8 @@ class CoordinatorNode:
 
     def set_mode(self, kiva_id: int, mode: int) -> None:
         """Sets the side that commands a robot. Raises ValueError with the reason if it can't."""
-        self.controller.check_present(kiva_id)
         check_mode(mode)
+        self.controller.check_mode(kiva_id, RobotMode(mode))
         if why := self._keep_one(kiva_id, mode):
             raise ValueError(why)
         self._send(

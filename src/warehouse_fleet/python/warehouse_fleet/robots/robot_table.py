@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from warehouse_fleet.robots.failures import LIFTS_NOT, STANDS
-from warehouse_layout.message_enums import RobotMode
+from warehouse_layout.message_enums import RobotMode, State
 
 NOWHERE = -1
 AUTOMATIC, OUT_OF_SERVICE = int(RobotMode.AUTOMATIC), int(RobotMode.OUT_OF_SERVICE)
@@ -62,7 +62,8 @@ class RobotTable:
     storage place that a loaded robot may enter), `loaded`, `busy` (lifts or is served: stays).
     By what robots report, written by align() and update_health(): `gone` (deleted; another array
     once it has changed), `charge` (0…1),
-    `failures` (bits as in FleetState), `broken` (it stands, or is not heard), `lifts_not`.
+    `failures` (bits as in FleetState), `broken` (it stands, or is not heard), `lifts_not`,
+    `steered` (a client drives it by velocities).
     By execution, written by Traffic: `cell` (in which the robot stands, or stood last), `stands`
     (nothing released lies ahead), `waits_for` (a robot), `still_since` [s], `stalled` (it does not
     drive although it may), `stalled_since` [s], `astray` (pushed off the middle of its cell),
@@ -83,6 +84,7 @@ class RobotTable:
         self.failures = np.zeros(count, np.uint8)
         self.broken = np.zeros(count, bool)
         self.lifts_not = np.zeros(count, bool)
+        self.steered = np.zeros(count, bool)
         self.cell = np.full(count, NOWHERE, np.int32)
         self.stands = np.zeros(count, bool)
         self.waits_for = np.full(count, NOWHERE, np.int32)
@@ -135,11 +137,13 @@ class RobotTable:
         return out
 
     def update_health(self, reports: Reports) -> None:
-        """Updates batteries and failures by the reports (n,)."""
+        """Updates batteries, failures and steered robots by the reports (n,)."""
         self.charge = reports["charge"].copy()
         self.failures = reports["failures"].copy()
         self.broken = (self.failures & STANDS) != 0
         self.lifts_not = (self.failures & LIFTS_NOT) != 0
+        held_up = self.steered & (reports["state"] == State.BLOCKED)
+        self.steered = (reports["state"] == State.STEERED) | held_up
 
     def send(self, robot: int, cell: int, home: int = NOWHERE) -> None:
         """Sets the cell that a robot is to go to; `home`: a storage place it may enter loaded."""

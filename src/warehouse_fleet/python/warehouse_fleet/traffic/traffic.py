@@ -151,8 +151,10 @@ class Traffic:
         return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
 
     def _find_foreign(self, reports: Reports, foreign: np.ndarray) -> None:
-        """Sets robots MANUAL that were idle and are busy with a person's command."""
+        """Sets robots MANUAL that were idle and are busy with a person's command, or that a client
+        drives by velocities."""
         robots = self.robots
+        robots.mode[robots.steered & robots.automatic] = MANUAL
         foreign = foreign & self._settled & robots.automatic
         if not self.takes_over:
             self._settled |= reports["status"] == IDLE

@@ -184,6 +184,16 @@ class TransportBook:
         self._by_number[self._last] = self.of_unit[shelf] = transport
         return transport
 
+    def restore(self, transport: Transport, robot: int = NOWHERE) -> None:
+        """Adds a transport of another book, at its step, done by a robot of that index."""
+        self._last = max(self._last, transport.number)
+        self._by_number[transport.number] = self.of_unit[transport.shelf] = transport
+        if robot == NOWHERE:
+            self.enqueue(transport)
+            return
+        self.hand_over(transport, robot)
+        self._count(transport, 1)
+
     def enqueue(self, transport: Transport) -> None:
         """Adds a transport to those without a robot."""
         bisect.insort(self.open, transport, key=_urgency)
@@ -288,6 +298,15 @@ class TransportBook:
     def has_events(self) -> bool:
         """Whether there are events to be taken."""
         return bool(self._events)
+
+    @property
+    def pending_events(self) -> list[TransportEvent]:
+        """The events to be taken yet, in order."""
+        return list(self._events)
+
+    def add_events(self, events: Iterable[TransportEvent]) -> None:
+        """Adds events that are to be taken yet."""
+        self._events += events
 
     def take_events(self) -> list[TransportEvent]:
         """Returns all events since the last call, in order."""

@@ -2,7 +2,7 @@
 """Batteries, charging, failures and repair of ideal robots: how much of their time they can work.
 
 The parameters have the names and files of the realism of simulated robots
-(doc/explanation/realism.md); ideal robots ignore its other parts (localisation, radio, people …).
+(doc/explanation/realism.md); ideal robots ignore its other parts (localisation, people …).
 """
 
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ from warehouse_operations.stock.yaml_file import read_yaml
 
 HOUR = 3600.0  # [s]
 DAY = 24 * HOUR  # [s]
-SECTIONS = ("energy", "failures", "actuation")
+SECTIONS = ("energy", "failures", "actuation", "radio")
 KINDS = ("motor", "lift_stuck", "laser_blind", "radio_lost", "wheel_slips")
 
 
@@ -99,13 +99,23 @@ class Motors:
 
 
 @dataclass(frozen=True)
+class Radio:
+    """Mean delays of commands and of reports [s]."""
+
+    latency_mean: float = 0.03
+    status_latency_mean: float = 0.0
+
+
+@dataclass(frozen=True)
 class Availability:
     """The causes that keep ideal robots from work; None: without that cause. motor_lag: time
-    constant with which speeds follow their commands [s]."""
+    constant with which speeds follow their commands [s]. radio_delay: of a robot's report that it
+    has left a cell, and of the command by which another one goes on [s]."""
 
     energy: Energy | None = None
     failures: Failures | None = None
     motor_lag: float = 0.0
+    radio_delay: float = 0.0
 
     def __bool__(self) -> bool:
         return bool(self.energy or self.failures)
@@ -126,14 +136,21 @@ def read(realism: str) -> Availability:
     "": full availability. Raises RealismError."""
     if not realism:
         return Availability()
-    data = read_yaml(_path(realism), RealismError)
+    return of_content(read_yaml(_path(realism), RealismError), realism)
+
+
+def of_content(data: Any, realism: str = "realism") -> Availability:
+    """Returns the availability of a realism's sections. realism: its name, for messages. Raises
+    RealismError."""
     if not isinstance(data, dict):
         raise RealismError(f"{realism}: sections with parameters were expected")
-    energy, failures, actuation = (data.get(section, False) for section in SECTIONS)
+    energy, failures, actuation, radio = (data.get(section, False) for section in SECTIONS)
+    delays = Radio(**_section(realism, "radio", radio, Radio)) if radio else Radio(0.0)
     return Availability(
         Energy(**_section(realism, "energy", energy, Energy)) if energy else None,
         Failures(**_section(realism, "failures", failures, Failures)) if failures else None,
         Motors(**_section(realism, "actuation", actuation, Motors)).motor_lag if actuation else 0.0,
+        delays.latency_mean + delays.status_latency_mean,
     )
 
 
@@ -151,7 +168,7 @@ def _path(realism: str) -> Path:
 
 
 def _section(
-    realism: str, name: str, values: Any, kind: type[Energy | Failures | Motors]
+    realism: str, name: str, values: Any, kind: type[Energy | Failures | Motors | Radio]
 ) -> Mapping[str, float]:
     """Returns the parameters of a section that ideal robots have."""
     if values is True:
@@ -170,7 +187,7 @@ class Upkeep:
     """The batteries of a fleet of ideal robots, by index, and the time spent on them.
 
     cells: charging places. charge: states of charge, (n,). place: the charging place that is kept
-    for a robot, by index. charging_s: robot-seconds.
+    for a robot, by index. charging_s: robot-seconds. radio_delay: as Availability's.
     """
 
     def __init__(
@@ -184,6 +201,7 @@ class Upkeep:
         energy = availability.energy
         self.energy, self.failures, self.rng = energy, availability.failures, rng
         self.drain = availability.drain
+        self.radio_delay = availability.radio_delay
         self.policy, self._cells = policy or Opportunity(), [int(cell) for cell in cells]
         least, most = (energy.initial_least, energy.initial_most) if energy else (1.0, 1.0)
         self.charge = rng.uniform(least, max(least, most), robots)

@@ -2,7 +2,8 @@
 """The battery energy of ideal robots for driving, turning and lifting.
 
 The formulas are those of simulated batteries (doc/explanation/realism.md), with the masses of the
-models: a run from rest to rest gains and loses its kinetic energy once, and so does a turn.
+models: a run from rest to rest gains and loses its kinetic energy once, and so does a turn. What
+robots brake for others, or because the next cells are released late, comes on top.
 """
 
 import math
@@ -20,6 +21,12 @@ GRAVITY = 9.81  # [m/s²]
 STROKE = 0.1  # of the tower, from rest to raised [m]
 TOUCHES = 0.03  # the tower's rise up to the unit's underside, where the load begins [m]
 QUARTER = math.pi / 2  # [rad]
+
+# As fitted to simulated shifts (bench/README.md). Stops for others per metre of way where one robot
+# drives on each cell; those without a unit give way.
+STOPS_LOADED, STOPS_UNLOADED = 0.7, 1.5
+# Delays up to LATE [s] pass unnoticed; BRAKES is the share of any more in which robots brake.
+LATE, BRAKES = 0.1, 0.33
 
 
 @dataclass(frozen=True)
@@ -75,9 +82,13 @@ class Drain:
         """Returns the part of the energy of runs for starts and stops [J]."""
         lengths = np.abs(np.asarray(metres, float))
         peaks = np.sqrt(kinematics.acceleration * lengths) - self._lost(kinematics.acceleration)
-        squares = np.clip(peaks, 0.0, kinematics.speed) ** 2  # [m²/s²]
+        return self.changes(float((np.clip(peaks, 0.0, kinematics.speed) ** 2).sum()), body)
+
+    def changes(self, squares: float, body: Body) -> float:
+        """Returns the energy of speeds that are lost and gained again [J]. squares: by how much
+        their squares change, in all [m²/s²]."""
         inert = body.mass + 2 * WHEEL_INERTIA / WHEEL_RADIUS**2
-        return self._gained_and_lost(inert * float(squares.sum()) / 2)
+        return self._gained_and_lost(inert * squares / 2)
 
     def turns(self, quarters: float, kinematics: Kinematics, body: Body) -> float:
         """Returns the energy of quarter turns from rest to rest [J]."""
@@ -152,19 +163,33 @@ class Way:
 class Consumption:
     """The energy of the trips of a fleet's robots, with or without their units.
 
-    items: the mass of the items on a unit [kg], by its id.
+    items: the mass of the items on a unit [kg], by its id. spacing: of the cells [m]. delay: how
+    late a robot learns on average that another one has left a cell of its way [s].
     """
 
-    def __init__(self, drain: Drain, kinematics: Kinematics, items: MassOfItems) -> None:
+    def __init__(
+        self,
+        drain: Drain,
+        kinematics: Kinematics,
+        items: MassOfItems,
+        spacing: float = 1.0,
+        delay: float = 0.0,
+    ) -> None:
         self._drain, self._kinematics, self._items = drain, kinematics, items
+        braking = 2 * kinematics.speed * kinematics.acceleration * BRAKES
+        self._brakings = braking * max(delay - LATE, 0.0) / spacing
 
-    def drive(self, way: Way, heading: int, unit: int | None) -> float:
+    def drive(self, way: Way, heading: int, unit: int | None, density: float = 0.0) -> float:
         """Returns the energy of a way with a unit, by its id, or without [J]. heading: of the robot
-        before it, as Way.first: a way that goes straight on begins without a turn."""
+        before it, as Way.first: a way that goes straight on begins without a turn. density: robots
+        that drive, per cell of the floor."""
         body = self._with(unit)
         quarters = len(way.runs) - (way.first == heading) if way.runs else 0
         turns = self._drain.turns(quarters, self._kinematics, body)
-        return turns + self._drain.runs(way.runs, self._kinematics, body)
+        runs = self._drain.runs(way.runs, self._kinematics, body)
+        stops = (STOPS_UNLOADED if unit is None else STOPS_LOADED) * density  # [1/m]
+        changes = (stops * self._kinematics.speed**2 + self._brakings) * sum(way.runs)
+        return turns + runs + self._drain.changes(changes, body)
 
     def start(self, metres: float, unit: int | None) -> float:
         """Returns the energy of a start and a stop within a run [J]."""

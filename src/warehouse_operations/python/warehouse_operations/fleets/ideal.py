@@ -74,9 +74,17 @@ class IdealFleet(TransportRequests):
         self.plan_ms: list[float] = []
         self.executed_over_planned = 1.0
         self._floor = IdealFloor(plan, units, self.travel)
-        self._trips = Trips(self._floor, robots, self.kinematics, NearestHooks())
+        self._trips = self._make_trips(robots)
         self._trips.arrive = self.arrive
         super().__init__(plan, self._trips.book)
+
+    def _make_trips(self, robots: Mapping[int, int]) -> Trips:
+        return Trips(self._floor, robots, self.kinematics, NearestHooks())
+
+    @property
+    def trips(self) -> Trips:
+        """The trips of its robots."""
+        return self._trips
 
     @property
     def transports(self) -> "IdealFleet":

@@ -30,6 +30,7 @@ from warehouse_operations.stock.protocols import Hooks, Task
 from warehouse_operations.stock.travel import Table, Travel
 
 OUT = "out of service"  # beside the ACTIVITIES
+DRIVES = frozenset(("to unit", "to station", "back"))  # activities of robots on the floor's streets
 TAKEN = 10.0  # penalty on the distance to an occupied charging place [m]
 WAYS = 100_000  # most ways of loaded robots whose energy is cached
 DEAD = 30.0  # after which a broken robot loses its transport [s]; as recover.DEAD
@@ -93,13 +94,20 @@ class Trips:
         self._consumption: Consumption | None = None
         self._ways_loaded: dict[tuple[int, int, int], Way] = {}
         self._width = floor.plan.passable.shape[1]
+        self._cells, self._driving = int(floor.plan.passable.sum()), 0  # robots
 
     def keep_up(self, upkeep: Upkeep, items: MassOfItems) -> None:
         """Has robots charge, fail and be repaired from now on. items: the mass of those on each
         unit."""
         self.upkeep = upkeep
         if upkeep.drain:
-            self._consumption = Consumption(upkeep.drain, self.kinematics, items)
+            self._consumption = Consumption(
+                upkeep.drain,
+                self.kinematics,
+                items,
+                self.floor.plan.spacing,
+                upkeep.radio_delay,
+            )
         self._schedule_failure(upkeep)
 
     def _schedule_failure(self, upkeep: Upkeep) -> None:
@@ -255,7 +263,7 @@ class Trips:
             return
         spacing = self.floor.plan.spacing
         way = Way.along_axes(robot.cell, to, self._width, spacing, robot.heading)
-        energy = self._consumption.drive(way, robot.heading, None)
+        energy = self._consumption.drive(way, robot.heading, None, self._driving / self._cells)
         self.upkeep.spend(robot.index, -energy if back else energy)
         robot.heading = way.last or robot.heading
 
@@ -274,7 +282,8 @@ class Trips:
             cells = cells[::-1] if outbound else cells
             self._ways_loaded[key] = Way.along(cells, self.floor.plan.spacing)
         way, robot = self._ways_loaded[key], self._driver(transport)
-        energy = self._consumption.drive(way, robot.heading, transport.shelf)
+        density = self._driving / self._cells
+        energy = self._consumption.drive(way, robot.heading, transport.shelf, density)
         self.upkeep.spend(robot.index, energy)
         robot.heading = way.last or robot.heading
 
@@ -315,6 +324,7 @@ class Trips:
             self.upkeep.note(robot.index, self.time)
         if robot.activity != OUT:
             self.seconds[robot.activity] += self.time - robot.since
+        self._driving += (activity in DRIVES) - (robot.activity in DRIVES)
         robot.activity, robot.since = activity, self.time
 
     def _match(self) -> None:

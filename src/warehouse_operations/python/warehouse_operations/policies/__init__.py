@@ -20,6 +20,7 @@ import numpy as np
 from warehouse_fleet.transports import charging
 from warehouse_layout.convert.rawsim.xml_fields import InstanceError
 from warehouse_operations.policies import (
+    batches,
     bins,
     idle,
     learned,
@@ -77,6 +78,14 @@ class BinChoice(Protocol):
         """Returns the bin that a bundle goes to: one of candidates, which have room for it."""
 
 
+class Batches(Protocol):
+    """Says how many bundles are worth the trip of a unit."""
+
+    def least(self, view: "View") -> int:
+        """Returns the fewest bundles with which a unit is fetched now. Bundles that orders lack, or
+        that have waited for long, are fetched for all the same."""
+
+
 class Replenishment(Protocol):
     """Orders bundles to refill the stock."""
 
@@ -129,6 +138,7 @@ ROLES: dict[str, dict[str, Any]] = {
     "units": unit_choice.NAMES | {"learned": learned.LearnedUnits},
     "storage": storage.NAMES,
     "bins": bins.NAMES,
+    "batches": batches.NAMES,
     "replenishment": replenishment.NAMES,
     "robots": robots.NAMES | {"learned": learned.LearnedRobots},
     "idle": idle.NAMES,
@@ -139,6 +149,7 @@ METHODS = {
     "units": "choose",
     "storage": "choose",
     "bins": "choose",
+    "batches": "least",
     "replenishment": "bundles",
     "robots": "match",
     "idle": "park",
@@ -149,6 +160,7 @@ DEFAULTS = {
     "units": "most lines",
     "storage": "nearest",
     "bins": "emptiest",
+    "batches": "at once",
     "replenishment": "threshold",
     "robots": "nearest",
     "idle": "wait",
@@ -171,6 +183,7 @@ class Policies:
     units: UnitChoice
     storage: StoragePlace
     bins: BinChoice
+    batches: Batches
     replenishment: Replenishment
     robots: TaskMatching
     idle: Idle

@@ -29,6 +29,7 @@ CHOSEN: dict[str, tuple[str, dict[str, str]]] = {
         },
     ),
     "OrderBatchingConfig": ("orders", {"Random": "random", "PodMatching": "pile-on"}),
+    "ReplenishmentBatchingConfig": ("batches", {"Random": "at once", "SamePod": "together"}),
 }
 # Options of `Default` order batching, and of the pods of a balanced allocation.
 RULES = {"FCFS": "first come", "DueTime": "due date", "Random": "random"}
@@ -39,7 +40,7 @@ DONE = {
     "RepositioningConfig": "Dummy",
     "MethodManagementConfig": "NoChange",
 }
-OTHERS = ("PathPlanningConfig", "ReplenishmentBatchingConfig")
+OTHERS = ("PathPlanningConfig",)
 
 
 def is_controller(path: PathName) -> bool:

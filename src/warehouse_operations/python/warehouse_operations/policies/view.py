@@ -117,11 +117,16 @@ class View:
 
     def shortages(self) -> dict[str, int]:
         """Returns the pieces that orders need above stock and ordered pieces, by SKU."""
+        lacking = {s: n - self.pieces_at_door(s) for s, n in self.lacking().items()}
+        return {sku: pieces for sku, pieces in lacking.items() if pieces > 0}
+
+    def lacking(self) -> dict[str, int]:
+        """Returns the pieces that orders need above stock, by SKU."""
         demand: dict[str, int] = defaultdict(int, self.backlog.demand)
         for station in self.stations:
             for line in station.missing.values():
                 demand[line.sku] += line.missing
-        lacking = {s: n - self.stock_of(s) - self.pieces_at_door(s) for s, n in demand.items()}
+        lacking = {sku: pieces - self.stock_of(sku) for sku, pieces in demand.items()}
         return {sku: pieces for sku, pieces in lacking.items() if pieces > 0}
 
     # Places.

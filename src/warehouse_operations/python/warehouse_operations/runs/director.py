@@ -2,16 +2,35 @@
 """Carries out the events of a scenario in a shift, each at its time."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from warehouse_operations.runs.event_file import Event
 from warehouse_operations.runs.names import Names
+from warehouse_operations.shift.shift import Shift
 from warehouse_operations.stock.order_file import OrderDraft, read_csv
+from warehouse_operations.stock.site import Site
 
-if TYPE_CHECKING:
-    from warehouse_operations.runs.operations import Operations
+
+class Scene(Protocol):
+    """A shift with its fleet; ideal: whether robots are."""
+
+    @property
+    def shift(self) -> Shift:
+        """The shift."""
+
+    @property
+    def fleet(self) -> Any:
+        """An IdealFleet or a WorldFleet."""
+
+    @property
+    def site(self) -> Site:
+        """The warehouse, with all robots."""
+
+    @property
+    def ideal(self) -> bool:
+        """Whether robots are ideal."""
 
 
 class Director:
@@ -21,7 +40,7 @@ class Director:
     """
 
     def __init__(
-        self, ops: "Operations", events: Sequence[Event], spare: Sequence[int] = (), seed: int = 1
+        self, ops: Scene, events: Sequence[Event], spare: Sequence[int] = (), seed: int = 1
     ) -> None:
         self._ops, self._shift = ops, ops.shift
         self._rng = np.random.default_rng((seed, len(events)))

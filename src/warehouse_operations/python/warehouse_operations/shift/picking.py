@@ -115,6 +115,11 @@ class Picking:
         self._to_assign.update(self._put_off)
         self._put_off = {}
 
+    def restore(self, station: WorkStation, order: Order) -> None:
+        """Gives a station an order of the backlog that it had in an earlier run."""
+        self._backlog.remove(order)
+        self._take_on(station, order)
+
     def _take_on(self, station: WorkStation, order: Order) -> None:
         order.state, order.station, order.assigned = (
             OrderState.ASSIGNED,

@@ -2,7 +2,7 @@
 """Replenishing: queues bundles that arrive, chooses bins for them and fetches their units."""
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import islice
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from warehouse_layout.message_enums import StationMode
 from warehouse_operations.policies import Policies
 from warehouse_operations.policies.view import View
+from warehouse_operations.shift import batches
 from warehouse_operations.shift.context import Context
 from warehouse_operations.shift.task_reports import TaskNumbers
 from warehouse_operations.shift.visits import Visits
@@ -21,6 +22,8 @@ from warehouse_operations.stock.stations import Visit, WorkStation
 PERIOD = 10.0  # between two calls of the policy that orders bundles [s]
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK_AHEAD = 30  # waiting bundles that are tried for a place
+PATIENCE = 14400.0  # for which a bundle waits for others [s]
+PAUSE = 10.0  # after a look at bundles that are too few: it costs time for each of them [s]
 
 
 class Replenishing:
@@ -41,7 +44,7 @@ class Replenishing:
         self._inventory, self._policies, self._view = context.inventory, policies, view
         self._goods_in, self._visits, self._task_numbers = goods_in, visits, task_numbers
         self.sold_out: set[str] = set()  # SKUs of which no more come
-        self._look = True
+        self._look, self._next_look = True, 0.0
         visits.register(self, replenishes=True)
         for station in stations:
             station.on_hands_free.append(self.next_bundle)
@@ -65,7 +68,7 @@ class Replenishing:
 
     def work(self) -> None:
         """Fetches units with room for the bundles that wait."""
-        if not self._look:
+        if not self._look or self._clock.now < self._next_look:
             return
         self._look = False
         limit = -(-self._visits.most // 2)  # few visits, each with many bundles
@@ -79,8 +82,33 @@ class Replenishing:
                 del coming[station]
 
     def _fetch(self, station: WorkStation) -> bool:
-        for bundle in islice(self._goods_in.bundles.values(), LOOK_AHEAD):
-            candidates = self._within_reach(station, self._candidates(bundle))
+        """Fetches a unit for bundles that wait, once so many go along as the policy asks for;
+        returns whether one comes."""
+        bundles, units = self._goods_in.bundles.values(), self._visits.free_units
+        least = self._policies.batches.least(self._view)
+        if least <= 1:
+            return self._fetch_one(station, [*islice(bundles, LOOK_AHEAD)], units)
+        size_of = batches.sizes(self._inventory, units, bundles)
+        near = self._within_reach(station, [*size_of])
+        largest = max((size_of[unit] for unit in near), default=0)
+        if largest < least:
+            self._next_look = self._clock.now + PAUSE
+            return self._fetch_one(station, self._urgent()[:LOOK_AHEAD], units)
+        best = {unit for unit in near if size_of[unit] == largest}
+        return self._fetch_one(station, [*bundles], best)
+
+    def _urgent(self) -> list[Bundle]:
+        """Returns the bundles that orders lack, or that have waited for PATIENCE."""
+        lacking = self._view.lacking()
+        came = self._clock.now - PATIENCE
+        return [b for b in self._goods_in.bundles.values() if b.sku in lacking or b.created <= came]
+
+    def _fetch_one(
+        self, station: WorkStation, bundles: Collection[Bundle], units: Collection[int]
+    ) -> bool:
+        """Fetches one of some units for the first of some bundles that has a place there."""
+        for bundle in bundles:
+            candidates = self._candidates(station, bundle, units)
             if candidates:
                 bin_ = self._policies.bins.choose(bundle, candidates, self._view)
                 visit = self._visits.request(bin_.unit, station, replenishes=True)
@@ -95,36 +123,41 @@ class Replenishing:
     def _retry(self, _: None) -> None:
         self._look = True
 
-    def _candidates(self, bundle: Bundle) -> list[Bin]:
-        """Returns the bins on free units that have room for a bundle."""
-        inventory, free = self._inventory, self._visits.free_units
+    def _candidates(
+        self, station: WorkStation, bundle: Bundle, units: Collection[int]
+    ) -> list[Bin]:
+        """Returns the bins on some units that have room for a bundle, not too far from a
+        station."""
+        inventory = self._inventory
         both = (inventory.with_sku(bundle.sku), inventory.empty.values())
-        return [
+        bins = [
             bin_
-            for bins in both
-            for bin_ in bins
-            if bin_.unit in free and inventory.takes(bin_, bundle.sku, bundle.quantity)
+            for some in both
+            for bin_ in some
+            if bin_.unit in units and inventory.takes(bin_, bundle.sku, bundle.quantity)
         ]
+        near = set(self._within_reach(station, [bin_.unit for bin_ in bins]))
+        return [bin_ for bin_ in bins if bin_.unit in near]
 
-    def _within_reach(self, station: WorkStation, bins: list[Bin]) -> list[Bin]:
-        """Returns those of some bins whose units are not too far from a station."""
+    def _within_reach(self, station: WorkStation, units: list[int]) -> list[int]:
+        """Returns those of some units that are not too far from a station."""
         floor = self._view.floor
-        if not bins or np.isinf(floor.reach):
-            return bins
-        seconds = floor.seconds_to_all(station.name, np.array([bin_.unit for bin_ in bins]))
+        if not units or np.isinf(floor.reach):
+            return units
+        seconds = floor.seconds_to_all(station.name, np.array(units))
         is_near = seconds <= seconds.min() + floor.reach
-        return [bin_ for bin_, near in zip(bins, is_near.tolist()) if near]
+        return [unit for unit, near in zip(units, is_near.tolist()) if near]
 
     def _fill_up(self, visit: Visit) -> None:
         """Adds other waiting bundles that have a place on the same unit to its visit."""
-        inventory = self._inventory
-        bins = inventory.of_unit[visit.unit]
+        inventory, bins = self._inventory, self._inventory.of_unit[visit.unit]
+        is_batch = self._policies.batches.least(self._view) > 1
         for bundle in list(self._goods_in.bundles.values()):
             places = [bin_ for bin_ in bins if inventory.takes(bin_, bundle.sku, bundle.quantity)]
             same = [bin_ for bin_ in places if bin_.sku == bundle.sku]
             if same:
                 self._place(bundle, min(same, key=lambda bin_: bin_.room), visit)
-            elif places and self._view.stock_of(bundle.sku) < bundle.quantity:
+            elif places and (is_batch or self._view.stock_of(bundle.sku) < bundle.quantity):
                 self._place(bundle, places[0], visit)
 
     def _place(self, bundle: Bundle, bin_: Bin, visit: Visit) -> None:

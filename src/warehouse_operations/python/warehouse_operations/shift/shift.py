@@ -175,6 +175,11 @@ class Shift:
         self.inventory.house(self.assortment.skus)
         self.order_book.resume(stored.orders, stored.last_order)
 
+    @property
+    def transports(self) -> Requests:
+        """The fleet, as a shift sees it."""
+        return self._transports
+
     # Time.
 
     @property

@@ -2,7 +2,7 @@
 """Sources of orders and bundles: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
 order_file), `day:…`, `demand:…` or `mix:…` (see orders_text), or `none`."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -25,6 +25,7 @@ LINE_SUMS /= LINE_SUMS[-1]
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
 MOST_FILL = 10_000
+PAST = 300.0  # least time of a rate of recent orders [s]
 AT_ONCE, PAUSE = 1_000, 1.0  # most orders of a file that come together; time until the next [s]
 
 
@@ -33,6 +34,9 @@ class DrawsOrders(Protocol):
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Returns the order that comes now, or None."""
+
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
 
 
 class Customers:
@@ -60,6 +64,10 @@ class Customers:
         due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
         return OrderDraft(tuple(lines.items()), now, now + due)
 
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
+        self._rng = rng
+
     def _draw(self) -> int:
         if not hasattr(self, "_sums"):
             self._sums = np.cumsum(self.assortment.popularity)
@@ -73,6 +81,10 @@ class Fill:
     def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
         self.bundles_per_hour = 0.0
+
+    def draw_anew(self, rng: np.random.Generator, _now: float) -> None:
+        """Draws the orders to come by another generator."""
+        self.customers.draw_anew(rng)
 
     def next_time(self) -> float:
         """Returns inf: new orders replace those that leave the backlog."""
@@ -105,6 +117,12 @@ class Poisson:
         self._next = now
         self._wait()
 
+    def draw_anew(self, rng: np.random.Generator, now: float) -> None:
+        """Draws what comes after a time [s] by another generator."""
+        self._rng, self._next = rng, now
+        self.customers.draw_anew(rng)
+        self._wait()
+
     def next_time(self) -> float:
         """Returns when the next order comes [s]."""
         return self._next
@@ -123,6 +141,18 @@ class Poisson:
         self._next += self._rng.exponential(3600.0 / self.per_hour)
 
 
+def alike(
+    recent: Sequence[OrderDraft], began: float, now: float, rng: np.random.Generator
+) -> Poisson | None:
+    """Returns orders like recent ones of a shift that began at a time [s], at their rate; None
+    without any. now: when the first may come."""
+    if not recent:
+        return None
+    since = max(began, recent[0].at)
+    per_hour = 3600 * len(recent) / max(now - since, PAST)
+    return Poisson(order_mix.Alike(recent, rng), per_hour, 0.0, rng, now)
+
+
 class FromFile:
     """The orders of a CSV file: each at its time, or a little later while many others come or
     wait."""
@@ -132,6 +162,14 @@ class FromFile:
     def __init__(self, drafts: Iterable[OrderDraft]) -> None:
         self._drafts = sorted(drafts, key=lambda draft: draft.at)[::-1]
         self._more_at = 0.0
+
+    def draw_anew(self, _rng: np.random.Generator, _now: float) -> None:
+        """Does nothing: what comes is known."""
+
+    def skip_to(self, now: float) -> None:
+        """Drops the orders up to a time [s]."""
+        while self._drafts and self._drafts[-1].at <= now:
+            self._drafts.pop()
 
     def next_time(self) -> float:
         """Returns when the next order comes [s]; inf after the last."""

@@ -237,6 +237,12 @@ class DrawnDays:
         self._times, self._next = rng, now
         self._wait()
 
+    def draw_anew(self, rng: np.random.Generator, now: float) -> None:
+        """Draws what comes after a time [s] by another generator."""
+        self._seed, self._count = int(rng.integers(2**63)), 0
+        self._times, self._next = rng, now
+        self._wait()
+
     def next_time(self) -> float:
         """Returns when the next order comes [s]."""
         return self._next

@@ -4,7 +4,7 @@
 import heapq
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 
@@ -27,6 +27,10 @@ class EventQueue:
     def schedule(self, time: float, act: Callable[[Any], object], argument: Any = None) -> None:
         """Calls act(argument) at a time [s]."""
         heapq.heappush(self._events, Event(time, next(self._numbers), act, argument))
+
+    def __iter__(self) -> Iterator[Event]:
+        """Returns an iterator over the events, in no order."""
+        return iter(self._events)
 
     @property
     def next_time(self) -> float:

@@ -31,6 +31,10 @@ class Mixed:
         self._lines, self._pieces = lines, pieces
         self._seed, self._count = int(rng.integers(2**63)), 0
 
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
+        self._seed, self._count = int(rng.integers(2**63)), 0
+
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:
         """Draws an order of SKUs in stock, by in_stock(sku) [pieces]; None if none of the drawn
         SKUs is."""
@@ -58,6 +62,10 @@ class Alike:
 
     def __init__(self, orders: Sequence[OrderDraft], rng: np.random.Generator) -> None:
         self._orders = orders
+        self._seed, self._count = int(rng.integers(2**63)), 0
+
+    def draw_anew(self, rng: np.random.Generator) -> None:
+        """Draws the orders to come by another generator."""
         self._seed, self._count = int(rng.integers(2**63)), 0
 
     def order(self, now: float, in_stock: Callable[[str], int]) -> OrderDraft | None:

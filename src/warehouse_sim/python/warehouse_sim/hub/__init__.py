@@ -14,11 +14,9 @@ keeping      keeps the last hour of a simulation as a recording
 recordings   recordings that are played, without a simulation that runs
 journal      what was changed by whom
 forms        launch arguments as fields, with their documentation
-proxy        passes what comes beneath /s/NAME/ on to that simulation's pages
 assistant    starts the assistant's server, which answers at /mcp
-answers      what the endpoints have in common: bodies, errors, the journal
-simulations_api, shelf_api   the endpoints: simulations; worlds, recordings, the journal
-served_pages pages beneath the hub: of simulations, of recordings; the assistant
-routes       the HTTP API
+sizing       how many robots and stations a warehouse needs: the program `size` in a folder
+sizings      all of these
+api          requests and their description; what comes beneath /s/NAME/ is passed on
 application  all of it behind one address
 """

@@ -11,17 +11,18 @@ from starlette.applications import Starlette
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
+from warehouse_sim.hub.api.routes import routes
 from warehouse_sim.hub.assistant import Assistant
 from warehouse_sim.hub.journal import Journal
 from warehouse_sim.hub.recordings import Recordings
-from warehouse_sim.hub.routes import routes
 from warehouse_sim.hub.simulations import Simulations
+from warehouse_sim.hub.sizings import Sizings
 from warehouse_sim.hub.what_if import WhatIf
 from warehouse_viewer.editor.routes import Editor
 from warehouse_viewer.server import documentation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import Server, config_of
-from warehouse_viewer.server.site import DOCS, HUB, LAYOUT, WHATIF, Site
+from warehouse_viewer.server.site import API, DOCS, HUB, LAYOUT, WHATIF, Site
 
 # Requests a second of each address: the pages of several simulations and the assistant's own
 # requests come from one.
@@ -29,9 +30,10 @@ RATE = 400.0
 
 
 class Hub:
-    """Simulations, recordings, what-if, editor and documentation; run() serves until it is stopped.
+    """Simulations, recordings, sizings, what-if, editor and documentation.
 
-    tokens: the token that every client needs, "": without, and an alternative one.
+    run() serves until it is stopped. tokens: the token that every client needs, "": without, and an
+    alternative one.
     """
 
     def __init__(
@@ -39,12 +41,13 @@ class Hub:
         simulations: Simulations,
         recordings: Recordings,
         journal: Journal,
+        sizings: Sizings,
         what_if: WhatIf,
         assistant: Callable[[], Assistant],
         tokens: tuple[str, str] = ("", ""),
     ) -> None:
         self._simulations, self._what_if = simulations, what_if
-        self._recordings = recordings
+        self._recordings, self._sizings = recordings, sizings
         self._make_assistant = assistant
         self._assistant: Assistant | None = None
         application = Starlette(
@@ -53,11 +56,12 @@ class Hub:
                     simulations,
                     recordings,
                     journal,
+                    sizings,
                     lambda: self._assistant or Assistant(None, ""),
                 ),
                 Route(f"{WHATIF.path}/{{rest:path}}", what_if),
                 *Editor(compares=True, starts=True).routes(),
-                *Site(HUB, LAYOUT, WHATIF, DOCS).routes(),
+                *Site(HUB, LAYOUT, WHATIF, API, DOCS).routes(),
                 *documentation.routes(),
             ]
         )
@@ -82,6 +86,7 @@ class Hub:
         finally:
             self._recordings.close()
             self._what_if.close()
+            self._sizings.close()
 
 
 class _HubServer(Server):

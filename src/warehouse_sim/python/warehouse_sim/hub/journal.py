@@ -54,6 +54,11 @@ class Journal:
                 self._write(json.dumps(entry, ensure_ascii=False))
         return entry
 
+    def note_end(self, simulation: str, reason: str) -> None:
+        """Adds an entry about a simulation that ended without a request."""
+        texts = {"who": "the hub", "action": "end", "simulation": simulation, "outcome": reason}
+        self.add("hub", texts, True)
+
     def _write(self, line: str) -> None:
         with suppress(FileNotFoundError):
             if self._file.stat().st_size > MOST_BYTES:

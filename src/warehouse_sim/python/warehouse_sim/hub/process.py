@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from warehouse_sim.hub.wish import Wish
+from warehouse_viewer.server import invitation
 
 PATIENCE = 8.0  # for roslaunch to end its nodes [s, wall]
 # In the environment of all processes of a simulation: its folder. roslaunch gives each node a
@@ -120,6 +121,8 @@ class Process:
         with suppress(OSError):
             text = COLOURS.sub("", self._log.read_text(errors="replace")[-20_000:])
             text = text.partition(END)[0]  # other nodes end after it, some with tracebacks
+            _, invited, after = text.rpartition(invitation.OPENING)
+            text = after.partition("\n")[2] if invited else after  # until then all was well
             lines = [line.strip() for line in text.splitlines() if not NOISE.match(line)]
             return "\n".join(lines[-6:])[-1000:]
         return ""

@@ -15,6 +15,7 @@ from warehouse_viewer.replay.file import NAME as RECORDING
 from warehouse_viewer.server.hub_link import ask
 
 TIMEOUT = 3.0  # for the pages of a simulation to answer [s, wall]
+KEEPING = 300.0  # between two recordings, of which the last one outlives a crash [s, wall]
 
 
 class State(enum.Enum):
@@ -43,7 +44,7 @@ class Simulation:
         self.viewer = ""  # address of its pages; "" until these are served
         self.process: Process | None = None
         self.used = time.monotonic()  # time of the last request to its pages [s, wall]
-        self._begun = 0.0  # [s, wall]
+        self._begun = self._kept = 0.0  # [s, wall]
         self._warehouse: dict[str, Any] = {}
         self._orders: dict[str, Any] = {}
 
@@ -80,7 +81,7 @@ class Simulation:
         (self.folder / "log.txt").write_bytes(b"")
         self._warehouse, self._orders, self.viewer, self.reason = {}, {}, "", ""
         self.process = Process(self.wish, self.folder, environment)
-        self._begun = self.used = time.monotonic()
+        self._begun = self._kept = self.used = time.monotonic()
         self.state = State.STARTING
 
     def keep_recording(self) -> int:
@@ -120,6 +121,14 @@ class Simulation:
             self.stop(State.FAILED, reason)
         else:
             self._look_at_pages(self.process)
+            self._keep_now_and_then()
+
+    def _keep_now_and_then(self) -> None:
+        """Keeps a recording every KEEPING: the pages of a process that dies can't be asked."""
+        if self.viewer and time.monotonic() - self._kept > KEEPING:
+            self._kept = time.monotonic()
+            with suppress(OSError):
+                self.keep_recording()
 
     def _look_at_pages(self, process: Process) -> None:
         self.viewer = self.viewer or process.viewer()

@@ -46,13 +46,20 @@ class Limits:
 class Simulations:
     """The simulations of a folder. Coroutines belong to one asyncio loop.
 
-    `environment` is that of the processes; `worlds` has worlds that were saved.
+    `environment` is that of the processes; `worlds` has worlds that were saved. `ended` is called
+    with the name of a simulation that ended without a request, and the reason.
     """
 
     def __init__(
-        self, folder: Path, limits: Limits, environment: Mapping[str, str], worlds: Worlds
+        self,
+        folder: Path,
+        limits: Limits,
+        environment: Mapping[str, str],
+        worlds: Worlds,
+        ended: Callable[[str, str], object] = lambda _name, _reason: None,
     ) -> None:
         self._folder, self._limits, self.worlds = folder, limits, worlds
+        self._ended = ended
         self._environment = dict(environment)
         self._all: dict[str, Simulation] = {}
         self._locks: dict[str, asyncio.Lock] = {}
@@ -243,6 +250,8 @@ class Simulations:
                 hours = self._limits.idle / 3600
                 reason = f"its pages were not asked for in {hours:g} hours"
                 await self._in_thread(simulation.stop, State.STOPPED, reason)
+            if not simulation.lives:
+                await self._in_thread(self._ended, name, simulation.reason)
 
     async def close(self) -> None:
         """Ends all simulations at once."""

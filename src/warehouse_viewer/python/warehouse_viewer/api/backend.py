@@ -4,7 +4,7 @@
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 from fastapi import Depends, HTTPException
@@ -13,6 +13,7 @@ from fastapi.requests import HTTPConnection
 from warehouse_client.tracking import Tracked
 from warehouse_msgs.msg import CoordinatorState, StationStates
 from warehouse_viewer.api import catalogue, operations_json
+from warehouse_viewer.api.boost import Boost
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.transport_book import TransportBook
@@ -43,6 +44,7 @@ class ApiBackend:
     operations: OperationsClient
     changes: ChangeBook
     monitor: Monitor
+    boost: Boost = field(default_factory=Boost)
 
     async def wait_for_positions(self) -> None:
         """Waits until it is known where everything is."""

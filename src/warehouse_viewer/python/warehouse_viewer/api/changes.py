@@ -4,8 +4,8 @@
     /api/v1/changes?of=orders,stations&rate=2     messages of a kind a second at most, 0.1 … 10
 
 First comes {"type": "shift", "runs": true}, and again whenever that changes. Stations, kpis,
-throughput, coordinator, alarms, figures, notices and heat come whole: as they are now, then as
-often as they change.
+throughput, coordinator, alarms, figures, forecasts, notices and heat come whole: as they are now,
+then as often as they change.
 
     {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
     {"type": "kpis", "kpis": {"items_picked": 123, …}}
@@ -30,6 +30,7 @@ from starlette.websockets import WebSocket
 from warehouse_viewer.api import catalogue, operations_json
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.schemas.fleet import Coordinator, Transport
+from warehouse_viewer.api.schemas.forecasts import Forecast
 from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station, Throughput
 from warehouse_viewer.api.schemas.watch import Alarm, LeadingFigures
 from warehouse_viewer.api.stream import until_gone
@@ -129,6 +130,13 @@ class FiguresNow(BaseModel):
     figures: LeadingFigures
 
 
+class ForecastNow(BaseModel):
+    """Brings the newest forecast once it is done."""
+
+    type: Literal["forecasts"]
+    forecasts: Forecast
+
+
 class HeatNow(BaseModel):
     """Brings where robots drove and waited."""
 
@@ -149,6 +157,7 @@ MESSAGES = (
     NoticesNow,
     AlarmsNow,
     FiguresNow,
+    ForecastNow,
 )
 
 

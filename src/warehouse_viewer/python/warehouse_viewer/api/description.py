@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The API's description: with its WebSockets as `x-websockets`, for which OpenAPI has no words, and
-with the searches of what-if."""
+with the requests of what-if."""
 
 from inspect import getdoc
 from typing import Any
@@ -10,7 +10,7 @@ from fastapi.openapi.utils import get_openapi
 
 from warehouse_viewer.api import changes, stream
 from warehouse_viewer.api.schemas.pydantic_versions import schemas_of
-from warehouse_viewer.whatif import description as designs
+from warehouse_viewer.whatif import description as whatif
 
 REFERENCE = "#/components/schemas/"
 RATE = {"name": "rate", "default": 2, "description": "messages of a kind a second, 0.1 to 10"}
@@ -24,8 +24,8 @@ def described(app: FastAPI) -> dict[str, Any]:
         messages = schemas_of(changes.MESSAGES, REFERENCE)
         kinds = out.setdefault("components", {}).setdefault("schemas", {})
         kinds.update((name, kind) for name, kind in messages.items() if name not in kinds)
-        kinds.update(designs.SCHEMAS)
-        out["paths"].update(designs.PATHS)
+        kinds.update(whatif.SCHEMAS)
+        out["paths"].update(whatif.PATHS)
         out["x-websockets"] = {
             "/api/v1/changes": {
                 "description": getdoc(changes),

@@ -11,6 +11,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metri
 from prometheus_client.exposition import choose_encoder
 from prometheus_client.registry import Collector
 
+from warehouse_viewer.api.operations_json import QUANTILES
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.api.schemas.pydantic_versions import names_of
@@ -19,7 +20,7 @@ from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 
 if TYPE_CHECKING:
-    from warehouse_msgs.msg import CoordinatorState, StationState
+    from warehouse_msgs.msg import CoordinatorState, ForecastResult, StationState
 
 # Figures of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (
@@ -40,6 +41,11 @@ SHIFT_GAUGES = (
     ("late_orders_ratio", "Orders that are or were late.", "late_orders_fraction"),
     ("orders_late", "Orders past their due time that are not complete.", "orders_late"),
     ("stock_ratio", "Pieces over room for pieces.", "stock_level"),
+)
+FORECAST = (
+    ("done", "Orders done by the end of the last forecast."),
+    ("open", "Orders that are open then."),
+    ("late", "Orders that are late by then."),
 )
 PERCENTILES = {"p25": "25", "median": "50", "p75": "75", "p95": "95"}
 # Figures of the CoordinatorState.
@@ -99,6 +105,8 @@ class Metrics(Collector):
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
+        if forecast := self._shift["forecasts"]:
+            yield from _forecast(forecast)
         if message := self._shift["stations"]:
             yield from _stations(message.stations)
 
@@ -113,6 +121,20 @@ class Metrics(Collector):
             }
         except AwayError:  # it has just ended
             return {}
+
+
+def _forecast(result: ForecastResult) -> Iterator[Metric]:
+    """Yields the last forecast's band at its end."""
+    made_at = result.made_at
+    yield _gauge("forecast_made_at_seconds", "Simulated time of the last forecast.", made_at)
+    yield _gauge("forecast_minutes", "How far it looks ahead.", result.minutes)
+    for name, text in FORECAST:
+        bands = {q: getattr(result, f"{name}_{q}") for q in QUANTILES}
+        ends = {q: band[-1] for q, band in bands.items() if len(band)}
+        yield _by_label(f"forecast_{name}", text, "quantile", ends)
+    finish = {q: getattr(result, f"finish_{q}") for q in QUANTILES}
+    text = "Simulated time at which all orders of now are done; NaN: not within the forecast."
+    yield _by_label("forecast_finish_seconds", text, "quantile", finish)
 
 
 def _fleet(state: CoordinatorState) -> Iterator[Metric]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The messages of a shift as JSON."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +10,8 @@ import genpy
 from warehouse_layout.message_enums import OrderEventKind
 from warehouse_msgs import msg
 from warehouse_viewer.api.schemas.operations import MODES, STATES
+
+QUANTILES = ("p10", "p50", "p90")
 
 
 def plain(message: Any) -> Any:
@@ -54,6 +57,16 @@ def notices(message: msg.Notices) -> list[str]:
     return list(message.notices)
 
 
+def forecast(result: msg.ForecastResult) -> dict[str, Any]:
+    """Returns a ForecastResult as JSON."""
+    out = plain(result)
+    for name in ("done", "open", "late", "pieces_per_hour", "finish"):
+        out[name] = {quantile: out.pop(f"{name}_{quantile}") for quantile in QUANTILES}
+    ends = out["finish"].items()
+    finish = {quantile: None if math.isnan(end) else end for quantile, end in ends}
+    return out | {"finish": finish, "state": "DONE"}
+
+
 # Functions that turn messages of a shift's topics into JSON.
 SHOWN: dict[str, Callable[[Any], Any]] = {
     "stations": stations,
@@ -61,4 +74,5 @@ SHOWN: dict[str, Callable[[Any], Any]] = {
     "throughput": plain,
     "heat": plain,
     "notices": notices,
+    "forecasts": forecast,
 }

@@ -20,7 +20,18 @@ if TYPE_CHECKING:
 PLACES = ("x", "y", "yaw", "vx", "vy", "yaw_rate")
 COLUMNS = (*PLACES, "kiva_id", "shelf_id", "status", "state", "last_end", "failures", "charge")
 TRACKED = {"kiva", "storage_unit", "item"}  # every other model is scenery
-UNAVAILABLE = ("reset", "reset_poses", "checkpoint", "restore", "undo", "create", "person")
+UNAVAILABLE = (
+    "reset",
+    "reset_poses",
+    "checkpoint",
+    "restore",
+    "undo",
+    "create",
+    "person",
+    "fail",
+    "start_shift",
+    "stop",
+)
 DECIDES = "the program that steps this warehouse decides that"
 
 

@@ -8,6 +8,7 @@ from genpy import Message
 
 from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import (
+    ForecastResult,
     HeatMap,
     Kpis,
     Notices,
@@ -17,6 +18,7 @@ from warehouse_msgs.msg import (
     Throughput,
 )
 from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.ros.forecast_book import ForecastBook
 
 WHOLE = {
     "stations": StationStates,
@@ -24,15 +26,16 @@ WHOLE = {
     "throughput": Throughput,
     "heat": HeatMap,
     "notices": Notices,
+    "forecasts": ForecastResult,
 }
 
 
 class ShiftFeed:
     """The newest message of each topic that is sent whole, None where no shift runs; changes go
-    into a ChangeBook. `ros` is rospy."""
+    into a ChangeBook. `ros` is rospy; `forecasts` are all that are kept."""
 
     def __init__(self, ros: ModuleType, book: ChangeBook) -> None:
-        self._book = book
+        self._book, self.forecasts = book, ForecastBook()
         self._messages: dict[str, Any] = {}
         self._seq: dict[str, int] = {}
         self._subscribers = {
@@ -56,6 +59,8 @@ class ShiftFeed:
 
     def _keep(self, message: Message, name: str) -> None:
         self._messages[name] = message
+        if isinstance(message, ForecastResult):
+            self.forecasts.take(message)
         self._book.note(name, name, message)
 
     def _take_orders(self, message: OrderStatuses) -> None:

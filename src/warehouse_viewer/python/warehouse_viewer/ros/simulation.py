@@ -33,7 +33,9 @@ SERVICES = {
     "person": ("warehouse/person", "warehouse_msgs", "Person"),
     "pick_up": ("warehouse/pick_up", "warehouse_msgs", "PickUp"),
     "fail": ("warehouse/fail", "warehouse_msgs", "Fail"),
+    "start_shift": ("warehouse/start_shift", "std_srvs", "Trigger"),
 }
+OF_A_SHIFT = "warehouse/find_orders"  # a service that shows that one runs
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,8 @@ class Simulation:
             return f"this version knows no {package}/{kind}"
         try:
             offered = is_offered(self._ros, name)
+            if action == "start_shift" and is_offered(self._ros, OF_A_SHIFT):
+                return "a shift runs already"
         except AwayError as error:
             return str(error)
         if action == "undo" and not self._ros.get_param("gazebo/autosave", 0):
@@ -150,9 +154,18 @@ class Simulation:
         """Puts an item that fell back on its storage unit."""
         return self._do("pick_up", item=f"item{number}")
 
+    def fail(self, number: int, kind: str, repair_time: float) -> str:
+        """Breaks something in a robot, by the name of its FailureKind, until `repair_time` [s] is
+        over; 0: until it is repaired."""
+        return self._do("fail", kiva_id=number, kind=FailureKind[kind], repair_time=repair_time)
+
     def repair(self, number: int) -> str:
         """Repairs all that is broken in a robot."""
-        return self._do("fail", kiva_id=number, kind=FailureKind.REPAIRED, repair_time=0.0)
+        return self.fail(number, FailureKind.REPAIRED.name, 0.0)
+
+    def start_shift(self) -> str:
+        """Starts a coordinator, if none runs, and a shift."""
+        return self._do("start_shift")
 
     def _new_person(self) -> str:
         names = self._call("gazebo/get_world_properties", GetWorldProperties, {}).model_names

@@ -10,6 +10,7 @@ from warehouse_viewer.server import access
 
 EVERYWHERE = ("", "0.0.0.0", "::")  # hosts at which a server hears all machines
 ELSEWHERE = "192.0.2.1"  # no machine's (RFC 5737): nothing is sent to it
+OPENING = "Watch it in a browser:"
 
 
 def address(host: str, port: int) -> str:
@@ -27,7 +28,7 @@ def text(host: str, port: int, token: str = "", place: str = "", is_private: boo
     Only with `is_private`, where its owner alone reads the terminal, that has the token, which lies
     at `place`, and a picture of the address for a phone if other machines reach it.
     """
-    first = f"\nWatch it in a browser: {address(host, port)}"
+    first = f"\n{OPENING} {address(host, port)}"
     if not token:
         return f"{first}\n"
     if not is_private:

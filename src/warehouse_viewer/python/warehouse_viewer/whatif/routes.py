@@ -17,6 +17,7 @@ from warehouse_operations.runs.simulation import ERRORS
 from warehouse_operations.sizing.prices import PriceError
 from warehouse_operations.stock.order_file import DemandError
 from warehouse_viewer.json_text import JSONResponse
+from warehouse_viewer.server.csp import REPORT_CONTENT
 from warehouse_viewer.server.site import WHATIF
 from warehouse_viewer.whatif.design_settings import DesignError, DesignSettings
 from warehouse_viewer.whatif.queue import QueueError
@@ -31,12 +32,6 @@ from warehouse_viewer.whatif.workshop import COMPARED, Workshop
 
 PAGE = WHATIF.path
 FRESH = {"cache-control": "no-store"}
-# A report is a document of its own, with its style in it: it may show itself, and reach nothing.
-REPORT_CONTENT = (
-    "sandbox allow-scripts allow-downloads allow-modals; default-src 'none'; img-src data:;"
-    " font-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline';"
-    " frame-ancestors 'none'"
-)
 SVG, LAYOUT_TYPE = "image/svg+xml", "text/yaml"
 DRAWING_CONTENT = {
     "content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'"

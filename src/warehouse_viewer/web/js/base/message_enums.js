@@ -18,6 +18,7 @@ export const State = Object.freeze({
   LIFTING: 4,
   BLOCKED: 5,
   WAITING: 6, // stands at the last released point of its path
+  STEERED: 7, // is driven by /kiva<id>/cmd_vel
 });
 
 /** The failures of a robot. */

@@ -30,6 +30,7 @@ export const STATE = byNumber({
   [State.LIFTING]: 'lifts',
   [State.BLOCKED]: 'stands before an obstacle',
   [State.WAITING]: 'waits for its turn',
+  [State.STEERED]: 'driven by cmd_vel',
 });
 /** Who commands a robot. */
 export const MODE_WORDS = { [RobotMode.AUTOMATIC]: 'automatic', [RobotMode.MANUAL]: 'manual', [RobotMode.OUT_OF_SERVICE]: 'out of service' };

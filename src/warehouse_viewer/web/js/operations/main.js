@@ -8,6 +8,7 @@ import { get, remove } from '../base/api.js';
 import { Changes } from '../base/changes.js';
 import { $, make, on } from '../base/dom.js';
 import { count, Figures } from './figures.js';
+import { ForecastCard } from './forecast.js';
 import { Gantt } from './gantt.js';
 import { completeSkus, OrderEntry } from './order_entry.js';
 import { OrderList } from './order_list.js';
@@ -20,7 +21,7 @@ import { ThroughputChart } from './throughput.js';
 import { clock } from '../base/time.js';
 
 const PLACES = 200;
-const TOPICS = ['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'alarms', 'figures'];
+const TOPICS = ['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'alarms', 'figures', 'forecasts'];
 
 class Page {
   constructor() {
@@ -31,6 +32,7 @@ class Page {
     this.alarms = new Alarms(fail);
     this.figures = new Figures();
     this.chart = new ThroughputChart();
+    this.forecast = new ForecastCard();
     this.shares = new RobotShares();
     this.gantt = new Gantt();
     this.orders = new OrderList((order) => this.cancel(order), fail, (order) => this.openOrder(order));
@@ -53,6 +55,7 @@ class Page {
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
         this.stations.take(stations);
+        this.forecast.takeStations(stations);
       },
       kpis: ({ kpis }) => {
         this.kpis = kpis;
@@ -60,9 +63,10 @@ class Page {
         this.showChart();
       },
       throughput: ({ throughput }) => {
-        this.throughput = throughput;
+        this.throughput = this.forecast.throughput = throughput;
         this.showChart();
       },
+      forecasts: ({ forecasts: newest }) => this.forecast.take(newest),
       figures: ({ figures }) => this.figures.showLeading(figures),
       alarms: ({ alarms }) => this.alarms.take(alarms),
       orders: (message) => {

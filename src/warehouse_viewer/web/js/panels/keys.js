@@ -11,7 +11,7 @@ const KEYS = {
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
   n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };
-const MORE = { '/': 'search', '← ↑ ↓ →': 'in the picture: to another robot', Enter: 'bring it near', '+ -': 'larger, smaller', '1 … 5': 'open or close a panel', '[ ]': 'the next robot', Esc: 'select nothing' };
+const MORE = { '/': 'search', '← ↑ ↓ →': 'in the picture: to another robot', Enter: 'bring it near', '+ -': 'larger, smaller', '1 … 6': 'open or close a panel', '[ ]': 'the next robot', Esc: 'select nothing' };
 const TYPED = 'input[type="search"], input:not([type]), input[type="number"], select';
 
 export class Keys {

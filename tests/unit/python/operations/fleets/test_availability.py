@@ -58,6 +58,23 @@ def test_a_run_takes_its_rolling_and_its_kinetic_energy():
     assert rolls.runs([10.0], Kinematics(), ROBOT) == pytest.approx(0.015 * 145 * 9.81 * 10)
 
 
+def test_others_on_the_floor_and_late_releases_cost_energy():
+    way, unit, kinematics = Way((10.0,), 1, 1), 1, Kinematics()
+
+    def drive(density=0.0, delay=0.0, loaded=unit):
+        used = consumption.Consumption(Drain(), kinematics, lambda _: 0.0, 1.0, delay)
+        return used.drive(way, 1, loaded, density)
+
+    stop = Drain().changes(kinematics.speed**2, ROBOT + consumption.UNIT)
+    stops = 10.0 * consumption.STOPS_LOADED * 0.02
+    assert drive(0.02) - drive() == pytest.approx(stops * stop)
+    assert drive(0.02, loaded=None) / drive(loaded=None) > drive(0.02) / drive()
+    assert drive(delay=consumption.LATE) == drive()
+    late = drive(delay=consumption.LATE + 0.1) - drive()
+    assert drive(delay=consumption.LATE + 0.2) - drive() == pytest.approx(2 * late)
+    assert 0 < late < 10.0 * stop
+
+
 def test_a_way_is_its_straight_runs():
     assert Way.along([0, 1, 2, 12, 22, 21], 0.5).runs == (1.0, 1.0, 0.5)
     assert Way.along([7], 1.0).runs == ()
@@ -152,7 +169,9 @@ def test_a_realism_of_presets_has_the_drain_of_its_file(tmp_path):
     file = tmp_path / "worn.yaml"
     file.write_text(
         "energy: {rolling_resistance: 0.03, health: 0.8}\nactuation: {motor_lag: 0.05}\n"
+        "radio: {status_latency_mean: 0.1}\n"
     )
     read = availability.read(str(file))
+    assert read.radio_delay == pytest.approx(0.13)  # with that of commands, at its default
     assert read.drain == Drain(rolling_resistance=0.03, motor_lag=0.05)
     assert read.energy.health == 0.8

@@ -85,6 +85,8 @@ def test_an_object_decides():
         ("orders: {name: pile-on, slow_lane: 1}", "unexpected keyword argument 'slow_lane'"),
         ("storage: {name: turnover classes, classes: [0.5]}", "shares above 0 that add up to 1"),
         ("replenishment: {name: threshold, begin: 0.9, stop: 0.1}", "begin 0.9 and stop 0.1"),
+        ("batches: {name: together, most: 0}", "most is 0; 1 or more was expected"),
+        ("batches: {name: together, begin: 0.9}", "begin 0.9 and stop 0.85"),
         ("- orders", "roles with a policy each were expected"),
         ("orders: [", "policies.yaml"),
     ],
@@ -95,6 +97,27 @@ def test_wrong_policies_are_told(tmp_path, text, message):
     with pytest.raises(PolicyError) as error:
         Policies.read(path)
     assert message in str(error.value) and str(path) in str(error.value)
+
+
+@pytest.mark.parametrize("level, least", [(0.9, 8), (0.85, 8), (0.75, 4), (0.65, 1), (0.1, 1)])
+def test_the_fuller_the_stock_the_more_bundles_go_together(level, least):
+    view = SimpleNamespace(inventory=SimpleNamespace(level=level))
+    assert abs(Policies({"batches": "together"}).batches.least(view) - least) <= (level == 0.75)
+    assert Policies().batches.least(view) == 1
+
+
+def test_bundles_that_go_together_save_trips():
+    """Four hours of the same orders: fewer trips for as much stock, and as many pieces."""
+    figures = {}
+    for name in ("at once", "together"):
+        policies = Policies({"batches": name})
+        ops = Operations(site=site(), physics=False, policies=policies, seed=3)
+        ops.run(hours=4)
+        kpis = ops.kpis()
+        visits = kpis["trips"] - kpis["items_picked"] / kpis["pile_on"]
+        figures[name] = kpis["items_picked"], kpis["bundles_stored"] / visits
+    (pieces, at_once), (as_many, together) = figures.values()
+    assert as_many > 0.98 * pieces and together > 1.5 * at_once
 
 
 @pytest.mark.parametrize("name", ["most lines", "most work"])

@@ -8,12 +8,17 @@ import signal
 import subprocess
 import urllib.error
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from hub_process import Hub, until
 
+from warehouse_sim.hub import simulation, sizing, wish
+from warehouse_sim.hub.api import description, routes
 from warehouse_sim.hub.process import MARK, descendants, free_port, marked, sweep
+from warehouse_viewer.replay.file import NAME, FileRecording
 
 
 @pytest.fixture
@@ -134,6 +139,25 @@ def test_a_simulation_that_dies_says_why(hub):
     assert row["state"] == "FAILED"
     assert "gazebo" in row["reason"]
     until(lambda: not living(below), "processes are left")
+    entry = hub.ask("GET", "/api/v1/journal?simulation=one")[1]["entries"][-1]
+    assert (entry["kind"], entry["action"]) == ("hub", "end") and "gazebo" in entry["outcome"]
+
+
+def test_what_a_warehouse_recorded_outlives_its_crash(tmp_path, monkeypatch):
+    monkeypatch.setattr(simulation, "KEEPING", 0.0)
+    warehouse = simulation.Simulation(
+        wish.read({"name": "one", "size": "small"}, tmp_path), tmp_path
+    )
+    warehouse.start(dict(os.environ))
+    try:
+        until(lambda: warehouse.look(1 << 40) or (tmp_path / NAME).exists(), "nothing is recorded")
+        for number in warehouse.process.tree():
+            with suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
+        until(lambda: warehouse.look(1 << 40) or not warehouse.lives, "it lives on")
+    finally:
+        warehouse.stop(keeps_recording=False)
+    assert FileRecording(tmp_path / NAME).chunks
 
 
 def test_what_is_kept_needs_no_simulation(hub):
@@ -217,6 +241,83 @@ def test_without_its_packages_the_assistant_says_what_lacks(hub):
     assert status == 503 and "make serve" in answer["detail"]
 
 
+def test_its_description_has_each_request(hub):
+    api = hub.ask("GET", description.OPENAPI)[1]
+    served = {
+        (route.path, method.lower())
+        for route in routes.routes(*[Mock()] * 5)
+        if route.path.startswith("/api/v1/") and route.path != description.OPENAPI
+        for method in route.methods - {"HEAD"}
+    }
+    described = {(path, method) for path, does in api["paths"].items() for method in does}
+    assert {row for row in described if not row[0].startswith("/whatif/")} == served
+    assert ("/whatif/scenarios", "post") in described
+
+    # What it answers has the fields that it says, and no others.
+    row = hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})[1]
+    entry = hub.ask("GET", "/api/v1/journal")[1]["entries"][0]
+    recording = hub.ask("GET", "/api/v1/recordings")[1]["recordings"][0]
+    argument = hub.ask("GET", "/api/v1/simulation-arguments")[1]["arguments"][0]
+    fault = hub.ask("POST", "/api/v1/simulations", {"name": "Two!"})[1]
+    answers = {
+        "Simulation": row,
+        "JournalEntry": entry,
+        "Recording": recording,
+        "Argument": argument,
+        "Fault": fault,
+    }
+    for name, answer in answers.items():
+        assert set(answer) == set(api["components"]["schemas"][name]["properties"]), name
+
+
+def test_it_says_how_many_robots_a_warehouse_needs(hub):
+    body = {"size": "small", "orders_per_hour": 100, "hours": 0.5, "late": 0.05}
+    status, row = hub.ask("POST", "/api/v1/sizings", body)
+    assert (status, row["id"], row["state"]) == (202, 1, "RUNNING")
+    status, answer = hub.ask("POST", "/api/v1/sizings", body)
+    assert status == 409 and "sizing 1 runs" in answer["detail"]
+    until(lambda: hub.ask("GET", "/api/v1/sizings/1")[1]["state"] != "RUNNING", "it runs on")
+    row = hub.ask("GET", "/api/v1/sizings/1")[1]
+    assert (row["state"], row["url"]) == ("DONE", "/api/v1/sizings/1/report.html"), row
+    meets = r"\d robots? and \d open picking stations? .* 100 orders an hour"
+    assert re.match(meets, row["answer"])
+    api = hub.ask("GET", description.OPENAPI)[1]
+    assert set(row) == set(api["components"]["schemas"]["Sizing"]["properties"])
+
+    # One that can't be met says so, one that runs ends with a request, and all are kept.
+    hub.ask("POST", "/api/v1/sizings", {**body, "orders_per_hour": 100_000})
+    until(lambda: hub.ask("GET", "/api/v1/sizings/2")[1]["state"] != "RUNNING", "it runs on")
+    row = hub.ask("GET", "/api/v1/sizings/2")[1]
+    assert row["state"] == "IMPOSSIBLE" and "162,750 are asked for" in row["answer"], row
+    hub.ask("POST", "/api/v1/sizings", {**body, "size": "large", "hours": 8})
+    assert hub.ask("DELETE", "/api/v1/sizings/3")[1]["state"] == "STOPPED"
+    hub.end()
+    again = Hub(hub.home)
+    assert [row["id"] for row in again.ask("GET", "/api/v1/sizings")[1]["sizings"]] == [2, 1]
+    again.end()
+
+
+@pytest.mark.parametrize(
+    "body, field",
+    [
+        ({"size": "small"}, "orders_per_hour"),
+        ({"orders_per_hour": 10}, "size"),
+        ({"size": "empty", "orders_per_hour": 10}, "size"),
+        ({"size": "small", "orders_per_hour": 1e999}, "orders_per_hour"),
+        ({"size": "small", "orders_per_hour": 10, "late": 0}, "late"),
+        ({"size": "small", "orders_per_hour": 10, "hours": True}, "hours"),
+        ({"size": "smal", "orders_per_hour": 10}, "size"),
+        ({"layout": "kiva_layout: 1\nx", "orders_per_hour": 10}, "layout"),
+        ({"size": "small", "orders_per_hour": 10, "realism": "rainy"}, "realism"),
+        ({"size": "small", "orders_per_hour": 10, "robots": 3}, "robots"),
+    ],
+)
+def test_a_question_that_is_wrong_names_its_field(body, field, tmp_path):
+    with pytest.raises(wish.WishError) as error:
+        sizing.read(body, tmp_path)
+    assert error.value.field == field
+
+
 def test_large_layouts_may_be_sent(hub):
     layout = "layout: 1\nfloor: |\n" + 500 * ("  " + 600 * "?" + "\n")
     status, answer = hub.ask("POST", "/api/v1/simulations", {"name": "one", "layout": layout})
@@ -237,6 +338,9 @@ def test_a_simulation_that_takes_too_much_is_ended(tmp_path, limit, state, reaso
     hub.ask("POST", "/api/v1/simulations", {"name": "one", "empty": True})
     row = hub.wait_for("one", state)
     assert row["state"] == state and reason in row["reason"]
+    entries = hub.ask("GET", "/api/v1/journal?simulation=one")[1]["entries"]
+    assert [entry["action"] for entry in entries] == ["start", "end"]
+    assert reason in entries[-1]["outcome"]
     assert not living(hub.end())
 
 

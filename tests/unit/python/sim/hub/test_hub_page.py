@@ -2,7 +2,7 @@
 """The hub's page in a real browser: a warehouse from the first click to its own pages."""
 
 import pytest
-from hub_process import PATIENCE, Hub
+from hub_process import PATIENCE, Hub, until
 from rostest_support import axe
 from rostest_support.browser import browser
 
@@ -76,6 +76,20 @@ def test_1_all_of_the_house_needs_no_simulation(hub, page):
     for path in ("/layout", "/whatif"):
         page.open(hub.url + path)
         page.until("document.querySelectorAll('.site a').length >= 3")
+    page.open(hub.url + "/")
+    page.until(LIVE)
+
+
+def test_1_each_request_can_be_tried(hub, page):
+    page.open(hub.url + "/api/docs")
+    sections = "document.querySelectorAll('#operations details').length"
+    until(lambda: page.read(sections) > 20, "no requests are shown")
+    form = "document.querySelector('#operations details form')"
+    click(page, f"{form}.querySelector('button')")
+    shown = f"{form}.querySelector('pre').textContent"
+    until(lambda: "simulations" in page.read(shown), "there is no answer")
+    if axe.is_there():
+        assert axe.findings(page) == []
     page.open(hub.url + "/")
     page.until(LIVE)
 

@@ -3,6 +3,7 @@
 
 import asyncio
 import json
+import math
 import re
 from types import SimpleNamespace
 
@@ -10,7 +11,7 @@ import pytest
 import rospy
 from fake_hub import Socket
 from fake_ros import FakeRos
-from fastapi import FastAPI
+from fastapi import FastAPI, HTTPException
 from paths import ROOT
 from prometheus_client.parser import text_string_to_metric_families
 from sample_messages import coordinator_state, fleet
@@ -21,6 +22,8 @@ from warehouse_msgs import msg, srv
 from warehouse_viewer.api import changes, description, operations_json
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.api.operations_json import QUANTILES
+from warehouse_viewer.api.routes import forecasts
 from warehouse_viewer.api.schemas.pydantic_versions import as_json
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
@@ -159,6 +162,7 @@ def test_prometheus_gets_every_figure_that_the_dashboard_shows():
     shift = Shift()
     shift.stations("pick1", "pick2")
     shift.tell("kpis", msg.Kpis, items_picked=42, orders_late=3)
+    shift.tell("forecasts", msg.ForecastResult, **forecast())
     feed = Heard(performance=PerformanceMetrics(real_time_factor=0.9), fleet=fleet(stamp=60.0))
     feed.coordinator = coordinator_state(60.0, bringing=5, plan_p99=20.0, alarms=["a", "b"])
     text, kind = Metrics(feed, shift.work).text()
@@ -175,6 +179,56 @@ def test_prometheus_gets_every_figure_that_the_dashboard_shows():
     panels = json.loads(DASHBOARD.read_text())["panels"]
     asked = {name for p in panels for t in p["targets"] for name in names_in(t["expr"])}
     assert asked == {name for name, *_ in samples}
+
+
+def forecast(number=3, **fields):
+    bands = {f"{name}_{q}": [1.0, 2.0] for name in ("done", "open", "late") for q in QUANTILES}
+    finish = {"finish_p10": 900.0, "finish_p50": 1200.0, "finish_p90": math.nan}
+    bands |= {f"pieces_per_hour_{q}": [60.0, 60.0] for q in QUANTILES}
+    return {
+        "forecast_id": number,
+        "made_at": 600.0,
+        "minutes": 20.0,
+        "runs": 8,
+        "time": [60.0, 120.0],
+        "text": "all is well",
+        **bands,
+        **finish,
+        **fields,
+    }
+
+
+def test_a_forecast_comes_to_followers_and_to_prometheus():
+    async def scenario():
+        shift, socket = Shift(), Socket()
+        shift.stations()
+        shift.tell("forecasts", msg.ForecastResult, **forecast())
+        await changes._Reader(socket, shift.backend(), ["forecasts"]).send_news()
+        return shift, socket.texts[-1]
+
+    shift, news = asyncio.run(scenario())
+    assert news["forecasts"]["done"] == {q: [1.0, 2.0] for q in QUANTILES}
+    assert news["forecasts"]["finish"] == {"p10": 900.0, "p50": 1200.0, "p90": None}
+    assert json.loads(as_json(changes.ForecastNow(**news))) == news
+    text = Metrics(Heard(), shift.work).text()[0].decode()
+    assert 'warehouse_forecast_done{quantile="p90"} 2.0' in text
+    assert 'warehouse_forecast_finish_seconds{quantile="p50"} 1200.0' in text
+
+
+def test_a_forecast_is_found_by_its_number():
+    shift = Shift()
+    shift.stations()
+    backend, book = shift.backend(), shift.work.feed.forecasts
+    with pytest.raises(HTTPException, match="there is no such forecast"):
+        forecasts._shown(backend, 1)
+    book.ask(2)
+    book.ask(3)
+    assert forecasts._shown(backend, 3) == {"forecast_id": 3, "state": "RUNNING"}
+    assert forecasts._shown(backend, 2)["state"] == "REPLACED"
+    shift.tell("forecasts", msg.ForecastResult, **forecast())
+    assert forecasts._shown(backend, 3)["state"] == "DONE"
+    book.ask(1)  # of another shift
+    assert book.newest == 1 and forecasts._shown(backend, 1)["state"] == "RUNNING"
 
 
 def names_in(expression):

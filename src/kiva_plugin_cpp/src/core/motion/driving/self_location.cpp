@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/motion/driving/dead_reckoning.h"
 #include "core/state/progress/tasks.h"
 #include "core/state/world/random_stream.h"
 
@@ -102,6 +103,7 @@ void track(TaskView& world, int robot) {
     l.slip_for -= l.roll(f.wheel_angle[0][robot], f.wheel_angle[1][robot]);
     if (l.slip_for <= 0) drawSlip(world, robot, kSlipLength);
   }
+  if (f.tasks[robot].isSteered()) return growUncertainty(world, robot);  // its client locates it
   readCode(world, robot, false);
   checkLost(world, robot);
 }
@@ -129,7 +131,11 @@ void readCode(RobotView& world, int robot, bool stands) {
   l.lost = false;
 }
 
-Odometry odometryOf(const Scene& world, int robot) {
+namespace {
+
+/// Returns the odometry in world, by the estimate that codes correct; without the uncertainty of a
+/// steered robot's wheel separation, which makeLocal() adds.
+Odometry estimateOf(const Scene& world, int robot) {
   const Fleet& fleet = world.fleet;
   const FleetState& f = world.fleet;
   Odometry out;
@@ -143,7 +149,7 @@ Odometry odometryOf(const Scene& world, int robot) {
   Localisation l = f.localisation[robot];
   const double alike = l.stretch.under_way ? l.slip_for : kSlipLength;
   l.settle(f.reference[robot], f.wheel_angle[0][robot], f.wheel_angle[1][robot]);
-  l.propagate(real.slip, real.wheel_separation_error);
+  l.propagate(real.slip, f.tasks[robot].isSteered() ? 0 : real.wheel_separation_error);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       out.pose_covariance[3 * i + j] = l.covariance[i * Localisation::kStates + j];
@@ -155,6 +161,14 @@ Odometry odometryOf(const Scene& world, int robot) {
             out.twist_covariance.data());
   out.speed = speeds[0];
   out.turn_rate = speeds[1];
+  return out;
+}
+
+}  // namespace
+
+Odometry odometryOf(const Scene& world, int robot) {
+  Odometry out = estimateOf(world, robot);
+  if (world.fleet.tasks[robot].isSteered()) makeLocal(world, robot, &out);
   return out;
 }
 

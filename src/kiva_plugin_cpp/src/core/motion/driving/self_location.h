@@ -24,7 +24,7 @@ void track(TaskView& world, int robot);
 void readCode(RobotView& world, int robot, bool stands);
 /// Draws the slip of the wheels for the next `length` [m].
 void drawSlip(RobotView& world, int robot, double length);
-/// Returns the robot's odometry.
+/// Returns the robot's odometry: in world, or in its own frame while it is steered.
 Odometry odometryOf(const Scene& world, int robot);
 /// Stops a robot that has gone too far without a code, and reports it as lost. Returns whether it
 /// is lost.

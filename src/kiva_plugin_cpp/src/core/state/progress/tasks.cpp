@@ -29,6 +29,16 @@ void becomeIdle(TaskView& world, int robot) {
   f.wheel_target[0][robot] = f.wheel_target[1][robot] = 0;
 }
 
+/// Holds a steered robot until its client asks it to stop.
+void holdSteered(TaskView& world, int robot, const std::string& by, const std::string& reason) {
+  Steering& steering = world.fleet.steering(robot);
+  if (steering.bumped) return;
+  steering.bumped = true;
+  moved(world.fleet, robot);
+  setStatus(world, robot, Status::kBlocked, State::kBlocked);
+  reportCommand(world, world.log, Event::Kind::kBlocked, robot, by, reason);
+}
+
 void end(TaskView& world, int robot, Event::Kind kind, const std::string& other,
          const std::string& text) {
   becomeIdle(world, robot);
@@ -177,6 +187,7 @@ void endBlocked(TaskView& world, int robot, const std::string& by, const std::st
 
 void haltRobot(TaskView& world, int robot, const std::string& by, const std::string& reason) {
   const Task& task = world.fleet.tasks[robot];
+  if (task.isSteered()) return holdSteered(world, robot, by, reason);
   if (task.phase == Phase::kWaiting) return endBlocked(world, robot, by, reason);
   if (task.movesOnFloor()) stopTask(world, robot, Phase::kHalting, by, reason);
 }

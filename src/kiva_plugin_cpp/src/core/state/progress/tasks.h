@@ -37,7 +37,7 @@ void endDone(TaskView& world, int robot);
 /// Ends the command in BLOCKED at once, in any phase.
 void endBlocked(TaskView& world, int robot, const std::string& by, const std::string& reason);
 /// Locks the wheels of a robot that turns or drives, at once. A robot that lifts stands anyway; a
-/// path on which it stands ends.
+/// path on which it stands ends; a steered robot stands until its client asks it to stop.
 void haltRobot(TaskView& world, int robot, const std::string& by, const std::string& reason);
 /// Sets the status that the robot reports, and records a change.
 void setStatus(TaskView& world, int robot, Status status, State state);

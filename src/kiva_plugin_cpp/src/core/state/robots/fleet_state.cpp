@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/robots/fleet_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -45,6 +46,10 @@ void FleetState::remove(int i) {
     array[i] = std::move(array.back());
     array.pop_back();
   });
+  const int id = robots[i].id;
+  steerings.erase(std::remove_if(steerings.begin(), steerings.end(),
+                                 [id](const Steering& s) { return s.kiva_id == id; }),
+                  steerings.end());
   if (localises) {
     localisation[i] = localisation.back();
     localisation.pop_back();
@@ -61,6 +66,16 @@ void FleetState::applyRealism(const Realism& realism, double dt) {
   lag.behind = (1 / lag.share - 1) * dt;
 }
 
+const Steering& FleetState::steering(int i) const {
+  const int id = robots[i].id;
+  return *std::find_if(steerings.begin(), steerings.end(),
+                       [id](const Steering& s) { return s.kiva_id == id; });
+}
+
+Steering& FleetState::steering(int i) {
+  return const_cast<Steering&>(std::as_const(*this).steering(i));
+}
+
 void FleetState::follow(int i, const Profile& command) {
   if (lag.isNone()) return setProfile(i, command);
   const double speed = reference_speed[i] + lag.share * (command.speed - reference_speed[i]);
@@ -74,7 +89,7 @@ void FleetState::follow(int i, const Profile& command) {
 bool isHeld(const FleetState& f, int i) {
   if (f.stopped[i] || f.curtained[i]) return true;
   if (f.failures[i] == 0 && f.allowed_speed[i] > 0) return false;
-  const bool moves = f.tasks[i].movesOnFloor();
+  const bool moves = f.tasks[i].movesOnFloor() || f.tasks[i].isSteered();
   if (moves && f.allowed_speed[i] == 0) return true;
   const int holds = moves ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
   return (f.failures[i] & (holds | kEmptyBattery)) != 0;

@@ -13,6 +13,7 @@
 #include "core/estimation/localisation.h"
 #include "core/state/robots/profile.h"
 #include "core/state/robots/released_path.h"
+#include "core/state/robots/steering.h"
 #include "kiva_plugin_cpp/fleet.h"
 #include "kiva_plugin_cpp/realism.h"
 
@@ -34,15 +35,16 @@ struct MotionSegment {
 
 /// The phase of a robot's task, and the event that ends it.
 enum class Phase : std::uint8_t {
-  kIdle,       ///< No command. Ends with the next one.
-  kStarting,   ///< The next control step begins the first segment.
-  kTurning,    ///< Ends at the segment's heading.
-  kDriving,    ///< Ends at the segment's goal.
-  kLifting,    ///< The tower raises or lowers the unit. Ends at its height.
-  kWaiting,    ///< Stands on its path. Ends with a release, or with a free way if it has a segment.
-  kBraking,    ///< Drives on to a stop before an obstacle. Ends standing: BLOCKED.
-  kHalting,    ///< Brakes with locked wheels. Ends standing: BLOCKED.
-  kAbandoning  ///< Gives up a lift: the tower comes down. Ends with it down: BLOCKED.
+  kIdle,      ///< No command. Ends with the next one.
+  kStarting,  ///< The next control step begins the first segment.
+  kTurning,   ///< Ends at the segment's heading.
+  kDriving,   ///< Ends at the segment's goal.
+  kLifting,   ///< The tower raises or lowers the unit. Ends at its height.
+  kWaiting,   ///< Stands on its path. Ends with a release, or with a free way if it has a segment.
+  kBraking,   ///< Drives on to a stop before an obstacle. Ends standing: BLOCKED.
+  kHalting,   ///< Brakes with locked wheels. Ends standing: BLOCKED.
+  kAbandoning,  ///< Gives up a lift: the tower comes down. Ends with it down: BLOCKED.
+  kSteered      ///< A client drives it by velocities. Ends when the client gives it back.
 };
 
 /// The nearest thing ahead in one scan of a robot on a drive.
@@ -78,7 +80,8 @@ struct Task {
     return follows() && isAt(MotionSegment::Kind::kDrive) && segments.front().on_grid;
   }
   /// Returns whether its command will end in BLOCKED.
-  bool isStopping() const { return phase >= Phase::kBraking; }
+  bool isStopping() const { return phase >= Phase::kBraking && !isSteered(); }
+  bool isSteered() const { return phase == Phase::kSteered; }
   const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
   bool isAt(MotionSegment::Kind kind) const {
     return !segments.empty() && segments.front().kind == kind;
@@ -160,6 +163,8 @@ struct FleetState : Fleet {
   bool localises = false;
   std::vector<Localisation> localisation;
 
+  Steerings steerings;  ///< One for each robot in the phase kSteered.
+
   /// Top speed of the fastest robot that the fleet has had [m/s].
   double fastest = 0;
 
@@ -171,6 +176,10 @@ struct FleetState : Fleet {
     if (!localises) return {x[i], y[i], yaw[i]};
     return localisation[i].at(reference[i]);
   }
+
+  /// Returns the steering of robot `i`, which is steered.
+  Steering& steering(int i);
+  const Steering& steering(int i) const;
 
   Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
   void setProfile(int i, const Profile& profile) {

@@ -7,6 +7,7 @@
 #include <ros/ros.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,10 +19,20 @@
 
 namespace kiva_ros {
 
+/// A model that publishes a frame, by one of its plugins.
+struct FrameOwner {
+  std::string model;
+  const void* plugin = nullptr;
+};
+
+/// The owners of frames, by the frames' names.
+using FrameOwners = std::map<std::string, FrameOwner>;
+
 struct PluginContext {
   ros::NodeHandle& root;
   PublishQueue& publish_queue;
   PluginInputs& inputs;
+  std::shared_ptr<FrameOwners> frames;
   const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
 };
 
@@ -50,6 +61,7 @@ class GazeboPlugin : public kiva::Plugin {
       : root_(context.root),
         publish_queue_(context.publish_queue),
         inputs_(context.inputs),
+        frames_(context.frames),
         sensor_(context.sensor) {}
   bool isStrict() const override { return false; }
 
@@ -80,6 +92,7 @@ class GazeboPlugin : public kiva::Plugin {
                       std::uint64_t index) const;
 
   ros::NodeHandle& node() { return *node_; }
+  FrameOwners& frames() { return *frames_; }
   const std::string& model() const { return model_; }
   const kiva::ModelDescription& description() const { return *description_; }
   std::uint64_t seed() const { return seed_; }
@@ -108,6 +121,7 @@ class GazeboPlugin : public kiva::Plugin {
   ros::NodeHandle& root_;
   PublishQueue& publish_queue_;
   PluginInputs& inputs_;
+  const std::shared_ptr<FrameOwners> frames_;
   const kiva::SensorDescription* sensor_;
   std::unique_ptr<ros::NodeHandle> node_;
   std::string namespace_, model_;

@@ -28,7 +28,7 @@ void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::P
   publish_wheel_tf_ = p.flag("publishWheelTF", false);
   publish_wheel_joints_ = p.flag("publishWheelJointState", false);
   skip(p, {"alwaysOn", "rosDebugLevel", "broadcastTF"});
-  openTopics(p);
+  openTopics(world, p);
   if (publish_wheel_joints_) joints_ = advertise<sensor_msgs::JointState>("joint_states");
 }
 
@@ -132,7 +132,7 @@ void DiffDrive::publishWheels(const kiva::World& world) {
     joints.position.push_back(state->position);
     joints.velocity.push_back(state->rate);
     const kiva::Pose base = parent ? parent->pose : kiva::Pose::Zero;
-    tf.transforms.push_back(transform(world.time(), frame(joint.parent), frame(joint.child),
+    tf.transforms.push_back(transform(world.time(), ownFrame(joint.parent), ownFrame(joint.child),
                                       base.Inverse() * child->pose));
   }
   if (publish_wheel_joints_) publish(joints_, joints);

@@ -11,9 +11,34 @@
 
 namespace kiva_ros {
 
-void DrivePlugin::openTopics(const kiva::Parameters& p) {
+DrivePlugin::~DrivePlugin() {
+  for (const std::string& name : {odometry_frame_, base_frame_}) {
+    const auto at = frames().find(name);
+    if (at != frames().end() && at->second.plugin == this) frames().erase(at);
+  }
+}
+
+void DrivePlugin::claimFrames(kiva::World& world) {
+  for (const std::string& name : {odometry_frame_, base_frame_}) {
+    const auto at = frames().find(name);
+    if (at == frames().end() || at->second.model == model()) continue;
+    prefix_ = model() + "/";
+    world.warn("'" + model() + "' has the frames of '" + at->second.model + "', " +
+               odometry_frame_ + " and " + base_frame_ + ": here they are " + prefix_ +
+               odometry_frame_ + " and " + prefix_ + base_frame_ +
+               "; the parameter tf_prefix in its namespace names others");
+    break;
+  }
+  for (std::string* name : {&odometry_frame_, &base_frame_}) {
+    *name = prefix_ + *name;
+    frames()[*name] = {model(), this};
+  }
+}
+
+void DrivePlugin::openTopics(kiva::World& world, const kiva::Parameters& p) {
   odometry_frame_ = frame(p.text("odometryFrame", "odom"));
   base_frame_ = frame(p.text("robotBaseFrame", "base_footprint"));
+  claimFrames(world);
   odometry_ = advertise<nav_msgs::Odometry>(p.text("odometryTopic", "odom"));
   transforms_ = advertise<tf2_msgs::TFMessage>(shared("tf"), 100);
   commands_ = subscribe<geometry_msgs::Twist>(p.text("commandTopic", "cmd_vel"));

@@ -13,6 +13,7 @@ namespace kiva_ros {
 class DrivePlugin : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
+  ~DrivePlugin() override;
 
  protected:
   static constexpr double kMost = 1e6;  ///< Largest speed and length, in SI units.
@@ -26,8 +27,11 @@ class DrivePlugin : public GazeboPlugin {
     double x = 1e-5, y = 1e-5, yaw = 1e-3;
   };
 
-  /// Reads commandTopic, odometryTopic, odometryFrame and robotBaseFrame.
-  void openTopics(const kiva::Parameters& parameters);
+  /// Reads commandTopic, odometryTopic, odometryFrame and robotBaseFrame. Frames that another model
+  /// publishes already, such as one of the same description, get this model's name as a prefix.
+  void openTopics(kiva::World& world, const kiva::Parameters& parameters);
+  /// Returns a frame's name with the prefixes of this model.
+  std::string ownFrame(const std::string& name) const { return prefix_ + frame(name); }
   void setCovariance(const Covariance& covariance) { covariance_ = covariance; }
   /// Takes the newest message on the command topic. Returns whether there was one.
   bool takeCommand();
@@ -40,6 +44,9 @@ class DrivePlugin : public GazeboPlugin {
   ros::Publisher& transforms() { return transforms_; }
 
  private:
+  void claimFrames(kiva::World& world);
+
+  std::string prefix_;
   DriveCommand command_;
   Covariance covariance_;
   std::string odometry_frame_, base_frame_;

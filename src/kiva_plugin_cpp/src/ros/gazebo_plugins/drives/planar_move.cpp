@@ -13,7 +13,7 @@ void PlanarMove::load(kiva::World& world, const std::string& model, const kiva::
   timeout_ = p.number("cmdTimeout", -1, -kMost, kMost);
   schedule_ = Schedule(p.number("odometryRate", 20, 0, kMost));
   skip(p, {"alwaysOn", "updateRate"});
-  openTopics(p);
+  openTopics(world, p);
 }
 
 /// Collisions do not change the commanded velocity, as in Gazebo. Unlike there, the model falls,

@@ -22,7 +22,7 @@ void SkidSteer::load(kiva::World& world, const std::string& model, const kiva::P
   setCovariance({p.number("covariance_x", 1e-4, 0, 1e12), p.number("covariance_y", 1e-4, 0, 1e12),
                  p.number("covariance_yaw", 0.01, 0, 1e12)});
   skip(p, {"alwaysOn"});
-  openTopics(p);
+  openTopics(world, p);
 }
 
 void SkidSteer::beforeStep(kiva::World& world, double) {

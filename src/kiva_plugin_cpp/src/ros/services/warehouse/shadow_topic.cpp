@@ -29,7 +29,7 @@ kiva::ShadowReport reportOf(const warehouse_msgs::FleetState& m, std::size_t i) 
   out.report.last_end = at(m.last_end, i, std::uint8_t{0});
   out.failures = at(m.failures, i, std::uint8_t{0});
   out.charge = at(m.charge, i, 1.0f);
-  if (out.report.status > kiva::Status::kBlocked || out.report.state > kiva::State::kWaiting) {
+  if (out.report.status > kiva::Status::kBlocked || out.report.state > kiva::State::kSteered) {
     throw std::invalid_argument("a status or a state that does not exist");
   }
   return out;

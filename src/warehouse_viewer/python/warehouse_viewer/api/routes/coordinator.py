@@ -10,6 +10,7 @@ from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, prob
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
+    NewFailure,
     NewMode,
     NewTransport,
     Transport,
@@ -48,6 +49,16 @@ async def set_mode(body: NewMode, number: int = NUMBER, backend: ApiBackend = BA
     label = {"AUTOMATIC": "Automatic again", "MANUAL": "Manual"}.get(body.mode, "Out of service")
     backend.monitor.note(f"kiva{number}", body.by.strip(), label)
     return {"message": message}
+
+
+@router.post("/robots/{number}/failure", response_model=Done, responses=problems(404, *SENT))
+async def break_robot(
+    body: NewFailure, number: int = NUMBER, backend: ApiBackend = BACKEND
+) -> object:
+    """Breaks something in a simulated robot, until it is repaired or the time is over."""
+    await backend.robot(number)
+    message = await backend.simulate("fail", number, body.kind, body.repair_time)
+    return {"message": message or f"kiva{number}: {body.kind}"}
 
 
 @router.post("/robots/{number}/repair", response_model=Done, responses=problems(404, *SENT))

@@ -2,13 +2,19 @@
 """The coordinator: transports, modes of robots and its state at a glance."""
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, Field
 
 from warehouse_viewer.api.schemas.base import Int32, Name, Number, Person, UInt8
-from warehouse_viewer.api.schemas.pydantic_versions import Body, check_all, schema_extra
+from warehouse_viewer.api.schemas.pydantic_versions import Body, check_all, number, schema_extra
 
+if TYPE_CHECKING:
+    Duration = float
+else:
+    Duration = number(0, 1e9)  # [s]
+
+Failure = Literal["MOTOR", "LIFT_STUCK", "LASER_BLIND", "RADIO_LOST", "WHEEL_SLIPS"]
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
     "RECEIVED", "ASSIGNED", "LIFTED", "ARRIVED", "RELEASED", "STORED", "FAILED", "CANCELLED"
@@ -56,6 +62,16 @@ class NewMode(Body):
 
     by: Person = Field("", description="name of the person that sets it; empty: not known")
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
+
+
+class NewFailure(Body):
+    """Breaks something in a robot."""
+
+    by: Person = ""
+    kind: Failure = "MOTOR"
+    repair_time: Duration = Field(
+        0.0, description="until it is repaired [s], simulated; 0: until asked for"
+    )
 
 
 class Vda5050Robot(BaseModel):

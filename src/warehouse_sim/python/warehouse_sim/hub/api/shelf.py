@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The endpoints of what a hub keeps: worlds, recordings, the journal."""
+"""The endpoints of what a hub keeps: worlds, recordings, the journal, its description."""
 
 import asyncio
 
 from starlette.requests import Request
 from starlette.responses import Response
 
-from warehouse_sim.hub.answers import Book, body_of, whole
+from warehouse_sim.hub.api import description
+from warehouse_sim.hub.api.answers import Book, body_of, whole
 from warehouse_sim.hub.journal import KEPT, Journal
 from warehouse_sim.hub.recordings import Recordings
 from warehouse_sim.hub.wish import WishError
@@ -52,7 +53,7 @@ class WorldsApi:
 
 
 class ShelfApi:
-    """Endpoints of recordings and of the journal."""
+    """Endpoints of recordings, of the journal, and of the API's description."""
 
     def __init__(self, recordings: Recordings, journal: Journal) -> None:
         self._recordings, self._journal = recordings, journal
@@ -60,6 +61,10 @@ class ShelfApi:
     async def recordings(self, _: Request) -> Response:
         """Lists the recordings."""
         return JSONResponse({"recordings": await asyncio.to_thread(self._recordings.rows)})
+
+    async def description(self, _: Request) -> Response:
+        """Returns the API in words of OpenAPI."""
+        return JSONResponse(await asyncio.to_thread(description.described))
 
     async def journal(self, request: Request) -> Response:
         """Lists entries of the journal."""

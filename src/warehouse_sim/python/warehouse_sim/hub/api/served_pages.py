@@ -9,11 +9,11 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.types import Receive, Scope, Send
 
+from warehouse_sim.hub.api.proxy import Proxy
+from warehouse_sim.hub.api.simulations import RECORDED
 from warehouse_sim.hub.assistant import Assistant
-from warehouse_sim.hub.proxy import Proxy
 from warehouse_sim.hub.recordings import Recordings, UnknownRecording
 from warehouse_sim.hub.simulations import Missing, Simulations
-from warehouse_sim.hub.simulations_api import RECORDED
 from warehouse_viewer.json_text import JSONResponse
 from warehouse_viewer.replay.blocks import RecordingError
 

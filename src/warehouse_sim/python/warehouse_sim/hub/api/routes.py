@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hub's HTTP API: simulations, worlds, recordings, the journal; and pages beneath /s/NAME/."""
+"""The hub's HTTP API: simulations, worlds, recordings, sizings, the journal; pages in /s/NAME/."""
 
 from collections.abc import Callable
 
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 
-from warehouse_sim.hub.answers import answered
-from warehouse_sim.hub.assistant import Assistant
-from warehouse_sim.hub.journal import Journal
-from warehouse_sim.hub.recordings import Recordings
-from warehouse_sim.hub.served_pages import (
+from warehouse_sim.hub.api.answers import answered
+from warehouse_sim.hub.api.description import OPENAPI
+from warehouse_sim.hub.api.served_pages import (
     PREFIX,
     AssistantPages,
     RecordedPages,
@@ -17,9 +15,15 @@ from warehouse_sim.hub.served_pages import (
     to_pages,
     to_recording,
 )
-from warehouse_sim.hub.shelf_api import ShelfApi, WorldsApi
+from warehouse_sim.hub.api.shelf import ShelfApi, WorldsApi
+from warehouse_sim.hub.api.simulations import RECORDED, SIMULATIONS, WORLDS, SimulationsApi
+from warehouse_sim.hub.api.sizings import SIZINGS, SizingsApi
+from warehouse_sim.hub.assistant import Assistant
+from warehouse_sim.hub.journal import Journal
+from warehouse_sim.hub.recordings import Recordings
 from warehouse_sim.hub.simulations import Simulations
-from warehouse_sim.hub.simulations_api import RECORDED, SIMULATIONS, WORLDS, SimulationsApi
+from warehouse_sim.hub.sizing import REPORT
+from warehouse_sim.hub.sizings import Sizings
 
 JOURNAL = "/api/v1/journal"
 PAGES = f"{PREFIX}/{{name}}/{{rest:path}}"
@@ -29,11 +33,13 @@ def routes(
     simulations: Simulations,
     recordings: Recordings,
     journal: Journal,
+    sizings: Sizings,
     assistant: Callable[[], Assistant],
 ) -> list[BaseRoute]:
     """Returns the routes of the API, of the simulations' pages, and of the assistant."""
     api, shelf = SimulationsApi(simulations, journal), ShelfApi(recordings, journal)
     worlds, pages = WorldsApi(simulations.worlds, journal), RecordedPages(recordings)
+    sizing = SizingsApi(sizings, journal)
     return [
         Route(SIMULATIONS, answered(api.list), methods=["GET"]),
         Route(SIMULATIONS, answered(api.create), methods=["POST"]),
@@ -52,6 +58,12 @@ def routes(
         Route(f"{WORLDS}/{{name}}", answered(worlds.put), methods=["PUT"]),
         Route(f"{WORLDS}/{{name}}", answered(worlds.delete), methods=["DELETE"]),
         Route("/api/v1/recordings", answered(shelf.recordings), methods=["GET"]),
+        Route(SIZINGS, answered(sizing.list), methods=["GET"]),
+        Route(SIZINGS, answered(sizing.create), methods=["POST"]),
+        Route(f"{SIZINGS}/{{number}}", answered(sizing.get), methods=["GET"]),
+        Route(f"{SIZINGS}/{{number}}", answered(sizing.delete), methods=["DELETE"]),
+        Route(f"{SIZINGS}/{{number}}/{REPORT}", answered(sizing.report), methods=["GET"]),
+        Route(OPENAPI, answered(shelf.description), methods=["GET"]),
         Route(JOURNAL, answered(shelf.journal), methods=["GET"]),
         Route(JOURNAL, answered(shelf.note), methods=["POST"]),
         Route(f"{RECORDED}/{{name}}", to_recording),

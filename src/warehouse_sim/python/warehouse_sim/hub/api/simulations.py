@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from warehouse_sim.hub import forms
-from warehouse_sim.hub.answers import Book, body_of, shown
+from warehouse_sim.hub.api.answers import Book, body_of, shown
 from warehouse_sim.hub.journal import Journal
 from warehouse_sim.hub.simulation import Simulation
 from warehouse_sim.hub.simulations import Conflict, Simulations

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What will come of the shift: orders done so far as a line, those to come as a band, and what a
+// change would do to them.
+
+import { get, post } from '../base/api.js';
+import { axis, faint, font, Plot } from '../base/charts.js';
+import { $, make, on, token } from '../base/dom.js';
+import { number } from '../base/numbers.js';
+import { clock } from '../base/time.js';
+
+const ROBOTS = [2, 1, -1, -2];
+
+/** Points of the orders done in the last hour, counted back from now; x in minutes from now. */
+export function pastOf({ interval, begin, end, orders_completed: done }) {
+  const out = [{ x: 0, y: 0 }];
+  let sum = 0;
+  for (let i = done.length - 1; i >= 0; i--) {
+    sum -= done[i];
+    const from = Math.max(begin, (Math.floor(begin / interval) + i) * interval);
+    out.push({ x: Math.min(0, (from - end) / 60), y: sum });
+  }
+  return out.reverse();
+}
+
+/** Points of a quantile of the orders to be done, from now on. */
+export function aheadOf({ made_at: begin, time, done }, quantile) {
+  return [{ x: 0, y: 0 }, ...time.map((at, i) => ({ x: (at - begin) / 60, y: done[quantile][i] }))];
+}
+
+/** Changes that can be tried: {text, label} each; `text` as the service takes it. */
+export function changesOf(stations) {
+  const shut = stations.map(({ name, open }) => {
+    const what = open ? 'close' : 'open';
+    return { text: `+0 ${what} ${name}`, label: `${what} ${name}` };
+  });
+  const robots = ROBOTS.map((n) => ({
+    text: `+0 robots ${n > 0 ? '+' : ''}${n}`,
+    label: `${Math.abs(n)} robot${Math.abs(n) > 1 ? 's' : ''} ${n > 0 ? 'more' : 'fewer'}`,
+  }));
+  return [...robots, ...shut];
+}
+
+export class ForecastCard {
+  constructor() {
+    Object.assign(this, { id: 0, plain: null, throughput: null, known: '' });
+    this.plot = new Plot($('chart-forecast'), look);
+    on($('forecast-form'), 'submit', (event) => {
+      event.preventDefault();
+      this.ask();
+    });
+  }
+
+  /** Offers what can be changed. */
+  takeStations(stations) {
+    const changes = changesOf(stations);
+    const known = JSON.stringify(changes);
+    if (known === this.known) return;
+    this.known = known;
+    const chosen = $('forecast-change').value;
+    $('forecast-change').replaceChildren(
+      make('option', { value: '', textContent: 'nothing' }),
+      ...changes.map(({ text, label }) => make('option', { value: text, textContent: label })));
+    $('forecast-change').value = changes.some(({ text }) => text === chosen) ? chosen : '';
+  }
+
+  async ask() {
+    const change = $('forecast-change').value;
+    this.say('', 'looks ahead …');
+    try {
+      const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
+      ({ forecast_id: this.id } = await post('/forecasts', asked));
+      this.take(await get(`/forecasts/${this.id}`));
+    } catch (error) {
+      this.say(error.message, '');
+    }
+  }
+
+  /** A forecast, of this page's or of another one. */
+  take(forecast) {
+    if (forecast.state !== 'DONE') return;
+    const { forecast_id: id, made_at: begin, runs, changes, text } = forecast;
+    this.id = Math.max(this.id, id);
+    const changed = changes.length ? `, if ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
+    this.say(text, runs ? `made at ${clock(begin)} from ${number(runs)} runs${changed}` : '');
+    if (!runs) return;
+    if (!changes.length) this.plain = forecast;
+    this.shown = forecast;
+    this.past = this.throughput ? pastOf(this.throughput) : [];
+    this.draw();
+  }
+
+  say(text, state) {
+    Object.assign($('forecast-text'), { textContent: text, hidden: !text });
+    $('forecast-state').textContent = state;
+  }
+
+  draw() {
+    const { shown, plain, past } = this;
+    const isOther = plain && plain !== shown && plain.made_at <= shown.made_at;
+    $('forecast-plot').hidden = false;
+    $('forecast-other').hidden = !isOther;
+    $('chart-forecast').ariaLabel = $('forecast-text').textContent;
+    const before = isOther ? aheadOf(plain, 'p50').map(({ x, y }) => ({ x: x - (shown.made_at - plain.made_at) / 60, y })) : [];
+    this.plot.show(past, aheadOf(shown, 'p90'), aheadOf(shown, 'p10'), aheadOf(shown, 'p50'), before);
+  }
+}
+
+function look() {
+  const line = { pointRadius: 0, borderWidth: 1.75 };
+  return {
+    type: 'line',
+    datasets: [
+      { ...line, label: 'done', borderColor: token('text') },
+      { ...line, label: 'nine of ten runs have at most', borderWidth: 0, backgroundColor: faint('moving', 0.25), fill: '+1' },
+      { ...line, label: 'nine of ten runs have at least', borderWidth: 0 },
+      { ...line, label: 'half of the runs have', borderColor: token('moving') },
+      { ...line, label: 'without the change', borderColor: token('dim'), borderDash: [4, 4], borderWidth: 1.25 },
+    ],
+    options: {
+      parsing: false,
+      interaction: { mode: 'nearest', axis: 'x', intersect: false },
+      scales: {
+        x: axis('minutes from now', { grid: { display: false }, scale: { bounds: 'data' } }),
+        y: axis('orders done', { ticks: { callback: (count) => number(count) }, scale: { grace: '5%' } }),
+      },
+      plugins: {
+        legend: { display: false },
+        tooltip: { backgroundColor: token('raised'), titleColor: token('text'), bodyColor: token('text'), borderColor: token('line'), borderWidth: 1, titleFont: font(), bodyFont: font(),
+          callbacks: { title: ([{ parsed }]) => `${Math.abs(Math.round(parsed.x))} min ${parsed.x < 0 ? 'ago' : 'from now'}`, label: ({ dataset, parsed }) => ` ${dataset.label}: ${number(Math.round(parsed.y))}` } },
+      },
+    },
+  };
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The past and the future of a shift's orders as points of a chart.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { aheadOf, changesOf, pastOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
+
+test('orders done are counted back from now', () => {
+  const past = pastOf({ interval: 60, begin: 90, end: 270, orders_completed: [1, 2, 3, 0] });
+  assert.deepEqual(past.map(({ y }) => y), [-6, -5, -3, 0, 0]);
+  assert.deepEqual(past.map(({ x }) => x), [-3, -2.5, -1.5, -0.5, 0]);
+});
+
+test('a forecast begins now, with no order done', () => {
+  const forecast = { made_at: 600, time: [660, 720], done: { p50: [1, 3] } };
+  assert.deepEqual(aheadOf(forecast, 'p50'), [{ x: 0, y: 0 }, { x: 1, y: 1 }, { x: 2, y: 3 }]);
+});
+
+test('open stations can be closed, closed ones opened, robots be more and fewer', () => {
+  const changes = changesOf([{ name: 'pick1', open: true }, { name: 'pick2', open: false }]);
+  assert.deepEqual(changes.map(({ text }) => text),
+    ['+0 robots +2', '+0 robots +1', '+0 robots -1', '+0 robots -2', '+0 close pick1', '+0 open pick2']);
+  assert.equal(changes[2].label, '1 robot fewer');
+});

@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fork is the shift that it is of; runs from it are repeatable, and changes change them."""
+
+import math
+import os
+import signal
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from warehouse_fleet.transports.transport_book import Step
+from warehouse_layout.message_enums import OrderState
+from warehouse_operations.fleets import fleet_now
+from warehouse_operations.forecast import ahead, bands, comparison, fork, request, worker, workers
+from warehouse_operations.forecast.request import ForecastError, Request
+from warehouse_operations.forecast.workers import Runs, RunsError
+from warehouse_operations.runs.simulation import Description, open_operations
+
+MINUTES = 6.0
+
+
+def opened(physics=False, orders="fill", size="small"):
+    return open_operations(Description(size, orders=orders, physics=physics, seed=3))
+
+
+def forked(ops):
+    return fork.of_shift(ops.shift, fleet_now.of(ops.fleet))
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["ideal", "simulated"])
+def shift(request):
+    """A shift after some minutes, in which units are on their way and pieces in hands."""
+    with opened(request.param) as ops:
+        ops.run(minutes=MINUTES)
+        yield ops
+
+
+def a_task(ops, minutes=10, lines=(), seed=1):
+    asked = Request(minutes, 2, tuple(lines), seed)
+    return request.tasks_of(asked, ops.site, ops.shift, forked(ops))[-1]
+
+
+def stock_of(shift):
+    bins = shift.inventory.bins.values()
+    return {b.bin_id: (b.sku, b.quantity, b.reserved, b.expected) for b in bins}
+
+
+def orders_of(shift):
+    return {
+        order.order_id: (
+            order.state,
+            order.station,
+            order.due,
+            [(line.sku, line.quantity, line.picked, line.allotted) for line in order.lines],
+        )
+        for order in shift.orders.values()
+    }
+
+
+def test_a_fork_is_the_shift_that_it_is_of(shift):
+    copy = ahead.Ahead(a_task(shift), 0)
+    assert copy.shift is not shift.shift and copy.shift.now == shift.time
+    assert stock_of(copy.shift) == stock_of(shift.shift)
+    assert orders_of(copy.shift) == orders_of(shift.shift)
+    for station, other in zip(shift.stations, copy.shift.stations):
+        assert list(station.orders) == list(other.orders)
+        assert list(station.inbound) == list(other.inbound)
+        assert (station.at_work, station.is_open) == (other.at_work, other.is_open)
+    steps = {each.number: each.step for each in shift.fleet.transports.book}
+    copied = {each.number: each.step for each in copy.fleet.book}
+    # Ideal robots don't wait beneath a unit.
+    assert copied == {n: Step.FETCHING if s == Step.READY else s for n, s in steps.items()}
+    carried = {t.shelf for t in copy.fleet.book if t.step in (Step.BRINGING, Step.WAITING)}
+    assert carried and not carried & copy.fleet.cell_of_unit.keys()
+
+
+def test_forking_leaves_a_shift_as_it_is():
+    hashes = []
+    for forks in (False, True):
+        with opened() as ops:
+            for _ in range(10):
+                ops.run(minutes=1)
+                if forks:
+                    ahead.run(replace(a_task(ops), times=(ops.time + 60,)), 0)
+            hashes.append(ops.shift.state_hash())
+    assert hashes[0] == hashes[1]
+
+
+def test_stock_balances_and_no_order_is_lost(shift):
+    copy = ahead.Ahead(a_task(shift), 0)
+    tally, inventory = copy.shift.tally, copy.shift.inventory
+    pieces, picked, stored = inventory.total, tally.items_picked, tally.pieces_stored
+    received, known = tally.orders_received, len(copy.shift.orders)
+    completed = tally.orders_completed
+    copy.step_until(shift.time + 1200)
+    taken, put = tally.items_picked - picked, tally.pieces_stored - stored
+    assert taken > 50 and inventory.total == pieces - taken + put
+    assert inventory.total == sum(bin_.quantity for bin_ in inventory.bins.values())
+    done, came = tally.orders_completed - completed, tally.orders_received - received
+    assert len(copy.shift.orders) == known + came - done
+    assert all(o.state != OrderState.COMPLETED for o in copy.shift.orders.values())
+
+
+def test_transports_under_way_arrive(shift):
+    copy = ahead.Ahead(a_task(shift), 0)
+    numbers = {transport.number for transport in copy.fleet.book}
+    copy.step_until(shift.time + 900)
+    assert numbers and not numbers & {transport.number for transport in copy.fleet.book}
+
+
+def test_an_ideal_fork_takes_each_motion_up_where_it_was():
+    with opened(size="medium") as ops:
+        ops.run(minutes=MINUTES)
+        copy = ahead.Ahead(a_task(ops), 0)
+        expected = fleet_now.time_left(ops.fleet.trips)
+        left = fleet_now.time_left(copy.fleet.trips)
+        assert expected and {n: left[n] for n in expected} == pytest.approx(expected)
+
+
+def test_equal_seed_equal_forecast_and_another_run_another_one(shift):
+    task = a_task(shift)
+    first, again, other = ahead.run(task, 0), ahead.run(task, 0), ahead.run(task, 1)
+    assert first == again or math.isnan(first.finish) and first.over == again.over
+    assert first.over != other.over
+
+
+def test_a_closed_station_lowers_what_is_done(shift):
+    name = next(station.name for station in shift.stations if station.picks)
+    as_it_is = [ahead.run(a_task(shift), number) for number in range(3)]
+    closed = [ahead.run(a_task(shift, lines=[f"+0 close {name}"]), n) for n in range(3)]
+    change = {each.name: each for each in comparison.differences(as_it_is, closed)}
+    assert change["pieces"].mean + change["pieces"].half < 0
+
+
+def test_robots_are_added_and_taken_away(shift):
+    few = ahead.Ahead(a_task(shift, lines=["+0 robots -2"]), 0)
+    more = ahead.Ahead(a_task(shift, lines=["+0 robots +2"]), 0)
+    assert more.fleet.robot_count == few.fleet.robot_count + 2
+    for each in (few, more):
+        each.step_until(shift.time + 300)
+    able = [sum(r.in_service for r in each.fleet.trips.robots) for each in (few, more)]
+    assert able[1] == able[0] + 4
+
+
+@pytest.mark.parametrize(
+    "asked, text",
+    [
+        (Request(changes=("+0 close pick99",)), "close is pick99; there are"),
+        (Request(changes=("+0 shut pick1",)), "shut is unknown"),
+        (Request(changes=("+0 fail robot 999",)), "fail is robot 999; there are 1 to"),
+        (Request(10, changes=("+20m close pick1",)), "comes after the 10 minutes"),
+        (Request(changes=("0 close pick1",)), "is over; +0 is now"),
+        (Request(1441), "minutes is 1441; above 0, up to 1440 (a day), was expected"),
+        (Request(math.nan), "minutes is nan; above 0"),
+        (Request(0), "minutes is 0; above 0"),
+        (Request(runs=2000), "runs is 2000; 0 (by time) to 1000 was expected"),
+        (Request(changes=("+0 close pick1",) * 51), "51 changes; 50 or fewer were expected"),
+    ],
+)
+def test_what_can_not_be_is_refused_in_a_sentence(asked, text):
+    with opened() as ops:
+        ops.run(seconds=60)
+        with pytest.raises(ForecastError) as error:
+            request.tasks_of(asked, ops.site, ops.shift, forked(ops))
+    assert text in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_shift_without_orders_is_refused():
+    with opened(orders="none") as ops:
+        ops.run(seconds=60)
+        with pytest.raises(ForecastError, match="no order is open, and none is to come"):
+            request.tasks_of(Request(), ops.site, ops.shift, forked(ops))
+
+
+# Processes.
+
+
+def test_processes_make_the_same_runs(shift):
+    task = a_task(shift, minutes=2)
+    made = dict(out for out in ((o.number, o) for _, o in Runs([task], 3).outcomes()))
+    assert sorted(made) == [0, 1, 2]
+    assert made[1].over == ahead.run(task, 1).over and made[1].done == ahead.run(task, 1).done
+
+
+def children(runs):
+    deadline = time.monotonic() + 30
+    while not runs._running and time.monotonic() < deadline:
+        time.sleep(0.01)
+    return list(runs._running)
+
+
+def test_a_killed_run_is_made_again(shift):
+    runs = Runs([a_task(shift, minutes=2)], 2, processes=1)
+    outcomes = runs.outcomes()
+    first = next(outcomes)
+    os.kill(children(runs)[0].pid, signal.SIGKILL)
+    assert sorted(outcome.number for _, outcome in [first, *outcomes]) == [0, 1]
+
+
+def test_runs_that_are_given_up_end_at_once(shift):
+    runs = Runs([a_task(shift, minutes=600)], 50)
+    outcomes = runs.outcomes()
+    processes = []
+
+    def give_up():
+        processes.extend(children(runs))
+        runs.give_up()
+
+    threading.Thread(target=give_up).start()
+    with pytest.raises(RunsError, match="given up for a newer one"):
+        list(outcomes)
+    assert processes and all(process.wait(5) is not None for process in processes)
+
+
+def test_processes_take_the_time_that_others_leave(shift):
+    runs = Runs([a_task(shift, minutes=600)], 5, processes=1)
+    outcomes = runs.outcomes()
+    thread = threading.Thread(target=lambda: pytest.raises(RunsError, list, outcomes))
+    thread.start()
+    process = children(runs)[0]
+    deadline = time.monotonic() + 30
+    while os.sched_getscheduler(process.pid) != os.SCHED_IDLE and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert os.sched_getscheduler(process.pid) == os.SCHED_IDLE
+    assert os.getpriority(os.PRIO_PROCESS, process.pid) == worker.LOWEST
+    runs.give_up()
+    thread.join(10)
+
+
+def test_as_many_runs_as_fit_into_a_time(shift):
+    runs = Runs([a_task(shift, minutes=1)], 0, processes=1, budget=0.0)
+    assert len(list(runs.outcomes())) == workers.FEWEST
+
+
+# Bands.
+
+
+def outcome(number, done, finish=math.nan, over=None):
+    series = tuple(done)
+    return ahead.Outcome(number, series, series, series, series, over or {}, finish)
+
+
+def test_a_further_run_lies_in_the_band_with_80_percent():
+    rng = np.random.default_rng(1)
+    values = rng.normal(size=(4000, 13, 1))
+    held = 0
+    for rows in values:
+        low, _, high = bands.quantiles(rows[:-1])[:, 0]
+        held += low <= rows[-1, 0] <= high
+    assert held / len(values) == pytest.approx(0.8, abs=0.02)
+
+
+def test_finishes_that_are_not_within_come_last():
+    ends = [100.0 * i for i in range(1, 7)] + [math.nan] * 3
+    low, middle, high = bands.finish_quantiles(ends)
+    assert (low, middle) == (100.0, 500.0) and math.isnan(high)
+
+
+def test_late_orders_are_named_with_their_odds():
+    runs = [outcome(0, [1], over={1: 50.0, 2: 500.0}), outcome(1, [1], over={1: 150.0})]
+    known = {1: ("A", 100.0), 2: ("B", 200.0), 3: ("C", 0.0), 4: ("D", 900.0)}
+    late = bands.late_orders(runs, known, 600.0)
+    assert [(each.reference, each.odds) for each in late] == [("B", 1.0), ("A", 0.5)]
+
+
+def test_a_text_says_when_all_is_done(shift):
+    task = replace(a_task(shift), times=(shift.time + 60,))
+    runs = [outcome(i, [10 + i], finish=3600.0 + 60 * i) for i in range(9)]
+    text = bands.forecast_of(task, 1, runs, {1: ("A", 0.0)}).text
+    assert text.startswith("all orders of now done at 1:04 (1:00 to 1:08); 14 (10 to 18) orders")
