@@ -136,7 +136,12 @@ def read(realism: str) -> Availability:
     "": full availability. Raises RealismError."""
     if not realism:
         return Availability()
-    data = read_yaml(_path(realism), RealismError)
+    return of_content(read_yaml(_path(realism), RealismError), realism)
+
+
+def of_content(data: Any, realism: str = "realism") -> Availability:
+    """Returns the availability of a realism's sections. realism: its name, for messages. Raises
+    RealismError."""
     if not isinstance(data, dict):
         raise RealismError(f"{realism}: sections with parameters were expected")
     energy, failures, actuation, radio = (data.get(section, False) for section in SECTIONS)

@@ -27,50 +27,31 @@ from warehouse_operations.fleets.fleet_now import FleetNow, RobotNow, TransportN
 from warehouse_operations.fleets.ideal import IdealFleet, NearestHooks
 from warehouse_operations.fleets.ideal_trips import Robot, Trips
 
-LEGS = {"_reach_unit": "to unit", "_reach_end": "to station", "_lower": "back"}  # by what ends it
-MOVES_UP = "_arrive"
+UNLOADED, LOADED = "_reach_unit", ("_reach_end", "_lower")  # what ends drives
 
 
 @dataclass(frozen=True)
 class Pace:
-    """How much longer drives take than those of robots without traffic: a factor for each leg, and
-    the deviation of single drives around it, as a share (log-normal).
+    """How much longer drives take than those of robots without traffic: a factor for robots with a
+    unit, and one for those without."""
 
-    moving_up: extra time until the next unit is in the service cell of a station [s].
-    """
-
-    to_unit: float = 1.0
-    to_station: float = 1.0
-    back: float = 1.0
-    deviation: float = 0.0
-    moving_up: float = 0.0
-
-    def of(self, leg: str) -> float:
-        """Returns the factor of one of LEGS."""
-        return float(getattr(self, leg.replace(" ", "_")))
+    loaded: float = 1.0
+    unloaded: float = 1.0
 
 
 class PacedTrips(Trips):
-    """Trips whose drives are stretched by a Pace. rng: of their deviations."""
+    """Trips whose drives are stretched by a Pace."""
 
     pace = Pace()
-    rng: np.random.Generator = np.random.default_rng(1)
 
     def _schedule(
         self, delay: float, act: Callable[[Any], object], argument: Any, robot: Robot
     ) -> None:
-        name = act.__name__
-        if leg := LEGS.get(name):
-            delay *= self.pace.of(leg) * self._chance()
-        elif name == MOVES_UP and delay:
-            delay += self.pace.moving_up
+        if act.__name__ in LOADED:
+            delay *= self.pace.loaded
+        elif act.__name__ == UNLOADED:
+            delay *= self.pace.unloaded
         super()._schedule(delay, act, argument, robot)
-
-    def _chance(self) -> float:
-        deviation = self.pace.deviation
-        if not deviation:
-            return 1.0
-        return math.exp(deviation * self.rng.standard_normal() - deviation**2 / 2)
 
     def resume(self, now: FleetNow, repair: Callable[[], float]) -> None:
         """Goes on with the transports of a fleet. repair: draws how long a broken robot still
@@ -180,10 +161,9 @@ class PacedTrips(Trips):
 
 
 class ForkedFleet(IdealFleet):
-    """Ideal robots from the state of a fleet on.
+    """Ideal robots from the state of a fleet on; they stand still until resume().
 
-    spare: cells of further robots, by id, which are out of service at first. repair: see
-    PacedTrips.resume.
+    spare: cells of further robots, by id, which are out of service at first.
     """
 
     def __init__(
@@ -193,8 +173,6 @@ class ForkedFleet(IdealFleet):
         *,
         kinematics: Kinematics | None = None,
         pace: Pace | None = None,
-        rng: np.random.Generator | None = None,
-        repair: Callable[[], float] = lambda: 0.0,
         spare: Mapping[int, int] | None = None,
     ) -> None:
         spare = spare or {}
@@ -204,15 +182,22 @@ class ForkedFleet(IdealFleet):
         inside = {kiva_id: max(robot.cell, 0) for kiva_id, robot in robots.items()}
         storage = np.asarray(plan.storage, bool).ravel()
         stored = {unit: cell for unit, cell in now.units.items() if storage[cell]}
-        self._now = now
+        self._now = replace(now, robots=robots)
         super().__init__(plan, inside, _one_a_cell(stored), kinematics=kinematics)
         self._floor.units.update(now.units)
-        trips = self._trips
-        assert isinstance(trips, PacedTrips)
-        trips.pace, trips.rng = pace or Pace(), rng or np.random.default_rng(1)
+        self._paced.time, self._paced.pace = now.time, pace or Pace()
         for station in now.closed:
             self.is_open[station] = False
-        trips.resume(replace(now, robots=robots), repair)
+
+    @property
+    def _paced(self) -> PacedTrips:
+        assert isinstance(self._trips, PacedTrips)
+        return self._trips
+
+    def resume(self, repair: Callable[[], float] = lambda: 0.0) -> None:
+        """Goes on with what robots do, by the hooks that are set. repair: draws how long a broken
+        robot still stands [s]."""
+        self._paced.resume(self._now, repair)
 
     def keep_up(
         self, availability: Availability, rng: np.random.Generator, items: MassOfItems

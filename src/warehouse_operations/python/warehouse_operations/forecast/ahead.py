@@ -68,14 +68,13 @@ class Ahead:
             fork.fleet,
             kinematics=site.kinematics,
             pace=fork.pace,
-            rng=np.random.default_rng((*chance, 2**20 + 1)),
-            repair=lambda: float(repairs.exponential(usual)) if usual else 0.0,
             spare=spare,
         )
         parts = {TRANSPORTS: self.fleet, TRAVEL: self.fleet.travel, PLAN: site.plan}
         self.shift = shift_of(fork, parts, chance)
         self.site = _with_robots(site, fork, spare)
         self.fleet.set_hooks(self.shift.hooks)
+        self.fleet.resume(lambda: float(repairs.exponential(usual)) if usual else 0.0)
         if task.availability:
             rng = np.random.default_rng((*chance, 2**20 + 2))
             self.fleet.keep_up(task.availability, rng, self._mass_of_items)

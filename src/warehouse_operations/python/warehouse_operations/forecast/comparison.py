@@ -45,6 +45,12 @@ def differences(without: Sequence[Outcome], with_: Sequence[Outcome]) -> list[Di
     return out
 
 
+def sentence(without: Sequence[Outcome], with_: Sequence[Outcome]) -> str:
+    """Returns the differences in a few words."""
+    words = {"done": "orders done", "open": "open", "late": "late", "pieces": "pieces"}
+    return ", ".join(f"{each} {words[each.name]}" for each in differences(without, with_))
+
+
 def _half(change: np.ndarray) -> float:
     if len(change) < FEWEST:
         return float("nan")

@@ -11,7 +11,7 @@ import io
 import pickle
 import types
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,8 @@ from warehouse_operations.fleets.fleet_now import FleetNow
 from warehouse_operations.fleets.forked_fleet import Pace
 from warehouse_operations.shift.journal import Journal
 from warehouse_operations.shift.shift import Shift
+from warehouse_operations.stock.demand import alike
+from warehouse_operations.stock.order_file import OrderDraft
 from warehouse_operations.stock.travel import Travel
 
 PROTOCOL = 5
@@ -38,13 +40,16 @@ class ForkError(Exception):
 
 @dataclass(frozen=True)
 class Fork:
-    """A shift at a time [s], and its fleet. shift: as bytes. began: its begin [s]. pace: of its
-    robots so far."""
+    """A shift at a time [s], and its fleet. shift: as bytes. began: its begin [s]. ways_back: how
+    long units took back into storage lately [s]. recent: orders like which others come, where
+    nothing else says what comes. pace: of robots from now on."""
 
     time: float
     began: float
     shift: bytes
     fleet: FleetNow
+    ways_back: tuple[float, ...] = ()
+    recent: tuple[OrderDraft, ...] = ()
     pace: Pace = Pace()
 
     @property
@@ -57,7 +62,7 @@ class Fork:
         return zlib.compress(pickle.dumps(self, PROTOCOL), 1)
 
 
-def of_shift(shift: Shift, fleet: FleetNow, pace: Pace | None = None) -> Fork:
+def of_shift(shift: Shift, fleet: FleetNow, recent: Sequence[OrderDraft] = ()) -> Fork:
     """Returns the fork of a shift with its fleet, which both go on as if nothing had happened.
 
     Raises ForkError where a policy of one's own holds what can't be copied.
@@ -67,7 +72,9 @@ def of_shift(shift: Shift, fleet: FleetNow, pace: Pace | None = None) -> Fork:
         _Pickler(file, shift).dump(shift)
     except (TypeError, AttributeError, pickle.PicklingError) as error:
         raise ForkError(f"the shift can't be copied: {error}") from error
-    return Fork(shift.now, shift.began, file.getvalue(), fleet, pace or Pace())
+    return Fork(
+        shift.now, shift.began, file.getvalue(), fleet, tuple(shift.tally.ways_back), tuple(recent)
+    )
 
 
 def shift_of(fork: Fork, parts: Mapping[str, Any], seed: tuple[int, ...]) -> Shift:
@@ -77,8 +84,11 @@ def shift_of(fork: Fork, parts: Mapping[str, Any], seed: tuple[int, ...]) -> Shi
     """
     shift = _Unpickler(io.BytesIO(fork.shift), parts, seed).load()
     assert isinstance(shift, Shift)
-    if shift.demand:
-        shift.demand.draw_anew(np.random.default_rng((*seed, 0)), shift.now)
+    rng = np.random.default_rng((*seed, 0))
+    if fork.recent:
+        shift.demand = alike(fork.recent, fork.began, shift.now, rng)
+    elif shift.demand:
+        shift.demand.draw_anew(rng, shift.now)
     return shift
 
 

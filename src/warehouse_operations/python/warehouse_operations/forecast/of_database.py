@@ -20,9 +20,7 @@ from warehouse_operations.forecast.fork import Fork, of_shift
 from warehouse_operations.forecast.request import ForecastError
 from warehouse_operations.policies import Policies
 from warehouse_operations.shift.shift import Shift
-from warehouse_operations.stock.demand import FromFile, Poisson, make_demand
-from warehouse_operations.stock.order_file import OrderDraft
-from warehouse_operations.stock.order_mix import Alike
+from warehouse_operations.stock.demand import FromFile, make_demand
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.stock.site import Site
 from warehouse_operations.stock.stations import Visit
@@ -70,6 +68,7 @@ def remember(moment: Moment, site: Site, url: str, orders: str | None = None) ->
         now=moment.began,
     )
     shift.context.clock.now = moment.time
+    shift.tally.ways_back.extend(moment.ways_back)
     shift.order_book.resume(moment.orders, moment.last_order)
     visits = _restore(shift, moment)
     transports = list(_transports(moment, site, visits))
@@ -81,40 +80,19 @@ def remember(moment: Moment, site: Site, url: str, orders: str | None = None) ->
     away = {visit.unit for visit in visits if visit.lifted is not None}
     units = {unit: cell for unit, cell in site.units.items() if unit not in away and cell >= 0}
     fleet = FleetNow(moment.time, robots, units, transports)
-    return Remembered(shift, of_shift(shift, fleet))
+    recent = moment.recent if (orders or moment.orders_text) == "none" else ()
+    return Remembered(shift, of_shift(shift, fleet, recent))
 
 
 def _demand(moment: Moment, site: Site, text: str, capacity: int) -> Any:
-    """Returns what orders come: as the orders text says, or as they came lately."""
+    """Returns what orders come, as the orders text says."""
     rng = np.random.default_rng(1)
-    if text == "none":
-        return orders_alike(moment.recent, moment.began, moment.time, rng)
     picks = [station.kind == "PICK" for station in site.plan.stations]
     count = sum(picks), len(picks) - sum(picks)
     demand = make_demand(text, moment.assortment, count, rng, moment.began, capacity)
     if isinstance(demand, FromFile):
         demand.skip_to(moment.time)
     return demand
-
-
-def orders_alike(
-    recent: Sequence[tuple[float, float, int, tuple[tuple[str, int], ...]]],
-    began: float,
-    now: float,
-    rng: np.random.Generator,
-) -> Poisson | None:
-    """Returns orders like recent ones, (created, due, priority, lines) of each, at their rate;
-    None without any."""
-    if not recent or now <= began:
-        return None
-    first = max(began, min(created for created, *_ in recent))
-    span = max(now - first, 60.0)
-    drafts = [
-        OrderDraft(lines, created, due, priority, f"order-{i}")
-        for i, (created, due, priority, lines) in enumerate(recent)
-        if lines
-    ]
-    return Poisson(Alike(drafts, rng), 3600 * len(drafts) / span, 0.0, rng, now)
 
 
 def _restore(shift: Shift, moment: Moment) -> list[Visit]:

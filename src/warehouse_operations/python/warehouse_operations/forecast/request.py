@@ -77,7 +77,7 @@ def tasks_of(
     names = names_of(site, shift)
     events = request.events(names, fork.time - fork.began)
     coming = any(event.kind == "orders" for event in events)
-    if not (shift.orders or comes_more(shift) or coming):
+    if not (shift.orders or comes_more(shift) or fork.recent or coming):
         raise ForecastError("there is nothing to forecast: no order is open, and none is to come")
     times, more = times_of(fork, request.minutes), availability or Availability()
     sets: Sequence[tuple[Event, ...]] = [(), events] if events else [()]

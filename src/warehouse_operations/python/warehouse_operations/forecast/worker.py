@@ -44,10 +44,10 @@ def main() -> None:
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what else is printed is no answer
     source = sys.stdin.buffer
-    from warehouse_operations.forecast import ahead
+    from warehouse_operations.forecast import ahead, pacing
 
     with contextlib.suppress(EOFError, BrokenPipeError):
-        tasks = receive(source)
+        tasks = pacing.paced(receive(source))
         while True:
             index, number = receive(source)
             try:

@@ -20,10 +20,14 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.floor.served_part import served_part
 from warehouse_msgs import msg
+from warehouse_operations.fleets.availability import Availability, RealismError, of_content
+from warehouse_operations.fleets.fleet_now import FleetNow
 from warehouse_operations.fleets.floor_heat import SLICES, FloorHeat
 from warehouse_operations.policies import Policies
 from warehouse_operations.ros import operation_messages
 from warehouse_operations.ros.fleet_log import FleetLog
+from warehouse_operations.ros.fleet_messages import fleet_now
+from warehouse_operations.ros.forecast_service import ForecastService
 from warehouse_operations.ros.operation_messages import SHOWN, header
 from warehouse_operations.ros.remote_transports import RemoteTransports
 from warehouse_operations.ros.shift_services import ShiftServices
@@ -59,6 +63,7 @@ class OperationsNode:
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._log = FleetLog()
         self._warned: set[str] = set()
+        self._last_step = clock()
         self._warehouse = WarehouseClient(rospy, self._on_fleet)
         self._coordinator = CoordinatorClient(rospy)
         self._notices = _publisher("notices", msg.Notices)
@@ -74,6 +79,7 @@ class OperationsNode:
         self._database = Database(database)
         self._begin()
         ShiftServices(self)
+        self._forecasts = ForecastService(self)
         # Published last: a node that has received this topic finds all services.
         self._stations = _publisher("stations", msg.StationStates)
 
@@ -86,6 +92,44 @@ class OperationsNode:
     def engine(self) -> Engine:
         """The engine of the database."""
         return self._database.engine
+
+    # What a forecast needs of a node.
+
+    @property
+    def site(self) -> Site:
+        """The warehouse of the shift."""
+        return self._site
+
+    @property
+    def orders_text(self) -> str:
+        """What orders come."""
+        return str(self._chosen["orders"])
+
+    @property
+    def availability(self) -> Availability:
+        """What keeps robots from work, by the realism of the world; nothing where that is
+        unknown."""
+        content = rospy.get_param("gazebo/realism", None)
+        try:
+            return of_content(content) if content else Availability()
+        except RealismError:
+            return Availability()
+
+    @property
+    def last_step(self) -> float:
+        """When the shift was advanced last [s, wall]."""
+        return self._last_step
+
+    @property
+    def lock(self) -> threading.RLock:
+        """The lock of the shift."""
+        return self._lock
+
+    def with_fleet(self) -> tuple[Shift, FleetNow]:
+        """Returns the shift and its fleet; call it with the lock."""
+        shift, state = self._shift, self._coordinator.state
+        robot_of = self._transports.robot_of
+        return shift, fleet_now(shift, self._site.plan, self._warehouse, state, robot_of)
 
     def _begin(self) -> None:
         """Begins a shift that continues the warehouse of the database."""
@@ -190,7 +234,8 @@ class OperationsNode:
         self._begin()
 
     def close(self) -> None:
-        """Writes pending rows to the database. Raises DatabaseError."""
+        """Ends a forecast and writes pending rows to the database. Raises DatabaseError."""
+        self._forecasts.close()
         with self._lock:
             self._shift.end(self._figures())
             self._database.close()
@@ -218,6 +263,7 @@ class OperationsNode:
             if self._warehouse.is_known:
                 self._shift.update_units(set(unit_ids(self._warehouse.objects)))
         self._shift.fallen.update(self._warehouse.fallen_items)
+        self._last_step = clock() if now > self._shift.now else self._last_step
         self._shift.advance(now)
         self._publish_changes(now)
         if now >= self._next_stations:

@@ -16,6 +16,7 @@ class RemoteTransports:
     def __init__(self, coordinator: CoordinatorClient) -> None:
         self._coordinator = coordinator
         self._open: set[int] = set()  # transports that this run asked for
+        self.robot_of: dict[int, int] = {}  # the robot of each of these that has one
         self._left: set[int] = set()  # transports that an earlier run asked for
         # The newest known transport of the earlier run, until this run asks for one.
         self._last_left: int | None = None
@@ -70,8 +71,11 @@ class RemoteTransports:
             event = _event(message)
             if event.transport_id in self._open:
                 known.append(event)
+                if event.kiva_id:
+                    self.robot_of[event.transport_id] = event.kiva_id
                 if event.kind in ENDS:
                     self._open.discard(event.transport_id)
+                    self.robot_of.pop(event.transport_id, None)
             elif event.transport_id in self._left and event.kind == Kind.ARRIVED:
                 self._left.discard(event.transport_id)
                 self.release(event.transport_id)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Counts of what happens in a shift."""
 
-from collections import defaultdict
+from collections import defaultdict, deque
 
 from warehouse_operations.stock.orders import Bundle, Line, Order
 from warehouse_operations.stock.stations import Visit
 
 INTERVAL = 60.0  # of the series [s]
+WAYS = 200  # latest ways of units back into storage
 
 
 class Tally:
@@ -23,6 +24,8 @@ class Tally:
         self.stored_in: dict[int, int] = defaultdict(int)
         self.completed_in: dict[int, int] = defaultdict(int)
         self.late_in: dict[int, int] = defaultdict(int)  # late orders, when they were due
+        # From a unit's release until it is stored: traffic shows in it, and no queue does [s].
+        self.ways_back: deque[float] = deque(maxlen=WAYS)
 
     def picked(self, now: float, pieces: int, line: Line) -> None:
         """Counts pieces that were picked for an order line."""
@@ -77,5 +80,7 @@ class Tally:
     def visited(self, visit: Visit) -> None:
         """Counts a visit that is over, if its unit reached the station."""
         if visit.arrived is not None:
+            if visit.ended is not None and visit.released is not None:
+                self.ways_back.append(visit.ended - visit.released)
             self.trips += 1
             self.pick_visits += not visit.replenishes

@@ -3,6 +3,7 @@
 
 import itertools
 from collections import Counter
+from collections.abc import Collection
 from typing import Protocol
 
 from warehouse_fleet.transports.transports import ENDS, Kind, TransportEvent
@@ -75,6 +76,11 @@ class Visits:
         station.inbound[visit.visit_id] = visit
         self._context.journal.visit(visit)
         return visit
+
+    @property
+    def under_way(self) -> Collection[Visit]:
+        """The visits that are not over."""
+        return self._by_transport.values()
 
     def restore(self, visit: Visit) -> None:
         """Adds a visit of an earlier run that is under way."""

@@ -2,7 +2,7 @@
 """Sources of orders and bundles: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
 order_file), `day:…`, `demand:…` or `mix:…` (see orders_text), or `none`."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -25,6 +25,7 @@ LINE_SUMS /= LINE_SUMS[-1]
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
 MOST_FILL = 10_000
+PAST = 300.0  # least time of a rate of recent orders [s]
 AT_ONCE, PAUSE = 1_000, 1.0  # most orders of a file that come together; time until the next [s]
 
 
@@ -138,6 +139,18 @@ class Poisson:
 
     def _wait(self) -> None:
         self._next += self._rng.exponential(3600.0 / self.per_hour)
+
+
+def alike(
+    recent: Sequence[OrderDraft], began: float, now: float, rng: np.random.Generator
+) -> Poisson | None:
+    """Returns orders like recent ones of a shift that began at a time [s], at their rate; None
+    without any. now: when the first may come."""
+    if not recent:
+        return None
+    since = max(began, recent[0].at)
+    per_hour = 3600 * len(recent) / max(now - since, PAST)
+    return Poisson(order_mix.Alike(recent, rng), per_hour, 0.0, rng, now)
 
 
 class FromFile:

@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 from sqlalchemy import and_, func, or_, select
-from sqlalchemy.engine import Connection
+from sqlalchemy.engine import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from warehouse_layout.message_enums import OrderEventKind
 from warehouse_operations.stock.assortment import Assortment
 from warehouse_operations.stock.inventory import Bin, Reason
+from warehouse_operations.stock.order_file import OrderDraft
 from warehouse_operations.stock.orders import Order
 from warehouse_operations.store import schema
 from warehouse_operations.store.engines import DatabaseError, make_engine, path_of, reason, shown
@@ -44,7 +45,8 @@ class Moment:
 
     began: begin of the run. last: its latest time. site, orders, policies, seed: of the run.
     assigned: the station of each order that has one, by order. ways: mean times of visits so far
-    [s]: from the request to the lift, on to the station, and back.
+    [s]: from the request to the lift, on to the station, and back. ways_back: all of the latter.
+    recent: the orders that came lately, at their times.
     """
 
     time: float
@@ -60,11 +62,12 @@ class Moment:
     assigned: dict[int, str]
     visits: list[VisitThen]
     ways: tuple[float, float, float]
+    ways_back: tuple[float, ...]
     layout: list[Any] | None
-    recent: list[tuple[float, float, int, tuple[tuple[str, int], ...]]]  # created, due, priority
+    recent: tuple[OrderDraft, ...]
 
 
-SEEN = 2 * 3600.0  # of the past, whose orders are those to come [s]
+RECENT = 2 * 3600.0  # of the past, whose orders are those to come [s]
 USUAL = (20.0, 30.0, 30.0)  # ways before there was a visit [s]
 
 
@@ -129,6 +132,7 @@ def _moment(connection: Connection, url: Any, at: float | None) -> Moment:
         _assigned(connection, run.id, time, {order.order_id for order in orders}),
         _under_way(connection, visits, time),
         _ways(visits, time),
+        _ways_back(visits, time),
         None if run.layout is None else json.loads(run.layout),
         _recent(connection, run.id, time),
     )
@@ -249,16 +253,27 @@ def _ways(visits: Iterable[Any], time: float) -> tuple[float, float, float]:
     return low, middle, high
 
 
-def _recent(
-    connection: Connection, run: int, time: float
-) -> list[tuple[float, float, int, tuple[tuple[str, int], ...]]]:
-    """Returns (created, due, priority, lines) of the orders that came lately."""
+def _ways_back(visits: Iterable[Any], time: float) -> tuple[float, ...]:
+    over = [row for row in visits if row.ended is not None and row.ended <= time]
+    return tuple(
+        row.ended - row.released
+        for row in sorted(over, key=lambda row: row.ended)
+        if row.arrived is not None and row.released is not None
+    )
+
+
+def _recent(connection: Connection, run: int, time: float) -> tuple[OrderDraft, ...]:
     table = schema.orders.c
     query = select(table.id, table.created, table.due, table.priority)
-    query = query.where(table.run == run, table.created <= time, table.created > time - SEEN)
+    query = query.where(table.run == run, table.created <= time, table.created > time - RECENT)
     rows = connection.execute(query.order_by(table.id)).all()
     lines = _lines(connection, [row.id for row in rows])
-    return [
-        (row.created, row.due, row.priority, tuple((sku, n) for _, sku, n in lines[row.id]))
-        for row in rows
-    ]
+    asked = {row.id: tuple((sku, pieces) for _, sku, pieces in lines[row.id]) for row in rows}
+    return tuple(OrderDraft(asked[row.id], row.created, row.due, row.priority) for row in rows)
+
+
+def recent_orders(engine: Engine, time: float) -> tuple[OrderDraft, ...]:
+    """Returns the orders that came lately in the last run of a database, at their times [s]."""
+    with engine.connect() as connection:
+        run = connection.execute(select(func.max(schema.run.c.id))).scalar() or 0
+        return _recent(connection, run, time)

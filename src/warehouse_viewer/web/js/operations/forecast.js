@@ -65,7 +65,7 @@ export class ForecastCard {
 
   async ask() {
     const change = $('forecast-change').value;
-    this.say('', 'looks ahead …');
+    this.say('', 'looks ahead for about 20 s …');
     try {
       const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
       ({ forecast_id: this.id } = await post('/forecasts', asked));
