@@ -28,6 +28,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "http.md": http.written,
     "hub-http.md": http.written_of_hub,
     "vda5050-fields.md": vda5050.written,
+    "vda5050-cases.md": vda5050.cases,
     "commands.md": commands.written,
     "policies.md": policies.written,
     "realism-parameters.md": numbers.realism,

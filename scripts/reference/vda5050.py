@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fields of VDA 5050: what a vehicle makes of each."""
+"""Fields of VDA 5050: what a vehicle makes of each; and the cases of conform."""
 
 from reference.markdown import code, page, prose, table
 
@@ -41,3 +41,33 @@ def actions(known) -> str:
         for action in known
     ]
     return f"## Actions\n\n{table(['action', 'scope', 'parameters', ''], rows)}"
+
+
+ABOUT_CASES = (
+    "`rosrun warehouse_vda5050 conform` [tries a vehicle](../how-to/vda5050-conformance.md) by"
+    " these cases. Sections are those of 2.1.0, of 3.0.0 in `version_3`. Edges: how many the"
+    " vehicle drives at least. Cases marked strict are recommendations, tried with `--strict`."
+)
+
+
+def cases() -> str:
+    """Returns the page of the cases that conform tries."""
+    from warehouse_vda5050.conform.cases import CASES
+
+    chapters = dict.fromkeys(case.chapter for case in CASES)
+    parts = [chapter(name, [c for c in CASES if c.chapter == name]) for name in chapters]
+    return page("VDA 5050, cases of conformance", ABOUT_CASES, *parts)
+
+
+def chapter(name, chosen) -> str:
+    """Returns the cases of one chapter."""
+    rows = [
+        (
+            code(case.id),
+            case.section,
+            prose(case.sentence) + (" Strict." if case.strict else ""),
+            str(case.edges or ""),
+        )
+        for case in chosen
+    ]
+    return f"## {name}\n\n{table(['case', 'section', 'sentence', 'edges'], rows)}"

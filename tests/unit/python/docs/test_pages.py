@@ -24,6 +24,7 @@ GENERATED = {
     "commands",
     "policies",
     "vda5050-fields",
+    "vda5050-cases",
     "realism-parameters",
     "plugins",
     "changelog",

@@ -58,13 +58,19 @@ READERS: dict[Kind, Callable[[Fields, Header], Any]] = {
 class CodecV2(Codec):
     """2.0.0 or 2.1.0."""
 
+    def newer(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
+        """Returns a message of a master with the names of this version."""
+        if self.version == "2.0.0" and "actions" in value:
+            return {**value, "instantActions": value["actions"]}  # some peers of 2.0.0 read this
+        return value
+
     def to_json(self, message: Message) -> dict[str, Any]:
         """Returns the object that stands for a message."""
         value = WRITERS[type(message)](message)
         if self.version == "2.0.0":
             value.pop("maps", None)
             if isinstance(message, InstantActions):
-                value["instantActions"] = value["actions"]  # what some peers of 2.0.0 read
+                return self.newer(Kind.INSTANT_ACTIONS, value)
         return value
 
     def read(self, kind: Kind, fields: Fields) -> Any:

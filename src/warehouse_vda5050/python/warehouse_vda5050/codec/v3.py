@@ -95,18 +95,23 @@ KINDS |= {"Factsheet": Kind.FACTSHEET}
 class CodecV3(CodecV2):
     """3.0.0."""
 
+    def newer(self, kind: Kind, value: dict[str, Any]) -> dict[str, Any]:
+        """Returns a message with the names of 3.0.0."""
+        value = _renamed(value, NAMES[kind], VALUES)
+        for node in _objects(value, "nodes"):
+            _give_axes(node.get("nodePosition"))
+        for edge in _objects(value, "edges"):
+            edge.pop("startNodeId", None), edge.pop("endNodeId", None)
+        return value
+
     def to_json(self, message: Message) -> dict[str, Any]:
         """Returns the object that stands for a message."""
         kind = KINDS[type(message).__name__]
-        value = _renamed(super().to_json(message), NAMES[kind], VALUES)
+        value = self.newer(kind, super().to_json(message))
         if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
             for row, error in zip(value["errors"], message.errors):
                 _write_error(row, error)
-        for node in value.get("nodes", ()):
-            _give_axes(node.get("nodePosition", {}))
-        for edge in value.get("edges", ()):
-            edge.pop("startNodeId", None), edge.pop("endNodeId", None)
         if isinstance(message, Factsheet):
             action_rows = value["protocolFeatures"]["mobileRobotActions"]
             for row, action in zip(action_rows, message.actions):
@@ -152,9 +157,14 @@ def _word(key: str, item: Any, names: dict[str, str], values: dict[str, dict[str
     return item if key == "actionParameters" else _renamed(item, names, values)
 
 
-def _give_axes(position: dict[str, Any]) -> None:
+def _objects(value: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    items = value.get(key)
+    return [item for item in items if isinstance(item, dict)] if isinstance(items, list) else []
+
+
+def _give_axes(position: Any) -> None:
     """Makes a radius the ellipse that 3.0 has for it."""
-    radius = position.get("allowedDeviationXY")
+    radius = position.get("allowedDeviationXY") if isinstance(position, dict) else None
     if isinstance(radius, (int, float)):
         position["allowedDeviationXY"] = {"a": radius, "b": radius, "theta": 0.0}
 

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What all states of the run say one after another (6.10, 6.11)."""
+
+import math
+from itertools import pairwise
+
+from warehouse_vda5050.conform import view
+from warehouse_vda5050.conform.case import Chapter
+from warehouse_vda5050.conform.probe import Json, Probe
+from warehouse_vda5050.conform.verdict import Untestable, demand
+from warehouse_vda5050.topics import Kind
+
+chapter = Chapter("progress")
+case = chapter.case
+# What an action may become; the same is always allowed.
+FOLLOWS = {
+    "WAITING": {"INITIALIZING", "RUNNING", "PAUSED", "FINISHED", "FAILED"},
+    "INITIALIZING": {"RUNNING", "PAUSED", "FINISHED", "FAILED"},
+    "RUNNING": {"PAUSED", "FINISHED", "FAILED"},
+    "PAUSED": {"INITIALIZING", "RUNNING", "FINISHED", "FAILED"},
+    "FINISHED": set(),
+    "FAILED": set(),
+}
+
+
+def _states(probe: Probe) -> list[Json]:
+    states = probe.log.values(Kind.STATE)
+    if len(states) < 2:
+        raise Untestable("fewer than two states came")
+    return states
+
+
+def _of_one_order(probe: Probe) -> list[tuple[Json, Json]]:
+    """Pairs of states, one after another, of one order."""
+    pairs = pairwise(_states(probe))
+    return [(a, b) for a, b in pairs if a.get("orderId") == b.get("orderId") and a.get("orderId")]
+
+
+@case("ascending", "6.10.6", audit=True)
+def ascending(probe: Probe) -> None:
+    """nodeStates and edgeStates are in the sequence of the order."""
+    for state in _states(probe):
+        for name in ("nodeStates", "edgeStates"):
+            numbers = view.sequences(state, name)
+            demand(numbers == sorted(set(numbers)), f"{name} has {numbers}")
+
+
+@case("base_first", "6.6.2", audit=True)
+def base_first(probe: Probe) -> None:
+    """The base comes before the horizon in nodeStates."""
+    for state in _states(probe):
+        flags = [bool(node.get("released")) for node in view.rows(state, "nodeStates")]
+        demand(flags == sorted(flags, reverse=True), f"released is {flags}")
+
+
+@case("parity", "6.6.2", audit=True)
+def parity(probe: Probe) -> None:
+    """Nodes have even sequenceIds, edges odd ones."""
+    for state in _states(probe):
+        nodes, edges = view.sequences(state, "nodeStates"), view.sequences(state, "edgeStates")
+        demand(not any(k % 2 for k in nodes), f"nodeStates has {nodes}")
+        demand(all(k % 2 for k in edges), f"edgeStates has {edges}")
+
+
+@case("counts", "6.10.1", audit=True)
+def counts(probe: Probe) -> None:
+    """There are as many edges left as nodes."""
+    for state in _states(probe):
+        nodes, edges = view.sequences(state, "nodeStates"), view.sequences(state, "edgeStates")
+        demand(0 <= len(nodes) - len(edges) <= 1, f"nodes {nodes} with edges {edges}")
+
+
+@case("onwards", "6.10.2", audit=True)
+def onwards(probe: Probe) -> None:
+    """lastNodeSequenceId never goes back within an order."""
+    for a, b in _of_one_order(probe):
+        before, after = a["lastNodeSequenceId"], b["lastNodeSequenceId"]
+        demand(before <= after, f"lastNodeSequenceId {after} follows {before}")
+
+
+@case("updates_onwards", "6.6.4.3", audit=True)
+def updates_onwards(probe: Probe) -> None:
+    """orderUpdateId never goes back within an order."""
+    for a, b in _of_one_order(probe):
+        before, after = a["orderUpdateId"], b["orderUpdateId"]
+        demand(before <= after, f"orderUpdateId {after} follows {before}")
+
+
+@case("life_cycle", "6.11", audit=True)
+def life_cycle(probe: Probe) -> None:
+    """An action's status never goes back: what is over stays over."""
+    known: dict[str, str] = {}
+    for state in _states(probe):
+        for row in view.rows(state, "actionStates"):
+            id, status = str(row.get("actionId")), str(row.get("actionStatus"))
+            before = known.get(id, status)
+            allowed = before == status or status in FOLLOWS.get(before, {status})
+            demand(allowed, f"{id} is {status} after {before}")
+            known[id] = status
+
+
+@case("once", "6.11", audit=True)
+def once(probe: Probe) -> None:
+    """An action is in actionStates once."""
+    for state in _states(probe):
+        ids = [row.get("actionId") for row in view.rows(state, "actionStates")]
+        demand(len(set(ids)) == len(ids), f"actionStates has {sorted(map(str, ids))!r:.200}")
+
+
+@case("moves_driving", "6.10.6", audit=True)
+def moves_driving(probe: Probe) -> None:
+    """While the position changes, driving is true."""
+    for a, b in pairwise(_states(probe)):
+        here, there = view.at(a), view.at(b)
+        stands = a.get("driving") is False and b.get("driving") is False
+        if stands and here and there and a.get("orderId") == b.get("orderId"):
+            far = math.dist(here, there)
+            demand(far < 0.5 * probe.settings.spacing, f"it moved {far:.2f} m, driving false")
+
+
+@case(
+    "paused_stands",
+    "6.8.2",
+    audit=True,
+)
+def paused_stands(probe: Probe) -> None:
+    """Once startPause is FINISHED, driving is false until stopPause."""
+    for a, b in pairwise(_states(probe)):
+        stood = a.get("paused") and not a.get("driving") and b.get("paused")
+        demand(not (stood and b.get("driving")), "driving is true while it is paused")
+
+
+@case("gaps", "6.10", audit=True)
+def gaps(probe: Probe) -> None:
+    """Between two states are never more than 30 s."""
+    times = [entry.time for entry in probe.log.heard(Kind.STATE)]
+    longest = max((b - a for a, b in pairwise(times)), default=0.0)
+    demand(longest <= probe.settings.idle, f"{longest:.1f} s between two states")
+
+
+@case("agreement", "6.13", audit=True)
+def agreement(probe: Probe) -> None:
+    """visualization and state have the vehicle at one place."""
+    at: dict[Kind, tuple[float, tuple[float, float]]] = {}
+    checked = 0
+    for entry in probe.log.entries:
+        position = view.at(entry.value or {}) if not entry.sent else None
+        if position is None or entry.kind not in (Kind.STATE, Kind.VISUALIZATION):
+            continue
+        at[entry.kind] = entry.time, position
+        if len(at) == 2:
+            (a, here), (b, there) = at.values()
+            if abs(a - b) < 0.1:
+                checked += 1
+                far = math.dist(here, there)
+                demand(far < 0.5 * probe.settings.spacing, f"they are {far:.2f} m apart")
+    if not checked:
+        raise Untestable("no visualization came beside a state")
