@@ -26,7 +26,6 @@ import { Requested } from './panels/requested.js';
 import { SceneKeys, speak } from './scene/scene_keys.js';
 import { Signs } from './scene/signs.js';
 import { Stage } from './scene/stage.js';
-import { Start } from './panels/start.js';
 import { Tip } from './base/tip.js';
 import { shownName } from './base/words.js';
 import { World } from './base/world.js';
@@ -61,7 +60,6 @@ class Page {
       stationOf: (name) => this.signs?.stations.get(name), moment: () => this.moment, log: this.log });
     this.drawers = new Drawers(() => this.fitPanels());
     new ResizeObserver(() => this.uncover()).observe($('details-panel'));
-    this.start = new Start(this);
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
     this.floor = '';
@@ -187,8 +185,17 @@ class Page {
 
   takeStatus(status) {
     this.bar.showStatus(status);
-    this.start.takeStatus(status);
+    this.showStart(status);
     if (!status.away) this.stage?.pace.yieldTo(status.paused ? 1 : status.factor, status.paused ? 1 : status.target_factor);
+  }
+
+  /** The invitation; a server that can neither start a shift nor break a robot shows a picture alone. */
+  async showStart(status) {
+    const { start_shift: noShift, fail } = status.lacks ?? {};
+    if (noShift && fail) return;
+    const { Start } = await import('./panels/start.js');
+    this.start ??= new Start(this);
+    this.start.takeStatus(status);
   }
 
   takeEvents(events) {
@@ -210,7 +217,7 @@ class Page {
     this.fleet.take(fleet);
     this.signs?.take(fleet, past);
     if (!came) return;
-    this.start.refresh();
+    this.start?.refresh();
     if (!fleet) this.takeWays(new Map());
     this.list.search($('search').value);
     this.watch();
@@ -531,4 +538,5 @@ function halfOf({ min, max }) {
 }
 
 window.page = new Page(); // for a look from the console
+if (location.search.includes('kiosk')) import('./kiosk.js');
 on(window, 'hashchange', () => window.page.askHash());

@@ -4,7 +4,6 @@
 import { post } from '../base/api.js';
 import { $, enable, on, setIcon, setText } from '../base/dom.js';
 import { number } from '../base/numbers.js';
-import { knownPerson } from '../base/person.js';
 import { confirmed } from '../base/question.js';
 import { clock } from '../base/time.js';
 
@@ -62,9 +61,10 @@ export class Bar {
   async stopAll() {
     const isHeld = this.stopped !== null;
     if (isHeld && !await confirmed('Release the emergency stop?', 'All robots go on with what they did.', 'Release')) return;
+    const by = localStorage.getItem('person') ?? '';
     try {
-      const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by: knownPerson() });
-      this.showStopped(isHeld ? null : knownPerson() || 'you');
+      const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by });
+      this.showStopped(isHeld ? null : by || 'you');
       this.say(message, 'done');
     } catch (error) {
       this.say(error.message, 'refused');

@@ -2,7 +2,7 @@
 // The invitation: what a newcomer can do with one click. It opens by itself once, where robots stand that
 // no coordinator drives; the rail opens it again.
 
-import { $, enable, on } from '../base/dom.js';
+import { $, enable, make, on } from '../base/dom.js';
 
 const PATIENCE = 1500; // for news of a coordinator that runs [ms]
 const SHOWN = 'start-shown'; // in localStorage, once it has opened by itself
@@ -11,15 +11,15 @@ export class Start {
   /** `page` is the Page. */
   constructor(page) {
     this.page = page;
+    document.head.append(make('link', { rel: 'stylesheet', href: '/web/start.css' }));
     for (const button of $('start-panel').querySelectorAll('[data-step]')) on(button, 'click', () => this.take(button.dataset.step));
     on($('start-close'), 'click', () => page.drawers.close('start-panel'));
   }
 
-  /** The server's status; one that can neither start a shift nor break a robot shows a picture alone. */
+  /** The server's status. */
   takeStatus({ lacks = {} }) {
     this.lack = lacks.start_shift ?? '';
-    const isPicture = Boolean(this.lack && lacks.fail);
-    $('start-tab').hidden = $('start-panel').hidden = isPicture;
+    $('start-tab').hidden = $('start-panel').hidden = false;
     this.refresh();
     if (this.lack || this.timer || localStorage.getItem(SHOWN)) return;
     this.timer = setTimeout(() => this.invite(), PATIENCE);
