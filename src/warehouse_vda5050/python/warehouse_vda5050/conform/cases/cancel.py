@@ -31,10 +31,7 @@ def idle(probe: Probe) -> None:
     demand(status == "FAILED", f"it is {status}")
 
 
-@case(
-    "idle_error",
-    "6.6.3.2",
-)
+@case("idle_error", "6.6.3.2")
 def idle_error(probe: Probe) -> None:
     """cancelOrder without an order gives a warning noOrderToCancel, with actionId."""
     id = probe.new_id("cancelOrder")
@@ -110,11 +107,7 @@ def waiting_actions(probe: Probe) -> None:
     demand(status == "FAILED", f"the action is {status or 'not reported'}")
 
 
-@case(
-    "running_action",
-    "6.6.3",
-    edges=1,
-)
+@case("running_action", "6.6.3", edges=1)
 def running_action(probe: Probe) -> None:
     """A running action is FAILED, or comes to its end, before FINISHED."""
     action = probe.harmless()

@@ -118,11 +118,7 @@ def moves_driving(probe: Probe) -> None:
             demand(far < 0.5 * probe.settings.spacing, f"it moved {far:.2f} m, driving false")
 
 
-@case(
-    "paused_stands",
-    "6.8.2",
-    audit=True,
-)
+@case("paused_stands", "6.8.2", audit=True)
 def paused_stands(probe: Probe) -> None:
     """Once startPause is FINISHED, driving is false until stopPause."""
     for a, b in pairwise(_states(probe)):
