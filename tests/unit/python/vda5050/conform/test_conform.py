@@ -168,3 +168,24 @@ def test_cases_after_one_that_left_the_vehicle_stuck_are_not_held_against_it():
     assert first.verdict is Verdict.CONFORMS
     assert stuck.verdict is Verdict.DIFFERS and "afterwards" in stuck.reason
     assert after.verdict is Verdict.UNTESTABLE and "since state.on_request" in after.reason
+
+
+def test_a_vehicle_may_report_an_order_before_it_counts_the_first_node():
+    """The state then has the last node of the order before, and all nodes of the new one."""
+    known = {}
+
+    def late(message):
+        if not message.topic.endswith("/state"):
+            return message
+        value = json.loads(message.payload)
+        here = value["lastNodeId"], value["lastNodeSequenceId"]
+        if value["orderId"] != known.get("order") and value["nodeStates"] and "here" in known:
+            first = {"nodeId": here[0], "sequenceId": 0, "released": True}
+            value["nodeStates"].insert(0, first)
+            value["lastNodeId"], value["lastNodeSequenceId"] = known["here"]
+        known.update(order=value["orderId"], here=here)
+        return message._replace(payload=json.dumps(value).encode())
+
+    runner = runner_for(wire=PaperWire(damage=late))
+    results = [*runner.run(cases_of("2.1.0"))]
+    assert not [(r.case.id, r.reason) for r in results if r.verdict is Verdict.DIFFERS]

@@ -79,7 +79,7 @@ def stands(probe: Probe) -> None:
 def soon(probe: Probe) -> None:
     """It stops as soon as it can: at the next node at the latest."""
     _under_way(probe, 3)
-    before = probe.state.get("lastNodeSequenceId", 0)
+    before = max(0, view.reached(probe.state))
     after = _cancel(probe).get("lastNodeSequenceId", 0)
     demand(after <= before + 4, f"it was at node {before}, and stopped at {after}")
     demand(after < 6, "it drove to the end")
@@ -143,7 +143,7 @@ def base_end(probe: Probe) -> None:
     """An order that waits at the end of its base is cancelled."""
     probe.accept(probe.new_order(probe.way(2), released=2))
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     demand(not _cancel(probe).get("nodeStates"), "nodeStates is not empty")
 
 

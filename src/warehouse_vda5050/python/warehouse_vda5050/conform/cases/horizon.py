@@ -18,7 +18,7 @@ def stops(probe: Probe) -> None:
     order = probe.new_order(probe.way(2), released=2)
     probe.accept(order)
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     probe.wait(2.0)
     probe.instant("stateRequest")
     state = probe.answer()
@@ -46,7 +46,7 @@ def not_over(probe: Probe) -> None:
     order = probe.new_order(way, released=2)
     probe.accept(order)
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     probe.never(lambda s: not s.get("nodeStates"), "nodeStates is empty", 1.0)
     probe.refuses(probe.new_order([way[1], way[0]]))
 

@@ -90,8 +90,8 @@ def node_leaves(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
-            last = state.get("lastNodeSequenceId", 0)
+        if view.has(state, order) and view.reached(state) >= 0:
+            last = view.reached(state)
             left = view.sequences(state, "nodeStates")
             demand(all(k > last for k in left), f"lastNodeSequenceId {last} is among {left}")
 
@@ -103,8 +103,8 @@ def edge_leaves(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
-            last = state.get("lastNodeSequenceId", 0)
+        if view.has(state, order) and view.reached(state) >= 0:
+            last = view.reached(state)
             left = view.sequences(state, "edgeStates")
             demand(all(k > last for k in left), f"after node {last} the edges {left} are left")
 
@@ -117,7 +117,7 @@ def last_node(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
+        if view.has(state, order) and view.reached(state) >= 0:
             number, name = state.get("lastNodeSequenceId"), state.get("lastNodeId")
             demand(names.get(number) == name, f"node {number} is {names.get(number)}, not {name}")
 
@@ -131,7 +131,7 @@ def not_early(probe: Probe) -> None:
     probe.drive(order)
     before = 0
     for state in probe.log.values(Kind.STATE, mark):
-        number, position = state.get("lastNodeSequenceId", 0), view.at(state)
+        number, position = max(0, view.reached(state)), view.at(state)
         if view.has(state, order) and number != before and position and number in at:
             far = math.dist(position, (at[number]["x"], at[number]["y"]))
             text = f"node {number} was traversed {far:.2f} m from it"

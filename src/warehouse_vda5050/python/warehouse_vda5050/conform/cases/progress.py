@@ -74,7 +74,7 @@ def counts(probe: Probe) -> None:
 def onwards(probe: Probe) -> None:
     """lastNodeSequenceId never goes back within an order."""
     for a, b in _of_one_order(probe):
-        before, after = a["lastNodeSequenceId"], b["lastNodeSequenceId"]
+        before, after = view.reached(a), view.reached(b)
         demand(before <= after, f"lastNodeSequenceId {after} follows {before}")
 
 

@@ -23,7 +23,7 @@ def _stand(probe: Probe) -> Json:
     """Waits until the vehicle stands at the end of its base."""
     seconds = probe.settings.edge + probe.settings.answer
     return probe.until(
-        lambda s: s.get("lastNodeSequenceId") == 2 and s.get("driving") is False,
+        lambda s: view.reached(s) == 2 and s.get("driving") is False,
         "standing at the end of the base",
         seconds,
     )
@@ -156,7 +156,7 @@ def lower_stitched(probe: Probe) -> None:
     probe.accept(newer)
     older = {**probe.update(order, way, 1), "orderUpdateId": 3}
     probe.refused(lambda: probe.order(older), ("orderUpdateError",), order["orderId"])
-    probe.never(lambda s: s.get("lastNodeSequenceId", 0) > 2, "it left its base", 2.0)
+    probe.never(lambda s: view.reached(s) > 2, "it left its base", 2.0)
 
 
 @case("lower_goes_on", "6.6.4.3", edges=2)
@@ -180,7 +180,7 @@ def gap(probe: Probe) -> None:
     update = probe.update(order, way, 2)
     probe.refused(lambda: probe.order(update), WRONG, order["orderId"])
     demand(not view.has(probe.state, update), "the update was taken over")
-    probe.never(lambda s: s.get("lastNodeSequenceId", 0) > 2, "it left its base", 2.0)
+    probe.never(lambda s: view.reached(s) > 2, "it left its base", 2.0)
 
 
 @case("other_node", "6.6.2", edges=2)
