@@ -95,6 +95,31 @@ class OperationsPage(WorkPageTest):
                 changes[message["type"]] += message[message["type"]]
         return changes
 
+    def test_1_the_shift_is_looked_ahead_of_as_it_is_and_with_a_change(self):
+        self.page.open(address() + "operations")
+        submit("ahead", "sku-5", 1)
+        self.look_ahead("")
+        self.page.until("page.forecast.shown?.runs > 0")
+        self.page.until("page.forecast.plot.chart.data.datasets[3].data.length > 10")
+        self.look_ahead("+0 close pick1")
+        self.page.until("page.forecast.shown.changes[0] === '+0 close pick1'")
+        text = self.page.read("document.getElementById('forecast-text').textContent")
+        self.assertIn("orders", text)
+        self.assertIn("against as it is", text)
+        self.assertTrue(self.page.read("!document.getElementById('forecast-other').hidden"))
+        status, latest = ask("/forecasts/latest")
+        self.assertEqual((status, latest["state"]), (200, "DONE"))
+        self.assertEqual(f"{latest['text']}.".lower(), text.lower())
+        status, answer = ask("/forecasts", {"changes": ["+0 close pick99"]})
+        self.assertEqual(status, 409)
+        self.assertIn("pick99", answer["detail"])
+
+    def look_ahead(self, change):
+        options = "document.getElementById('forecast-change')"
+        self.page.until(f"[...{options}.options].some((o) => o.value === '{change}')")
+        self.page.driver.execute_script(f"{options}.value = '{change}'")
+        self.page.driver.execute_script("document.getElementById('forecast-form').requestSubmit()")
+
     def test_2_a_person_picks_and_finds_too_few(self):
         self.press("pick2", 1)
         self.press("pick1", 2)

@@ -69,7 +69,11 @@ def remember(moment: Moment, site: Site, url: str, orders: str | None = None) ->
     )
     shift.context.clock.now = moment.time
     shift.tally.ways_back.extend(moment.ways_back)
-    shift.order_book.resume(moment.orders, moment.last_order)
+    in_hand = [order for order in moment.orders if order.done]
+    shift.order_book.resume([o for o in moment.orders if not o.done], moment.last_order)
+    for order in in_hand:  # the last piece is on its way into the tote
+        shift.orders[order.order_id] = order
+        shift.backlog.add(order)
     visits = _restore(shift, moment)
     transports = list(_transports(moment, site, visits))
     busy = {transport.kiva_id: transport for transport in transports}
@@ -108,7 +112,11 @@ def _restore(shift: Shift, moment: Moment) -> list[Visit]:
         visits.append(visit)
     by_id: dict[int, Order] = dict(shift.orders)
     for order_id, name in moment.assigned.items():
-        shift.picking.restore(shift.station(name), by_id[order_id])
+        station, order = shift.station(name), by_id[order_id]
+        shift.picking.restore(station, order)
+        if order.done:
+            rest = (station.seconds_a_piece - station.pick_seconds) / 2
+            shift.context.clock.schedule(moment.time + rest, shift.picking.complete, station)
     for visit in visits:
         if visit.here:
             part = shift.replenishing if visit.replenishes else shift.picking

@@ -9,6 +9,7 @@ time others leave, has a bound on its memory, and ends with its parent.
 
 import contextlib
 import ctypes
+import logging
 import os
 import pickle
 import resource
@@ -43,6 +44,7 @@ def main() -> None:
     _be_modest(int(sys.argv[1]))
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what else is printed is no answer
+    logging.disable()  # what orders a run refuses is no news
     source = sys.stdin.buffer
     from warehouse_operations.forecast import ahead, pacing
 

@@ -110,7 +110,7 @@ class ForecastService:
             shift, fleet = host.with_fleet()
             fork: Fork = of_shift(shift, fleet, recent)
             known = {o.order_id: (o.reference, o.due) for o in shift.orders.values()}
-            return tasks_of(asked, host.site, shift, fork, host.availability), known
+        return tasks_of(asked, host.site, shift, fork, host.availability), known
 
     def _make(
         self,

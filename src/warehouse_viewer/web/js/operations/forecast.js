@@ -65,7 +65,7 @@ export class ForecastCard {
 
   async ask() {
     const change = $('forecast-change').value;
-    this.say('', 'looks ahead …');
+    this.say('', 'looks ahead for about 20 s …');
     try {
       const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
       ({ forecast_id: this.id } = await post('/forecasts', asked));
@@ -80,8 +80,8 @@ export class ForecastCard {
     if (forecast.state !== 'DONE') return;
     const { forecast_id: id, made_at: begin, runs, changes, text } = forecast;
     this.id = Math.max(this.id, id);
-    const changed = changes.length ? `, if ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
-    this.say(text, runs ? `made at ${clock(begin)} from ${number(runs)} runs${changed}` : '');
+    const changed = changes.length ? `, with ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
+    this.say(sentenceOf(text), runs ? `made at ${clock(begin)} from ${number(runs)} runs${changed}` : '');
     if (!runs) return;
     if (!changes.length) this.plain = forecast;
     this.shown = forecast;
@@ -105,6 +105,8 @@ export class ForecastCard {
   }
 }
 
+const sentenceOf = (text) => `${text[0].toUpperCase()}${text.slice(1)}.`;
+
 function look() {
   const line = { pointRadius: 0, borderWidth: 1.75 };
   return {
@@ -120,7 +122,7 @@ function look() {
       parsing: false,
       interaction: { mode: 'nearest', axis: 'x', intersect: false },
       scales: {
-        x: axis('minutes from now', { grid: { display: false }, scale: { bounds: 'data' } }),
+        x: axis('minutes from now', { ticks: { callback: (minutes) => Math.round(minutes) }, grid: { display: false }, scale: { bounds: 'ticks' } }),
         y: axis('orders done', { ticks: { callback: (count) => number(count) }, scale: { grace: '5%' } }),
       },
       plugins: {

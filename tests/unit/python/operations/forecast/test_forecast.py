@@ -14,7 +14,17 @@ import pytest
 from warehouse_fleet.transports.transport_book import Step
 from warehouse_layout.message_enums import OrderState
 from warehouse_operations.fleets import fleet_now
-from warehouse_operations.forecast import ahead, bands, comparison, fork, request, worker, workers
+from warehouse_operations.fleets.forked_fleet import Pace
+from warehouse_operations.forecast import (
+    ahead,
+    bands,
+    comparison,
+    fork,
+    pacing,
+    request,
+    worker,
+    workers,
+)
 from warehouse_operations.forecast.request import ForecastError, Request
 from warehouse_operations.forecast.workers import Runs, RunsError
 from warehouse_operations.runs.simulation import Description, open_operations
@@ -271,3 +281,32 @@ def test_a_text_says_when_all_is_done(shift):
     runs = [outcome(i, [10 + i], finish=3600.0 + 60 * i) for i in range(9)]
     text = bands.forecast_of(task, 1, runs, {1: ("A", 0.0)}).text
     assert text.startswith("all orders of now done at 1:04 (1:00 to 1:08); 14 (10 to 18) orders")
+
+
+# Pace.
+
+
+def test_robots_are_as_slow_as_they_were(shift, monkeypatch):
+    monkeypatch.setattr(pacing, "FEWEST", 2)  # the warehouse is small
+    task = a_task(shift)
+    lift = task.site.kinematics.lift
+    usual = pacing.PILOT
+    pilot = ahead.Ahead(task, pacing.NUMBER)
+    pilot.step_until(shift.time + pacing.SETTLE)
+    pilot.shift.tally.ways_back.clear()
+    pilot.step_until(shift.time + usual)
+    slow = tuple(lift + 1.5 * (way - lift) for way in pilot.shift.tally.ways_back)
+    pace = pacing.pace_of(replace(task, fork=replace(task.fork, ways_back=slow)))
+    assert pace.loaded == pytest.approx(1.5, abs=0.01) and pace.unloaded == pace.loaded
+    assert pacing.pace_of(replace(task, fork=replace(task.fork, ways_back=()))).loaded == 1.0
+
+
+def test_a_slower_pace_makes_ways_longer(shift):
+    task = a_task(shift)
+    means = []
+    for pace in (Pace(), Pace(2.0, 2.0)):
+        copy = ahead.Ahead(replace(task, fork=replace(task.fork, pace=pace)), 0)
+        copy.shift.tally.ways_back.clear()
+        copy.step_until(shift.time + 900)
+        means.append(np.mean(copy.shift.tally.ways_back) - task.site.kinematics.lift)
+    assert 1.5 < means[1] / means[0] < 2.5
