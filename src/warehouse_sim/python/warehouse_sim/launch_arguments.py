@@ -19,6 +19,7 @@ from warehouse_layout.file.request import FIT, LIMITS, PRESETS
 from warehouse_layout.models import world_file
 from warehouse_sim import layout_argument
 from warehouse_viewer.server import token
+from warehouse_viewer.watch import webhooks
 
 MOST_PORT, MOST_CHECKPOINTS = 65535, 100_000
 MOST_WHOLE = 2**31 - 1  # of a parameter of ROS
@@ -176,6 +177,14 @@ def _token_file(text: str, place: Place) -> str:
     return ""
 
 
+def _webhooks(text: str, place: Place) -> str:
+    try:
+        webhooks.read(text)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
 def _point(text: str, place: Place) -> str:
     try:
         point(text)
@@ -254,6 +263,7 @@ ARGUMENTS: dict[str, Check] = {
     "viewer_port": _whole(MOST_PORT),
     "viewer_host": _host,
     "viewer_token_file": _token_file,
+    "webhooks": _webhooks,
     "cmd_vel": _robots,
     "map_to_odom": _flag,
     "map_resolution": _number(lambda edge: 0.01 <= edge <= 1, "a cell of 0.01 to 1 m"),

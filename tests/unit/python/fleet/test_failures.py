@@ -215,6 +215,12 @@ def test_the_same_seed_breaks_the_same_robots():
     assert story(4) != first
 
 
+def test_a_robot_that_is_broken_at_first_is_a_figure_at_once():
+    log = FailureLog()
+    log.update(5.0, np.array([1 << FailureKind.MOTOR], np.uint8))
+    assert log.figures()["availability"] == 1 and log.figures()["failures"] == 1
+
+
 def test_availability():
     log = FailureLog()
     for second in range(101):

@@ -131,7 +131,8 @@ class FailureLog:
         repairs = sum(self.repairs.values())
         return {
             "failures": self.total,
-            "availability": 1 - self.down_s / self.robot_s,
+            # A robot may be broken before any time has passed.
+            "availability": 1 - self.down_s / self.robot_s if self.robot_s else 1.0,
             "mtbf_h": (self.robot_s - self.down_s) / self.total / 3600,
             "mttr_s": sum(self.repaired_s.values()) / max(repairs, 1),
         }

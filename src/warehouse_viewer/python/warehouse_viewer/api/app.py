@@ -2,6 +2,7 @@
 """The application of a warehouse behind ROS: the page, its WebSocket and the HTTP API."""
 
 import asyncio
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +17,7 @@ from warehouse_msgs.msg import Event, TransportEvent
 from warehouse_viewer.api import catalogue, description, routes
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.command_log import CommandLog, LogsCommands
 from warehouse_viewer.api.metrics import Metrics
 from warehouse_viewer.api.routes import prometheus, sockets
 from warehouse_viewer.api.schemas.pydantic_versions import faults_of
@@ -31,6 +33,7 @@ from warehouse_viewer.replay.live_figures import LiveFigures
 from warehouse_viewer.replay.memory import SECONDS
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
+from warehouse_viewer.ros.emergency_stop import EmergencyStop
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
@@ -41,6 +44,7 @@ from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, DOCS, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
 from warehouse_viewer.server.station_pages import StationPages
+from warehouse_viewer.watch import webhooks
 from warehouse_viewer.watch.alarm_file import AlarmFile
 from warehouse_viewer.watch.monitor import Monitor
 from warehouse_viewer.whatif import places
@@ -51,11 +55,19 @@ from warehouse_viewer.whatif.workshop import Workshop
 class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
     `history` seconds (simulated) are kept, to be looked at again; 0: none. `alarms`: the file from
-    which a viewer that is restarted has them; None: it begins empty."""
+    which a viewer that is restarted has them; None: it begins empty. `hooks` are told of alarms.
+    """
 
     def __init__(
-        self, ros: ModuleType, web: Path, history: float = SECONDS, alarms: AlarmFile | None = None
+        self,
+        ros: ModuleType,
+        web: Path,
+        history: float = SECONDS,
+        alarms: AlarmFile | None = None,
+        hooks: webhooks.Webhooks | None = None,
     ) -> None:
+        self._hooks = hooks
+        self.address = ""  # of the pages, as links of webhooks have it
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
@@ -64,7 +76,8 @@ class Viewer:
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
         describe = catalogue.plain_coordinator
-        source = Source(feed, simulation, self.journal, describe, self._explain)
+        self.stop = EmergencyStop(ros)
+        source = Source(feed, simulation, self.journal, describe, self._explain, self._stopped)
         model, shift = Model(), ShiftFeed(ros, self.changes)
         self.history = (
             LiveRecording(model, self.journal, LiveFigures(feed, shift).read, history)
@@ -74,8 +87,16 @@ class Viewer:
         self.hub = Hub(source, model, self.history)
         operations = OperationsClient(ros, shift)
         self.monitor = Monitor(
-            feed, operations.feed, self.journal, self.changes, self.transports.assigned, alarms
+            feed,
+            operations.feed,
+            self.journal,
+            self.changes,
+            self.transports.assigned,
+            alarms,
+            self.stop,
+            self._tell,
         )
+        self.commands = CommandLog(lambda: self.monitor.now)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,
@@ -87,6 +108,8 @@ class Viewer:
             operations,
             self.changes,
             self.monitor,
+            self.stop,
+            self.commands,
         )
         self._web = web
         self._hub_task = HubTask(self.hub)
@@ -94,6 +117,15 @@ class Viewer:
     def _explain(self, name: str) -> dict[str, Any] | None:
         reason = self.monitor.reasons.find(name)
         return reason.as_json() if reason else None
+
+    def _stopped(self) -> str | None:
+        """Returns who has stopped the fleet; None: it may move."""
+        hold = self.stop.hold
+        return (hold.by or "a client") if hold else None
+
+    def _tell(self, event: str, alarm: Mapping[str, Any]) -> None:
+        if self._hooks:
+            self._hooks.post(webhooks.message(event, alarm, self.address.rstrip("/")))
 
     def _on_event(self, event: Event) -> None:
         entry = self.journal.add(catalogue.event(event))
@@ -133,7 +165,7 @@ class Viewer:
         app.include_router(sockets.router)
         app.include_router(prometheus.router)
         self._add_files(app)
-        return AccessControl(app, token, rate)
+        return AccessControl(LogsCommands(app, self.commands), token, rate)
 
     def start(self) -> None:
         """Begins to serve pages, in the running asyncio loop."""

@@ -15,6 +15,7 @@ from warehouse_msgs.msg import CoordinatorState, StationStates
 from warehouse_viewer.api import catalogue, operations_json
 from warehouse_viewer.api.boost import Boost
 from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.command_log import CommandLog
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.transport_book import TransportBook
 from warehouse_viewer.page.activities import wait_too_long
@@ -22,6 +23,7 @@ from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.source import AwayError, RefusedError
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import NONE_RUNS, Coordination
+from warehouse_viewer.ros.emergency_stop import EmergencyStop
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.simulation import Simulation
@@ -44,6 +46,8 @@ class ApiBackend:
     operations: OperationsClient
     changes: ChangeBook
     monitor: Monitor
+    stop: EmergencyStop
+    commands: CommandLog
     boost: Boost = field(default_factory=Boost)
 
     async def wait_for_positions(self) -> None:

@@ -21,6 +21,8 @@ async def apply(backend: ApiBackend, action: str, target: str) -> str:
         return await backend.coordinate("tow", _number(target))
     if action == "PICK_UP":
         return await backend.simulate("pick_up", _number(target))
+    if action == "RELEASE":
+        return await backend.call(backend.stop.release)
     if action in ("CLOSE", "STATION_AUTOMATIC"):
         return await _set_station(backend, action, target)
     return "this is done on the page"

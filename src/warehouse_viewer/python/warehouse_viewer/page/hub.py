@@ -180,6 +180,7 @@ class Hub:
             "id": number,
             "factor": round(factor, 2),
             "lacks": lacks,
+            "stopped": self._source.stopped(),
             **state,
         }
 

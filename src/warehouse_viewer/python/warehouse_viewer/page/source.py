@@ -102,7 +102,8 @@ class Source:
     """Everything that a page's server needs to know of a warehouse.
 
     `describe_coordinator` turns the feed's CoordinatorState into what JSON can say; a feed that
-    never has one needs none. `explain` returns why a robot or station waits, or None.
+    never has one needs none. `explain` returns why a robot or station waits, or None; `stopped`
+    who holds the fleet by an emergency stop, or None.
     """
 
     feed: Feed
@@ -110,3 +111,4 @@ class Source:
     journal: Journal
     describe_coordinator: Callable[[Any], dict[str, Any]] | None = None
     explain: Callable[[str], dict[str, Any] | None] | None = None
+    stopped: Callable[[], str | None] = lambda: None

@@ -150,7 +150,7 @@ class AlarmBook:
             for alarm in begun:
                 alarm.is_reported = True
             ended, self._just_ended = self._just_ended, []
-            return [alarm.as_json() for alarm in begun], ended
+            return [alarm.as_json(self._remedies(alarm.trouble)) for alarm in begun], ended
 
     def state(self) -> dict[str, Any]:
         """Returns all that restore() needs, as JSON."""

@@ -19,6 +19,12 @@ class AlarmKind(NamedTuple):
 
 
 KINDS = {
+    "EMERGENCY_STOP": AlarmKind(
+        CRITICAL,
+        "Emergency stop",
+        "No robot moves. Release the stop once the floor is clear.",
+        remedies=("RELEASE", "MOMENT"),
+    ),
     "ROBOT_BROKEN": AlarmKind(
         CRITICAL,
         "Robot is broken",

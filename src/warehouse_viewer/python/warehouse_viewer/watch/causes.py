@@ -140,6 +140,7 @@ LABELS = {
     "PICK_UP": "Pick it up",
     "STATION_AUTOMATIC": "Automatic again",
     "CLOSE": "Close",
+    "RELEASE": "Release the stop",
     "MOMENT": "Go to the moment",
 }
 LINKS = ("SHOW", "MOMENT")  # actions that need no request to the server

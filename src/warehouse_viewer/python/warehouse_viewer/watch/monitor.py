@@ -23,6 +23,7 @@ from warehouse_viewer.watch.station_watch import StationWatch
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, FleetState, StationState
+    from warehouse_viewer.ros.emergency_stop import EmergencyStop
     from warehouse_viewer.ros.feed import Feed
     from warehouse_viewer.ros.shift_feed import ShiftFeed
 
@@ -35,7 +36,8 @@ class Monitor:
 
     `feed` is a ros.feed.Feed, `shift` a ShiftFeed; what changes is noted in a ChangeBook under
     `alarms` and `figures`. assigned(): the unit and the station of each robot with a transport.
-    kept: where the alarms outlast this process; None: nowhere.
+    kept: where the alarms outlast this process; None: nowhere. stop: the fleet's emergency stop;
+    tell(event, alarm) hears of each alarm's `begin` and `end`.
     """
 
     def __init__(
@@ -46,7 +48,10 @@ class Monitor:
         book: ChangeBook,
         assigned: Callable[[], Mapping[int, tuple[int, str]]] = dict,
         kept: AlarmFile | None = None,
+        stop: EmergencyStop | None = None,
+        tell: Callable[[str, Mapping[str, Any]], None] = lambda event, alarm: None,
     ) -> None:
+        self._stop, self._tell = stop, tell
         self._feed, self._shift, self._journal, self._book = feed, shift, journal, book
         self._assigned, self._kept, self._written = assigned, kept, 0
         self.spans, self.alarms = SpanLog(), AlarmBook(self._remedies)
@@ -96,6 +101,8 @@ class Monitor:
         stamps = [fleet.stamp] if fleet else []
         stamps += [stations.header.stamp] if stations else []
         self.now = max(stamp.to_sec() for stamp in stamps)
+        if self._stop:
+            self._stop.keep(fleet)
         rows = stations.stations if stations else ()
         if stations is not self._read.get("stations") or fleet is not self._read.get("fleet"):
             self._read |= {"stations": stations, "fleet": fleet}
@@ -129,9 +136,11 @@ class Monitor:
         begun, ended = self.alarms.news()
         for alarm in begun:
             self._report(ALARM, alarm, alarm["text"])
+            self._tell("begin", alarm)
         for alarm in ended:
             text = f"{alarm['cause']}, for {causes.span(alarm['duration'])}"
             self._report(ALARM_OVER, alarm, text)
+            self._tell("end", alarm)
 
     def _report(self, kind: str, alarm: Mapping[str, Any], text: str) -> None:
         """Adds the begin or the end of an alarm to the events."""
@@ -146,7 +155,8 @@ class Monitor:
         if fleet is not None:
             pending += troubles.of_fleet(fleet)
         if state:
-            self._moments.take_watchdog(state.watchdog, self.now)
+            is_felt = bool(self._stop and self._stop.is_felt)
+            self._moments.take_watchdog(state.watchdog, self.now, is_felt)
             pending += _without(troubles.of_coordinator(state), bool(stations))
         elif stations:
             text = "a shift runs without a coordinator: what robots do is unknown"
@@ -154,7 +164,8 @@ class Monitor:
         pending += troubles.of_stations(stations, self.now, self.stations.starved)
         pending += self._moments.lasting(self.now)
         notices = self._shift["notices"]
-        return pending + list(troubles.of_notices(notices.notices if notices else ()))
+        pending += troubles.of_notices(notices.notices if notices else ())
+        return troubles.of_stop(self._stop, pending) if self._stop else pending
 
     def _remedies(self, trouble: Trouble) -> list[causes.Remedy]:
         state = self._feed.coordinator

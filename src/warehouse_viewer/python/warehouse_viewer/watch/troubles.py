@@ -15,6 +15,7 @@ from warehouse_viewer.watch.alarm_book import Trouble
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, FleetState
+    from warehouse_viewer.ros.emergency_stop import EmergencyStop
 
 UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
@@ -78,6 +79,22 @@ def of_fleet(fleet: FleetState) -> Iterator[Trouble]:
         yield Trouble("ROBOT_BLOCKED", name, f"{name} stands before an obstacle")
 
 
+# Kinds that follow from a stop of the whole fleet.
+OF_A_STOP = ("ROBOT_WAITS", "ROBOT_STALLED", "WATCHDOG", "STATION_STARVED")
+
+
+def of_stop(stop: EmergencyStop, pending: list[Trouble]) -> list[Trouble]:
+    """Returns the alarms where an emergency stop may hold; what follows from it is left out."""
+    if stop.is_felt:
+        pending = [trouble for trouble in pending if trouble.kind not in OF_A_STOP]
+    hold = stop.hold
+    if hold is None:
+        return pending
+    who = f"{hold.by} has stopped" if hold.by else "a client has stopped"
+    text = f"{who} all robots"
+    return [Trouble("EMERGENCY_STOP", "fleet", text, hold.since), *pending]
+
+
 def of_stations(
     stations: Iterable[Any], now: float, starved: dict[str, float]
 ) -> Iterator[Trouble]:
@@ -124,9 +141,10 @@ class Moments:
                 Trouble(kind, event["model"], f"{event['model']}: {event['text']}"), event["time"]
             )
 
-    def take_watchdog(self, count: int, now: float) -> None:
-        """Adds what a CoordinatorState's count of its watchdog has grown by."""
-        if self._watchdog is not None and count > self._watchdog:
+    def take_watchdog(self, count: int, now: float, is_expected: bool = False) -> None:
+        """Adds what a CoordinatorState's count of its watchdog has grown by, unless a stop explains
+        it."""
+        if self._watchdog is not None and count > self._watchdog and not is_expected:
             text = f"the watchdog has acted {count} times since the coordinator began"
             self.add(Trouble("WATCHDOG", "watchdog", text), now)
         self._watchdog = count

@@ -87,7 +87,7 @@ const placeOf = (drawer) => (NARROW.matches ? 'all' : drawer.dataset.place);
 /** What the bar, the rail and open drawers cover at the edges of the window [px]: {left, right, top,
  *  bottom}. A drawer covers the edge that it lies at. */
 export function marginsOf() {
-  const shown = all().filter((drawer) => drawer.classList.contains('open') && !drawer.hidden)
+  const shown = all().filter((drawer) => drawer.checkVisibility())
     .map((drawer) => ({ place: placeOf(drawer), box: drawer.getBoundingClientRect() }));
   const within = (place) => shown.filter((drawer) => drawer.place === place).map(({ box }) => box);
   const rail = $('rail').getBoundingClientRect(), foot = footOf();

@@ -8,9 +8,7 @@ import { at } from './root.js';
 export async function send(method, path, body = undefined, signal = undefined) {
   let answer;
   try {
-    const text = typeof body === 'string' ? body : JSON.stringify(body);
-    const sent = body === undefined ? {} : { body: text, headers: { 'content-type': 'application/json' } };
-    answer = await fetch(at(path), { method, signal, ...sent });
+    answer = await fetch(at(path), { method, signal, ...contentOf(method, body) });
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     throw new Error('the server does not answer', { cause: error });
@@ -19,6 +17,14 @@ export async function send(method, path, body = undefined, signal = undefined) {
   if (ok) return answer;
   const { detail, field = '' } = await answer.json().catch(() => ({}));
   throw Object.assign(new Error(reasonOf(detail) || `the server failed: ${status} ${statusText}`.trim()), { status, field });
+}
+
+/** Headers and body of a request; one that changes something names the person. */
+function contentOf(method, body) {
+  const person = globalThis.localStorage?.getItem('person');
+  const named = method !== 'GET' && person ? { 'x-person': encodeURIComponent(person) } : {};
+  if (body === undefined) return { headers: named };
+  return { body: typeof body === 'string' ? body : JSON.stringify(body), headers: { 'content-type': 'application/json', ...named } };
 }
 
 /** The body of the answer; throws as `send` does. */

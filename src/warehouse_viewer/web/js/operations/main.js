@@ -40,6 +40,8 @@ class Page {
     this.entry = new OrderEntry(() => this.now, taken);
     this.upload = new OrderUpload(taken);
     completeSkus($('sku'));
+    on($('open-handover'), 'click', () => import('./handover.js').then(({ openHandover }) => openHandover()).catch(fail));
+    $('batteries').addEventListener('toggle', () => import('./batteries.js').then(({ watchBatteries }) => watchBatteries()), { once: true });
     on(window, 'hashchange', leaveForStation);
     leaveForStation();
     on($('where'), 'submit', (event) => {

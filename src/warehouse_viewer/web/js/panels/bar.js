@@ -4,6 +4,7 @@
 import { post } from '../base/api.js';
 import { $, enable, on, setIcon, setText } from '../base/dom.js';
 import { number } from '../base/numbers.js';
+import { knownPerson } from '../base/person.js';
 import { confirmed } from '../base/question.js';
 import { clock } from '../base/time.js';
 
@@ -17,7 +18,7 @@ const NEEDS = { pause: 'pause', step: 'step', speed: 'speed', checkpoint: 'check
 export class Bar {
   /** `say(text, kind)` shows the person at the page a text; `offer(text, label, act)` adds a button. */
   constructor(say, offer) {
-    Object.assign(this, { say, offer, paused: false, live: false, lacks: {} });
+    Object.assign(this, { say, offer, stopped: null, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
     this.latest = 0; // simulated time that was reached [s]
     on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
@@ -26,6 +27,7 @@ export class Bar {
     on($('reset'), 'click', () => this.reset());
     on($('checkpoint'), 'click', () => this.keep());
     on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'checkpoint restored'));
+    on($('stop-all'), 'click', () => this.stopAll());
     on($('speed'), 'change', () => this.act('speed', { factor: Number($('speed').value) }));
   }
 
@@ -54,6 +56,27 @@ export class Bar {
     const done = 'everything is back at its start';
     if (!kept) this.say(done, 'done');
     else this.offer(done, 'Undo', () => this.act('restore', { name: BEFORE_RESET }, 'the reset is undone'));
+  }
+
+  /** Stops all robots without a question; lets them go on after one. */
+  async stopAll() {
+    const isHeld = this.stopped !== null;
+    if (isHeld && !await confirmed('Release the emergency stop?', 'All robots go on with what they did.', 'Release')) return;
+    try {
+      const { message } = await post(`/fleet/${isHeld ? 'release' : 'stop'}`, { by: knownPerson() });
+      this.showStopped(isHeld ? null : knownPerson() || 'you');
+      this.say(message, 'done');
+    } catch (error) {
+      this.say(error.message, 'refused');
+    }
+  }
+
+  /** By whom the fleet is stopped; null: it may move. */
+  showStopped(by) {
+    if (by === this.stopped) return;
+    this.stopped = by;
+    $('stop-all').textContent = by === null ? 'Stop all' : 'Release';
+    $('stop-all').classList.toggle('is-held', by !== null);
   }
 
   /** True if it was done. */
@@ -96,7 +119,10 @@ export class Bar {
       return;
     }
     setText($('warehouse'), status.warehouse || 'Warehouse');
-    this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
+    this.showStopped(status.stopped ?? null);
+    $('stop-all').hidden = Boolean(this.lacks.stop);
+    const held = this.stopped === null ? '' : `emergency stop by ${this.stopped}`;
+    this.link(held ? 'away' : status.paused ? 'paused' : 'live', held || (status.paused ? 'paused' : 'live'));
     setText($('factor'), status.paused ? '' : `×${number(status.factor, 2)}`);
     this.stepSize = status.step_size;
     this.showPaused(status.paused);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: its state, modes of robots, and transports."""
 
-from fastapi import APIRouter, HTTPException, Path
+from fastapi import APIRouter, Body, HTTPException, Path
 
 from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
@@ -10,6 +10,7 @@ from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, prob
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
+    FleetStop,
     NewFailure,
     NewMode,
     NewTransport,
@@ -24,6 +25,7 @@ from warehouse_viewer.api.schemas.watch import Doer
 from warehouse_viewer.watch.causes import LABELS
 
 router = APIRouter()
+DOER = Body(Doer())  # if there is no body
 TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
 
 
@@ -79,6 +81,28 @@ async def _mended(backend: ApiBackend, action: str, number: int, by: str) -> obj
     name = f"kiva{number}"
     message = await apply(backend, action, name)
     backend.monitor.note(name, by.strip(), LABELS[action])
+    return {"message": message}
+
+
+@router.get("/fleet/stop", response_model=FleetStop, responses=problems())
+async def get_stop(backend: ApiBackend = BACKEND) -> object:
+    """Whether an emergency stop holds all robots, and who asked for it."""
+    hold = backend.stop.hold
+    return {"stopped": bool(hold)} | (hold._asdict() if hold else {"by": "", "since": 0.0})
+
+
+@router.post("/fleet/stop", response_model=Done, responses=problems(*SENT))
+async def stop_fleet(body: Doer = DOER, backend: ApiBackend = BACKEND) -> object:
+    """Stops all robots at once, and holds them, while simulated time goes on. Robots that are
+    added, or are put back by a reset, stand too."""
+    return {"message": await backend.call(backend.stop.stop, body.by.strip())}
+
+
+@router.post("/fleet/release", response_model=Done, responses=problems(*SENT))
+async def release_fleet(body: Doer = DOER, backend: ApiBackend = BACKEND) -> object:
+    """Ends the emergency stop: each robot goes on with what it did."""
+    message = await backend.call(backend.stop.release)
+    backend.monitor.note("fleet", body.by.strip(), LABELS["RELEASE"])
     return {"message": message}
 
 

@@ -6,8 +6,9 @@ from typing import Any
 from fastapi import APIRouter, Query, Response
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.command_log import KEPT as MOST_COMMANDS
 from warehouse_viewer.api.routes.common import problems
-from warehouse_viewer.api.schemas.commands import Events
+from warehouse_viewer.api.schemas.commands import Commands, Events
 from warehouse_viewer.page.journal import KEPT
 
 router = APIRouter()
@@ -25,6 +26,23 @@ async def get_events(
 ) -> object:
     """The newest events, oldest first."""
     return {"events": backend.journal.since(since, model or None, limit)}
+
+
+@router.get("/commands", response_model=Commands, responses=problems())
+async def get_commands(
+    by: str = Query("", max_length=60, description="of this person alone"),
+    limit: int = Query(100, ge=1, le=MOST_COMMANDS, description="rows in the answer"),
+    backend: ApiBackend = BACKEND,
+) -> object:
+    """Who commanded what over HTTP, the page's clicks included: the newest, oldest first."""
+    return {"commands": backend.commands.rows(by, limit)}
+
+
+@router.get("/commands.csv", response_class=Response, responses=problems() | CSV)
+async def export_commands(backend: ApiBackend = BACKEND) -> Any:
+    """All commands that are kept, oldest first, for a spreadsheet."""
+    headers = {"content-disposition": 'attachment; filename="commands.csv"'}
+    return Response(backend.commands.csv(), media_type="text/csv", headers=headers)
 
 
 @router.get("/events.csv", response_class=Response, responses=problems() | CSV)

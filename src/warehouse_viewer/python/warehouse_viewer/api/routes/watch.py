@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Alarms, the four leading figures, and what robots and stations did in the last hour."""
 
+from datetime import datetime
 from typing import Any
 
 from fastapi import APIRouter, HTTPException, Path, Query
 from fastapi.responses import Response
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.handover import HOUR, Situation, written
 from warehouse_viewer.api.remedies import apply
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
@@ -28,6 +30,9 @@ SUBJECT = Path(max_length=80, regex=r"^[ -~]+$", description="kiva3, pick1")
 TIME = Query(None, ge=0, le=1e10, description="[s], simulated")
 COUNT = Query(0, ge=0, le=2**53)
 NO_FIGURES = "there are no figures; is a shift running (operations.launch)?"
+TEXT: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/markdown": {"schema": {"type": "string"}}}}
+}
 BYTES: dict[int | str, dict[str, Any]] = {
     200: {"content": {"application/octet-stream": {"schema": {"type": "string"}}}}
 }
@@ -94,6 +99,37 @@ async def get_why(
         raise HTTPException(404, f"no robot or station {name}")
     out = reason.as_json()
     return out | {"sentence": reasons.at(name, time)} if time is not None else out
+
+
+@router.get("/handover.md", response_class=Response, responses=problems() | TEXT)
+async def get_handover(
+    hours: float = Query(8, ge=0.1, le=1000, description="simulated, that it looks back"),
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """The handover note of a shift, as Markdown: what holds, figures, what happened, who did
+    what."""
+    wall = datetime.now().astimezone().isoformat(" ", "minutes")
+    text = written(await _situation(backend, hours), wall)
+    return Response(text, media_type="text/markdown; charset=utf-8")
+
+
+async def _situation(backend: ApiBackend, hours: float) -> Situation:
+    robots = await backend.robots()
+    shift, book, hold = backend.operations.feed, backend.monitor.alarms, backend.stop.hold
+    stations, now = shift["stations"], backend.monitor.now
+    return Situation(
+        name=(await backend.simulate("warehouse"))[0],
+        since=max(0.0, now - hours * HOUR),
+        now=now,
+        stop=(hold.by or "a client") if hold else None,
+        alarms=book.as_json(),
+        past=book.history(),
+        robots=robots,
+        stations=backend.stations(stations) if stations else (),
+        commands=backend.commands.rows(),
+        coordinator=backend.feed.coordinator,
+        kpis=shift["kpis"],
+    )
 
 
 @router.get("/figures", response_model=LeadingFigures, responses=problems())

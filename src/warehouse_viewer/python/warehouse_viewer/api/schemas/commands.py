@@ -97,3 +97,23 @@ class Outcome(BaseModel):
 
     outcome: Literal["accepted", "done", "blocked", "pending"]
     events: list[Event]
+
+
+class Commanded(BaseModel):
+    """A request that changes something, and its answer."""
+
+    id: int
+    time: float = Field(description="[s], simulated")
+    wall: str = Field(description="time on the wall, ISO 8601, UTC")
+    by: str = Field(description="the person, by header X-Person or `by`; empty: not given")
+    address: str = Field(description="of the client")
+    method: str
+    path: str = Field(description="beneath /api/v1")
+    body: str = Field(description="the request's first 300 characters")
+    status: int = Field(description="of the answer: 200 done, 409 refused")
+
+
+class Commands(BaseModel):
+    """The newest commands over HTTP since the viewer began, the oldest of them first."""
+
+    commands: list[Commanded]

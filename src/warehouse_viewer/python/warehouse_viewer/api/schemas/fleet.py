@@ -64,6 +64,14 @@ class NewMode(Body):
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 
+class FleetStop(BaseModel):
+    """The emergency stop of all robots."""
+
+    stopped: bool
+    by: str = Field(description="name of the person that asked for it; empty: not known")
+    since: float = Field(description="[s], simulated; 0: none holds")
+
+
 class NewFailure(Body):
     """Breaks something in a robot."""
 

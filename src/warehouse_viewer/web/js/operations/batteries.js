@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The batteries of the robots, the emptiest first; read while the section is open.
+
+import { get } from '../base/api.js';
+import { $, make, on } from '../base/dom.js';
+import { number, percent } from '../base/numbers.js';
+import { ROOT } from '../base/root.js';
+import { ACTIVITY, ACTIVITY_NAMES } from '../base/words.js';
+
+const EVERY = 5000; // [ms]
+const ROWS = 1000; // of an answer
+const SHOWN = 60;
+const LOW = 0.2, FULL = 0.999;
+
+/** Shows the section's content for as long as it is open. */
+export function watchBatteries() {
+  let timer;
+  const show = async () => {
+    clearTimeout(timer);
+    if (!$('batteries').open) return;
+    if (!document.hidden) await read().then(draw, (error) => { $('battery-sum').textContent = error.message; });
+    timer = setTimeout(show, EVERY);
+  };
+  on($('batteries'), 'toggle', show);
+  show();
+}
+
+async function read() {
+  const all = [];
+  for (let total = 1; all.length < total;) {
+    const answer = await get(`/robots?limit=${ROWS}&offset=${all.length}`);
+    if (!answer.robots.length) break;
+    total = answer.total;
+    all.push(...answer.robots);
+  }
+  return all;
+}
+
+function draw(robots) {
+  const sorted = robots.toSorted((a, b) => a.charge - b.charge || a.id - b.id);
+  $('battery-sum').textContent = summary(sorted.map(({ charge }) => charge));
+  $('battery-list').replaceChildren(...sorted.filter(({ charge }) => charge < FULL).slice(0, SHOWN).map(rowOf));
+}
+
+/** What the charges 0 … 1, the least first, come to. */
+export function summary(charges) {
+  if (!charges.length) return 'There is no robot.';
+  if (charges[0] >= FULL) return 'All are full. Without realism:=typical, or another with energy, none is ever used.';
+  const mean = charges.reduce((sum, charge) => sum + charge, 0) / charges.length;
+  const low = charges.filter((charge) => charge < LOW).length, rest = charges.length - SHOWN;
+  return [`mean ${percent(mean)}`, `least ${percent(charges[0])}`, `${number(low)} below ${percent(LOW)}`, rest > 0 && `the emptiest ${SHOWN} of ${number(charges.length)}`].filter(Boolean).join(', ');
+}
+
+function rowOf({ name, charge, activity, failures }) {
+  const meter = make('meter', { min: 0, max: 1, low: LOW, optimum: 1, value: charge, ariaLabel: `${name}: ${percent(charge)}` });
+  return make('li', {}, make('a', { href: `${ROOT}/#${name}`, textContent: name }), meter,
+    make('span', { className: 'number', textContent: percent(charge) }),
+    make('span', { className: 'dim', textContent: failures.join(', ') || ACTIVITY[ACTIVITY_NAMES.indexOf(activity)] }));
+}
