@@ -160,7 +160,7 @@ def parameters() -> str:
 SHARED = {
     "/gazebo/autosave": "how many checkpoints the world keeps for `/warehouse/undo`",
     "/viewer/address": "the address of the page",
-    "/warehouse/emergency_stop": "who holds the emergency stop of all robots, and since when; empty: none",
+    "/warehouse/emergency_stop": "who holds the fleet's emergency stop, since when; or empty",
     "/warehouse/floor": "the floor's lowest and highest x and y [m]",
     "/warehouse/layout": "the layout file of the warehouse that runs",
     "/warehouse/name": "the name of the warehouse that runs",

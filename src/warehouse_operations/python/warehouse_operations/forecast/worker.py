@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """The process of runs: reads Tasks, then which of them to run with which number,
 and answers each with its Outcome.
@@ -24,7 +23,7 @@ LOWEST = 19  # of nice
 
 
 def send(stream: IO[bytes], message: Any) -> None:
-    """Writes a message. Raises OSError where nobody reads it."""
+    """Writes a message. Raises OSError where the pipe has no reader."""
     content = message if isinstance(message, bytes) else pickle.dumps(message, 5)
     stream.write(LENGTH.pack(len(content)) + content)
     stream.flush()
@@ -56,7 +55,7 @@ def main() -> None:
                 answer: Any = ahead.run(tasks[index], number)
             except MemoryError:
                 answer = "it needs more memory than a run may have"
-            except Exception as error:  # told to whoever asked
+            except Exception as error:  # the parent says it
                 answer = f"{type(error).__name__}: {error}"
             send(out, answer)
 

@@ -14,7 +14,6 @@ from warehouse_vda5050.conform.log import Entry
 from warehouse_vda5050.conform.orders import order_of
 from warehouse_vda5050.conform.probe import Probe
 from warehouse_vda5050.conform.verdict import Differs, Ended, Interrupted, Untestable, Verdict
-from warehouse_vda5050.topics import Kind
 
 Json = dict[str, Any]
 PATIENCE = 35.0  # timeout of a first state of the vehicle [s]
@@ -64,6 +63,7 @@ class Runner:
         self.probe = probe
         self.results: list[Result] = []
         self._stuck = ""  # since which case the vehicle does not come to rest, and why
+        self._silent = False  # whether it does not answer either
 
     def run(self, cases: Iterable[Case]) -> Iterable[Result]:
         """Yields what the cases come to, one after another."""
@@ -90,7 +90,7 @@ class Runner:
             verdict, reason = Verdict.UNTESTABLE, "interrupted"
         seconds, entries = probe.now() - began, probe.log.entries[mark:]
         if not (case.audit or self._stuck):
-            fault = self.settle()
+            fault = self.settle(asks=verdict is Verdict.DIFFERS)
             self._stuck = fault and f"the vehicle does not come to rest since {case.id}: {fault}"
             if fault and verdict is Verdict.CONFORMS:
                 verdict, reason = Verdict.DIFFERS, f"and afterwards: {fault}"
@@ -101,25 +101,38 @@ class Runner:
         probe.limit(probe.settings.case)
         for action in case.actions:
             probe.need(action)
+        if self._stuck and (case.edges or self._silent) and not case.audit:
+            self._recover()
         if case.edges:
-            if self._stuck and not self.settle():
-                self._stuck = ""
-            if self._stuck:
-                raise Untestable(self._stuck)
             if probe.state.get("operatingMode") not in ("AUTOMATIC", "SEMIAUTOMATIC"):
                 raise Untestable(f"operatingMode is {probe.state.get('operatingMode')}")
             probe.here()
 
-    def settle(self) -> str:
-        """Ends whatever a case left; returns what was in the way, '' if nothing."""
+    def _recover(self) -> None:
+        """Brings the vehicle to rest after all. Raises Untestable."""
+        if self.settle(asks=True):
+            raise Untestable(self._stuck)
+        self._stuck = ""
+
+    def _ask(self) -> None:
+        """Demands that the vehicle answers. Raises Differs."""
+        self._silent = True
+        self.probe.instant("stateRequest")
+        self.probe.answer("stateRequest")
+        self._silent = False
+
+    def settle(self, asks: bool = False) -> str:
+        """Ends whatever a case left; returns what was in the way, '' if nothing. asks: whether the
+        vehicle has to answer first."""
         probe = self.probe
         probe.limit(probe.settings.case)
         probe.settling = True
         if probe.wire.cuts:
             probe.wire.restore()
         try:
-            if probe.log.last(Kind.STATE) is not None:
-                self._settle()
+            if asks:
+                self._ask()
+            self._settle()
         except Ended as ended:
             return str(ended)
         except MISSHAPEN as error:

@@ -31,6 +31,14 @@ def sequences(state: Json, key: str) -> list[int]:
     return [row.get("sequenceId", -1) for row in rows(state, key)]
 
 
+def reached(state: Json) -> int:
+    """Returns the number of the last traversed node; -1 as long as an order that was just taken has
+    not begun, whose state has the last node of the order before it still."""
+    if 0 in sequences(state, "nodeStates"):
+        return -1
+    return int(state.get("lastNodeSequenceId", -1))
+
+
 def has(state: Json, order: Json) -> bool:
     """Returns whether a state is of an order and its update."""
     keys = ("orderId", "orderUpdateId")

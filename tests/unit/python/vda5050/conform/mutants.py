@@ -1486,3 +1486,66 @@ def _(value, memory):
 def _(value, memory):
     for action in value["protocolFeatures"]["agvActions"]:
         action["actionScopes"] = []
+
+
+# --- what a random mutation of the code showed to be untried
+
+
+def _stitch_older(self, order, cells, former=OrderProgress.stitch):
+    number = order.update
+    new = former(self, replace(order, update=max(number, self.update)), cells)
+    self.update = number
+    return new
+
+
+patched(
+    "older_update_stitched",
+    "a lower update is refused, also if it fits",
+    (OrderProgress, "stitch", _stitch_older),
+)
+
+
+def _rounded(self, key, default=None, former=Fields.number):
+    return int(former(self, key, default))
+
+
+patched("fractions_taken", "a sequenceId is a whole number", (Fields, "natural", _rounded))
+
+
+def _true_is_one(topic, payload):
+    return payload.replace(b'"orderUpdateId":true', b'"orderUpdateId":0')
+
+
+MUTANTS["true_taken"] = Mutant("true_taken", "true is no number", deafen=_true_is_one)
+
+
+def _absolute(topic, payload):
+    return payload.replace(b'"orderUpdateId":-1', b'"orderUpdateId":1')
+
+
+MUTANTS["negative_taken"] = Mutant("negative_taken", "numbers are not negative", deafen=_absolute)
+patched(
+    "horizon_actions_wait",
+    "actions of a deleted horizon go with it",
+    (ActionQueue, "keep_only", NOTHING),
+)
+patched(
+    "device_ignored",
+    "a pick by an unknown device is refused",
+    (
+        action_checks,
+        "CHECKS",
+        {k: v for k, v in action_checks.CHECKS.items() if k != "lhd"},
+    ),
+)
+
+
+def _no_start_heading(order, cells, robot, former=demands.check_demands):
+    former(order, cells, replace(robot, yaw=None))
+
+
+patched(
+    "start_heading_ignored",
+    "theta of the first node is taken or refused",
+    (reception, "check_demands", _no_start_heading),
+)

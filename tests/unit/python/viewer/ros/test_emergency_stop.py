@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An emergency stop holds the whole fleet, whoever asks for it, until it is released."""
+"""An emergency stop holds the whole fleet, however it was asked for, until it is released."""
 
 import rospy
 from fake_ros import FakeRos, fleet_state

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Alarms reach other programs by POST, again where need be, and nobody waits for them."""
+"""Alarms reach other programs by POST, again where need be, and hold nothing up."""
 
 import json
 import threading

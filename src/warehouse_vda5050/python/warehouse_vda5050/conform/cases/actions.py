@@ -26,11 +26,7 @@ def _end(probe: Probe, order: Json, action: Json) -> Json:
     return probe.finish(order)
 
 
-@case(
-    "reported",
-    "6.11",
-    edges=1,
-)
+@case("reported", "6.11", edges=1)
 def reported(probe: Probe) -> None:
     """Each action of an order is in actionStates once the order is taken."""
     action = probe.harmless()
@@ -62,11 +58,7 @@ def first_node(probe: Probe) -> None:
     _end(probe, order, action)
 
 
-@case(
-    "middle_node",
-    "6.10.2",
-    edges=2,
-)
+@case("middle_node", "6.10.2", edges=2)
 def middle_node(probe: Probe) -> None:
     """An action of a node on the way begins there, and the order goes on."""
     order, action = _ordered(probe, 2, 1)
@@ -95,11 +87,7 @@ def finished(probe: Probe) -> None:
     demand(status == "FINISHED", f"it is {status}")
 
 
-@case(
-    "holds_order",
-    "6.6.2",
-    edges=1,
-)
+@case("holds_order", "6.6.2", edges=1)
 def holds_order(probe: Probe) -> None:
     """An order is under way until its last action is over: no other is taken."""
     order, action = _ordered(probe, 1, 1)
@@ -155,11 +143,7 @@ def wrong_scope(probe: Probe) -> None:
     probe.refuses(probe.new_order(probe.way(1), actions={1: [action]}), "orderError")
 
 
-@case(
-    "edge",
-    "6.6.4.2",
-    edges=1,
-)
+@case("edge", "6.6.4.2", edges=1)
 def edge(probe: Probe) -> None:
     """An action of an edge is carried out there, or the order is refused."""
     action = probe.harmless("NONE")
@@ -174,11 +158,7 @@ def edge(probe: Probe) -> None:
     probe.finish(order)
 
 
-@case(
-    "parameter",
-    "6.6.4.2",
-    edges=1,
-)
+@case("parameter", "6.6.4.2", edges=1)
 def parameter(probe: Probe) -> None:
     """An order with a parameter that the vehicle can't use is refused."""
     action = probe.harmless()
@@ -194,11 +174,15 @@ def height(probe: Probe) -> None:
     probe.refuses(probe.new_order(probe.way(0), actions={0: [action]}), "orderError")
 
 
-@case(
-    "drop_nothing",
-    "6.8.2",
-    edges=1,
-)
+@case("device", "6.6.4.2", edges=1)
+def device(probe: Probe) -> None:
+    """A pick by a load handling device that the vehicle does not have is refused."""
+    probe.need("pick", "NODE")
+    action = action_of("pick", probe.new_id("pick"), "HARD", [("lhd", "conform_no_such")])
+    probe.refuses(probe.new_order(probe.way(0), actions={0: [action]}), "orderError")
+
+
+@case("drop_nothing", "6.8.2", edges=1)
 def drop_nothing(probe: Probe) -> None:
     """A drop without a load is FAILED, with an error; or the order is refused."""
     probe.need("drop", "NODE")

@@ -88,7 +88,7 @@ def none_drives(probe: Probe) -> None:
     probe.accept(order)
     probe.running(action)
     probe.until(
-        lambda s: s.get("lastNodeSequenceId") == 2 and view.has(s, order),
+        lambda s: view.reached(s) == 2 and view.has(s, order),
         "the next node while the action runs",
         probe.settings.edge,
     )

@@ -31,10 +31,7 @@ def idle(probe: Probe) -> None:
     demand(status == "FAILED", f"it is {status}")
 
 
-@case(
-    "idle_error",
-    "6.6.3.2",
-)
+@case("idle_error", "6.6.3.2")
 def idle_error(probe: Probe) -> None:
     """cancelOrder without an order gives a warning noOrderToCancel, with actionId."""
     id = probe.new_id("cancelOrder")
@@ -82,7 +79,7 @@ def stands(probe: Probe) -> None:
 def soon(probe: Probe) -> None:
     """It stops as soon as it can: at the next node at the latest."""
     _under_way(probe, 3)
-    before = probe.state.get("lastNodeSequenceId", 0)
+    before = max(0, view.reached(probe.state))
     after = _cancel(probe).get("lastNodeSequenceId", 0)
     demand(after <= before + 4, f"it was at node {before}, and stopped at {after}")
     demand(after < 6, "it drove to the end")
@@ -110,11 +107,7 @@ def waiting_actions(probe: Probe) -> None:
     demand(status == "FAILED", f"the action is {status or 'not reported'}")
 
 
-@case(
-    "running_action",
-    "6.6.3",
-    edges=1,
-)
+@case("running_action", "6.6.3", edges=1)
 def running_action(probe: Probe) -> None:
     """A running action is FAILED, or comes to its end, before FINISHED."""
     action = probe.harmless()
@@ -150,7 +143,7 @@ def base_end(probe: Probe) -> None:
     """An order that waits at the end of its base is cancelled."""
     probe.accept(probe.new_order(probe.way(2), released=2))
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     demand(not _cancel(probe).get("nodeStates"), "nodeStates is not empty")
 
 

@@ -77,11 +77,7 @@ def max_height(probe: Probe) -> None:
     _honoured_or_refused(probe, _with_edge(probe, maxHeight=0.01), names, _ignored)
 
 
-@case(
-    "min_height",
-    "6.1.1",
-    edges=1,
-)
+@case("min_height", "6.1.1", edges=1)
 def min_height(probe: Probe) -> None:
     """A minHeight that the load handling device can't keep is refused."""
     names = ("minHeight", "minimumLoadHandlingDeviceHeight")
@@ -104,11 +100,7 @@ def orientation(probe: Probe) -> None:
     _honoured_or_refused(probe, order, ("orientation",), judge)
 
 
-@case(
-    "orientation_tangential",
-    "6.1.1",
-    edges=1,
-)
+@case("orientation_tangential", "6.1.1", edges=1)
 def orientation_tangential(probe: Probe) -> None:
     """A tangential orientation, backwards, is driven, or refused."""
     order = probe.new_order(probe.way(1))
@@ -155,13 +147,20 @@ def deviation(probe: Probe) -> None:
     _honoured_or_refused(probe, order, ("allowedDeviationXY", "allowedDeviationXy"), judge)
 
 
-@case("map", "6.1.1", edges=1)
-def other_map(probe: Probe) -> None:
-    """A node on a map that the vehicle does not have is refused."""
-    order = probe.new_order(probe.way(1))
-    order["nodes"][1]["nodePosition"]["mapId"] = "conform_no_such_map"
-    probe.refuses(order)
-    probe.never(lambda s: s.get("driving"), "it drives", 1.0)
+@case("theta_start", "6.1.1", edges=1)
+def theta_start(probe: Probe) -> None:
+    """theta of the node where the vehicle stands is taken, or refused."""
+    order = probe.new_order(probe.way(0))
+    here = (probe.state.get("agvPosition") or {}).get("theta", 0.0)
+    across = math.remainder(here + math.pi / 2, math.tau)
+    order["nodes"][0]["nodePosition"].update(theta=across, allowedDeviationTheta=0.05)
+
+    def judge(_order: Json, states: list[Json]) -> str:
+        theta = states[-1]["agvPosition"]["theta"]
+        off = abs(math.remainder(theta - across, math.tau))
+        return "" if off < TOLERANCE else f"theta is {theta:.2f}; {across:.2f} was asked"
+
+    _honoured_or_refused(probe, order, ("theta", "Theta"), judge)
 
 
 @case("zone_set", "6.6.6", edges=1)
@@ -223,11 +222,7 @@ def length(probe: Probe) -> None:
     _honoured_or_refused(probe, _with_edge(probe, length=777.0), ("length",), _ignored)
 
 
-@case(
-    "harmless",
-    "6.1.1",
-    edges=1,
-)
+@case("harmless", "6.1.1", edges=1)
 def harmless(probe: Probe) -> None:
     """Fields that ask for nothing are taken: descriptions, a generous maxSpeed."""
     order = _with_edge(probe, maxSpeed=100.0, edgeDescription="of conform")

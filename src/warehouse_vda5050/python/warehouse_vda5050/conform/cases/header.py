@@ -39,11 +39,7 @@ def state_form(probe: Probe) -> None:
     _form(probe, Kind.STATE)
 
 
-@case(
-    "visualization_form",
-    "6.13",
-    audit=True,
-)
+@case("visualization_form", "6.13", audit=True)
 def visualization_form(probe: Probe) -> None:
     """Each visualization has its fields, of the right types."""
     _form(probe, Kind.VISUALIZATION)

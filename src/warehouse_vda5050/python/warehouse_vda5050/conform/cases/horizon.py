@@ -18,7 +18,7 @@ def stops(probe: Probe) -> None:
     order = probe.new_order(probe.way(2), released=2)
     probe.accept(order)
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     probe.wait(2.0)
     probe.instant("stateRequest")
     state = probe.answer()
@@ -28,11 +28,7 @@ def stops(probe: Probe) -> None:
     demand(far < 0.3 * probe.settings.spacing, f"it is {far:.2f} m beyond the base")
 
 
-@case(
-    "reported",
-    "6.10.6",
-    edges=2,
-)
+@case("reported", "6.10.6", edges=2)
 def reported(probe: Probe) -> None:
     """Nodes and edges of the horizon are reported with released false."""
     order = probe.new_order(probe.way(2), released=2)
@@ -50,16 +46,12 @@ def not_over(probe: Probe) -> None:
     order = probe.new_order(way, released=2)
     probe.accept(order)
     seconds = probe.settings.edge + probe.settings.answer
-    probe.until(lambda s: s.get("lastNodeSequenceId") == 2, "the end of the base", seconds)
+    probe.until(lambda s: view.reached(s) == 2, "the end of the base", seconds)
     probe.never(lambda s: not s.get("nodeStates"), "nodeStates is empty", 1.0)
     probe.refuses(probe.new_order([way[1], way[0]]))
 
 
-@case(
-    "nothing_released",
-    "6.6.2",
-    edges=1,
-)
+@case("nothing_released", "6.6.2", edges=1)
 def nothing_released(probe: Probe) -> None:
     """A vehicle whose first node alone is released does not drive."""
     probe.accept(probe.new_order(probe.way(1), released=1))

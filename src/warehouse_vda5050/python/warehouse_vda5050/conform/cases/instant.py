@@ -54,11 +54,7 @@ def unknown_error(probe: Probe) -> None:
     demand(id in pairs.values(), f"references are {pairs}; actionId was expected")
 
 
-@case(
-    "known_beside_unknown",
-    "6.9",
-    strict=True,
-)
+@case("known_beside_unknown", "6.9", strict=True)
 def known_beside_unknown(probe: Probe) -> None:
     """Beside an unknown action the others are carried out."""
     id = probe.new_id("stateRequest")
@@ -108,10 +104,7 @@ def init_without(probe: Probe) -> None:
     demand(status == "FAILED", f"it is {status}")
 
 
-@case(
-    "charging",
-    "6.8.2",
-)
+@case("charging", "6.8.2")
 def charging(probe: Probe) -> None:
     """startCharging ends; FINISHED means charging true, FAILED comes with an error."""
     if not probe.supports("startCharging", "INSTANT"):

@@ -13,11 +13,7 @@ chapter = Chapter("order")
 case = chapter.case
 
 
-@case(
-    "one_node",
-    "6.6.2",
-    edges=1,
-)
+@case("one_node", "6.6.2", edges=1)
 def one_node(probe: Probe) -> None:
     """An order of the node where the vehicle stands is taken, and over."""
     order = probe.new_order(probe.way(0))
@@ -42,11 +38,7 @@ def many_nodes(probe: Probe) -> None:
     demand(state.get("lastNodeSequenceId") == 6, "lastNodeSequenceId is not 6")
 
 
-@case(
-    "there_and_back",
-    "6.6.2",
-    edges=1,
-)
+@case("there_and_back", "6.6.2", edges=1)
 def there_and_back(probe: Probe) -> None:
     """An order may come to a node twice: sequenceId tells them apart."""
     a, b = probe.way(1)
@@ -55,11 +47,7 @@ def there_and_back(probe: Probe) -> None:
     demand(state.get("lastNodeSequenceId") == 4, "lastNodeSequenceId is not 4")
 
 
-@case(
-    "nodes_reported",
-    "6.10.1",
-    edges=2,
-)
+@case("nodes_reported", "6.10.1", edges=2)
 def nodes_reported(probe: Probe) -> None:
     """nodeStates has the nodes to be traversed, as they were ordered."""
     order = probe.new_order(probe.way(2))
@@ -74,11 +62,7 @@ def nodes_reported(probe: Probe) -> None:
     probe.finish(order)
 
 
-@case(
-    "edges_reported",
-    "6.10.1",
-    edges=2,
-)
+@case("edges_reported", "6.10.1", edges=2)
 def edges_reported(probe: Probe) -> None:
     """edgeStates has the edges to be driven, as they were ordered."""
     order = probe.new_order(probe.way(2))
@@ -106,8 +90,8 @@ def node_leaves(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
-            last = state.get("lastNodeSequenceId", 0)
+        if view.has(state, order) and view.reached(state) >= 0:
+            last = view.reached(state)
             left = view.sequences(state, "nodeStates")
             demand(all(k > last for k in left), f"lastNodeSequenceId {last} is among {left}")
 
@@ -119,8 +103,8 @@ def edge_leaves(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
-            last = state.get("lastNodeSequenceId", 0)
+        if view.has(state, order) and view.reached(state) >= 0:
+            last = view.reached(state)
             left = view.sequences(state, "edgeStates")
             demand(all(k > last for k in left), f"after node {last} the edges {left} are left")
 
@@ -133,16 +117,12 @@ def last_node(probe: Probe) -> None:
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order):
+        if view.has(state, order) and view.reached(state) >= 0:
             number, name = state.get("lastNodeSequenceId"), state.get("lastNodeId")
             demand(names.get(number) == name, f"node {number} is {names.get(number)}, not {name}")
 
 
-@case(
-    "not_early",
-    "6.10.2",
-    edges=2,
-)
+@case("not_early", "6.10.2", edges=2)
 def not_early(probe: Probe) -> None:
     """A node counts as traversed when the vehicle is there, not before."""
     order = probe.new_order(probe.way(2))
@@ -151,7 +131,7 @@ def not_early(probe: Probe) -> None:
     probe.drive(order)
     before = 0
     for state in probe.log.values(Kind.STATE, mark):
-        number, position = state.get("lastNodeSequenceId", 0), view.at(state)
+        number, position = max(0, view.reached(state)), view.at(state)
         if view.has(state, order) and number != before and position and number in at:
             far = math.dist(position, (at[number]["x"], at[number]["y"]))
             text = f"node {number} was traversed {far:.2f} m from it"
@@ -159,11 +139,7 @@ def not_early(probe: Probe) -> None:
             before = number
 
 
-@case(
-    "copy",
-    "6.6.4.3",
-    edges=2,
-)
+@case("copy", "6.6.4.3", edges=2)
 def copy(probe: Probe) -> None:
     """The same order once more is ignored: no error, nothing driven twice."""
     order = probe.new_order(probe.way(2))
@@ -215,11 +191,7 @@ def next_order(probe: Probe) -> None:
     probe.drive(probe.new_order(probe.way(1)))
 
 
-@case(
-    "elsewhere",
-    "6.6.2",
-    edges=2,
-)
+@case("elsewhere", "6.6.2", edges=2)
 def elsewhere(probe: Probe) -> None:
     """An order that begins where the vehicle does not stand is refused."""
     way = probe.way(2)
@@ -227,11 +199,7 @@ def elsewhere(probe: Probe) -> None:
     probe.never(lambda s: s.get("driving"), "the vehicle drives", 2.0)
 
 
-@case(
-    "elsewhere_node",
-    "6.6.2",
-    edges=2,
-)
+@case("elsewhere_node", "6.6.2", edges=2)
 def elsewhere_node(probe: Probe) -> None:
     """An order of one node, where the vehicle does not stand, is refused."""
     way = probe.way(2)
@@ -248,11 +216,7 @@ def refused_kept(probe: Probe) -> None:
     demand(view.has(probe.answer(), order), "the state has another order")
 
 
-@case(
-    "stands_at_end",
-    "6.6.2",
-    edges=2,
-)
+@case("stands_at_end", "6.6.2", edges=2)
 def stands_at_end(probe: Probe) -> None:
     """The vehicle stands at the last released node, and drives no farther."""
     order = probe.new_order(probe.way(1))

@@ -74,7 +74,7 @@ def counts(probe: Probe) -> None:
 def onwards(probe: Probe) -> None:
     """lastNodeSequenceId never goes back within an order."""
     for a, b in _of_one_order(probe):
-        before, after = a["lastNodeSequenceId"], b["lastNodeSequenceId"]
+        before, after = view.reached(a), view.reached(b)
         demand(before <= after, f"lastNodeSequenceId {after} follows {before}")
 
 
@@ -118,11 +118,7 @@ def moves_driving(probe: Probe) -> None:
             demand(far < 0.5 * probe.settings.spacing, f"it moved {far:.2f} m, driving false")
 
 
-@case(
-    "paused_stands",
-    "6.8.2",
-    audit=True,
-)
+@case("paused_stands", "6.8.2", audit=True)
 def paused_stands(probe: Probe) -> None:
     """Once startPause is FINISHED, driving is false until stopPause."""
     for a, b in pairwise(_states(probe)):

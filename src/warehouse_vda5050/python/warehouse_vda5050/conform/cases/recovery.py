@@ -81,11 +81,7 @@ def hears(probe: Probe) -> None:
     probe.finished(probe.instant("stateRequest"))
 
 
-@case(
-    "base_driven",
-    "6.2",
-    edges=2,
-)
+@case("base_driven", "6.2", edges=2)
 def base_driven(probe: Probe) -> None:
     """An order is driven to its last released node without a connection, too."""
     order = _lost_under_way(probe)

@@ -53,11 +53,7 @@ def on_copy(probe: Probe) -> None:
     probe.answer("a copy of the order")
 
 
-@case(
-    "on_node",
-    "6.10",
-    edges=3,
-)
+@case("on_node", "6.10", edges=3)
 def on_node(probe: Probe) -> None:
     """Driving over a node triggers a state: each node is lastNodeId once."""
     way = probe.way(min(3, probe.ground.edges if probe.ground else 3))
@@ -94,10 +90,7 @@ def on_nodes(probe: Probe) -> None:
     demand({0, 1, 2} <= edges, f"states had {sorted(edges)} edgeStates; 2, 1, 0 were expected")
 
 
-@case(
-    "position",
-    "6.10.6",
-)
+@case("position", "6.10.6")
 def position(probe: Probe) -> None:
     """agvPosition has numbers, a map, theta from -pi to pi, and is initialized."""
     position = probe.state.get("agvPosition")
@@ -114,11 +107,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-@case(
-    "maps",
-    "6.7.2",
-    versions=("2.1.0", "3.0.0"),
-)
+@case("maps", "6.7.2", versions=("2.1.0", "3.0.0"))
 def maps(probe: Probe) -> None:
     """The map of the position is among maps, and ENABLED."""
     if "maps" not in probe.state:
@@ -179,11 +168,7 @@ def order_kept(probe: Probe) -> None:
     demand(view.has(probe.answer(), order), "orderId or orderUpdateId is lost")
 
 
-@case(
-    "where",
-    "6.10.6",
-    edges=1,
-)
+@case("where", "6.10.6", edges=1)
 def where(probe: Probe) -> None:
     """agvPosition follows the vehicle: at the end it is at the last node."""
     order = probe.new_order(probe.way(1))

@@ -23,17 +23,13 @@ def _stand(probe: Probe) -> Json:
     """Waits until the vehicle stands at the end of its base."""
     seconds = probe.settings.edge + probe.settings.answer
     return probe.until(
-        lambda s: s.get("lastNodeSequenceId") == 2 and s.get("driving") is False,
+        lambda s: view.reached(s) == 2 and s.get("driving") is False,
         "standing at the end of the base",
         seconds,
     )
 
 
-@case(
-    "while_driving",
-    "6.6.2",
-    edges=2,
-)
+@case("while_driving", "6.6.2", edges=2)
 def while_driving(probe: Probe) -> None:
     """An update with a higher number extends the base while driving."""
     way, order = _half(probe)
@@ -44,11 +40,7 @@ def while_driving(probe: Probe) -> None:
     demand(state.get("lastNodeSequenceId") == 4, "it did not come to the new end")
 
 
-@case(
-    "standing",
-    "6.6.2",
-    edges=2,
-)
+@case("standing", "6.6.2", edges=2)
 def standing(probe: Probe) -> None:
     """An update is taken while the vehicle waits at the end of its base."""
     way, order = _half(probe)
@@ -82,11 +74,7 @@ def twice(probe: Probe) -> None:
     demand(probe.finish(second, 3).get("lastNodeSequenceId") == 6, "it did not come to its end")
 
 
-@case(
-    "states",
-    "6.6.2",
-    edges=2,
-)
+@case("states", "6.6.2", edges=2)
 def states(probe: Probe) -> None:
     """After an update the states have the rest of the base and the new nodes."""
     way, order = _half(probe)
@@ -98,11 +86,7 @@ def states(probe: Probe) -> None:
     probe.finish(update)
 
 
-@case(
-    "horizon_replaced",
-    "6.6.2",
-    edges=2,
-)
+@case("horizon_replaced", "6.6.2", edges=2)
 def horizon_replaced(probe: Probe) -> None:
     """An update replaces the horizon: what it leaves out is gone."""
     way, order = _half(probe)
@@ -111,6 +95,19 @@ def horizon_replaced(probe: Probe) -> None:
     left = view.sequences(state, "nodeStates")
     demand(4 not in left, f"nodeStates has {left} although the horizon was deleted")
     demand(probe.finish(update).get("lastNodeSequenceId") == 2, "it is not at the end of the base")
+
+
+@case("horizon_actions", "6.6.2", edges=2)
+def horizon_actions(probe: Probe) -> None:
+    """Actions of a horizon that an update deletes wait no longer."""
+    action = probe.harmless()
+    way = probe.way(2)
+    order = probe.new_order(way, released=2, actions={2: [action]})
+    probe.accept(order)
+    update = probe.update(order, way[:2], 1)
+    probe.accept(update)
+    status = view.status(probe.finish(update), action["actionId"])
+    demand(status in ("", "FAILED"), f"the action is {status}")
 
 
 @case("horizon_changed", "6.6.2", edges=2)
@@ -149,6 +146,19 @@ def lower(probe: Probe) -> None:
     probe.finish(update)
 
 
+@case("lower_stitched", "6.6.4.3", edges=2)
+def lower_stitched(probe: Probe) -> None:
+    """A lower orderUpdateId is refused, also if it would fit the base."""
+    way = probe.way(2)
+    order = {**probe.new_order(way, released=2), "orderUpdateId": 0}
+    probe.accept(order)
+    newer = {**probe.update(order, way, 1, released=2), "orderUpdateId": 5}
+    probe.accept(newer)
+    older = {**probe.update(order, way, 1), "orderUpdateId": 3}
+    probe.refused(lambda: probe.order(older), ("orderUpdateError",), order["orderId"])
+    probe.never(lambda s: view.reached(s) > 2, "it left its base", 2.0)
+
+
 @case("lower_goes_on", "6.6.4.3", edges=2)
 def lower_goes_on(probe: Probe) -> None:
     """After a lower orderUpdateId the order goes on."""
@@ -170,7 +180,7 @@ def gap(probe: Probe) -> None:
     update = probe.update(order, way, 2)
     probe.refused(lambda: probe.order(update), WRONG, order["orderId"])
     demand(not view.has(probe.state, update), "the update was taken over")
-    probe.never(lambda s: s.get("lastNodeSequenceId", 0) > 2, "it left its base", 2.0)
+    probe.never(lambda s: view.reached(s) > 2, "it left its base", 2.0)
 
 
 @case("other_node", "6.6.2", edges=2)
@@ -182,11 +192,7 @@ def other_node(probe: Probe) -> None:
     demand(not view.has(probe.state, update), "the update was taken over")
 
 
-@case(
-    "other_number",
-    "6.6.2",
-    edges=2,
-)
+@case("other_number", "6.6.2", edges=2)
 def other_number(probe: Probe) -> None:
     """An update whose first node has another sequenceId is refused."""
     way, order = _half(probe)
@@ -196,11 +202,7 @@ def other_number(probe: Probe) -> None:
     demand(not view.has(probe.state, update), "the update was taken over")
 
 
-@case(
-    "other_number_after_end",
-    "6.6.2",
-    edges=2,
-)
+@case("other_number_after_end", "6.6.2", edges=2)
 def other_number_after_end(probe: Probe) -> None:
     """An order that is over is continued from its last number alone."""
     way = probe.way(2)

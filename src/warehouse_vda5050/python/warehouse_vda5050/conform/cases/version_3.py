@@ -22,12 +22,7 @@ def _demand_type(error: Json, name: str) -> None:
     demand(_type(error) == name, f"errorType is {_type(error)}; {name} was expected")
 
 
-@case(
-    "cancel_other",
-    "6.6",
-    edges=2,
-    versions=ONLY,
-)
+@case("cancel_other", "6.6", edges=2, versions=ONLY)
 def cancel_other(probe: Probe) -> None:
     """cancelOrder with another order's orderId is FAILED; the order goes on."""
     order = probe.new_order(probe.way(2))
@@ -39,12 +34,7 @@ def cancel_other(probe: Probe) -> None:
     probe.finish(order)
 
 
-@case(
-    "cancel_own",
-    "6.6",
-    edges=2,
-    versions=ONLY,
-)
+@case("cancel_own", "6.6", edges=2, versions=ONLY)
 def cancel_own(probe: Probe) -> None:
     """cancelOrder with the order's own orderId cancels it."""
     order = probe.new_order(probe.way(2))
@@ -54,12 +44,7 @@ def cancel_own(probe: Probe) -> None:
     demand(not probe.finished(id, probe.settings.edge).get("nodeStates"), "nodes are left")
 
 
-@case(
-    "first_update",
-    "6.2",
-    edges=1,
-    versions=ONLY,
-)
+@case("first_update", "6.2", edges=1, versions=ONLY)
 def first_update(probe: Probe) -> None:
     """A new order whose orderUpdateId is not 0 is refused."""
     probe.refuses({**probe.new_order(probe.way(0)), "orderUpdateId": 5})
@@ -78,12 +63,7 @@ def validation(probe: Probe) -> None:
     _demand_type(error, "VALIDATION_FAILURE")
 
 
-@case(
-    "order_action",
-    "6.6.5.4",
-    edges=1,
-    versions=ONLY,
-)
+@case("order_action", "6.6.5.4", edges=1, versions=ONLY)
 def order_action(probe: Probe) -> None:
     """An unknown action of an order: INVALID_ORDER_ACTION."""
     action = action_of("conformUnknown", probe.new_id("unknown"))
@@ -106,12 +86,7 @@ def other_map(probe: Probe) -> None:
     _demand_type(probe.refuses(order), "UNKNOWN_MAP_ID")
 
 
-@case(
-    "other_order",
-    "6.6.5.4",
-    edges=2,
-    versions=ONLY,
-)
+@case("other_order", "6.6.5.4", edges=2, versions=ONLY)
 def other_order(probe: Probe) -> None:
     """An order while another is active: OTHER_ORDER_ACTIVE."""
     way = probe.way(2)
@@ -122,12 +97,7 @@ def other_order(probe: Probe) -> None:
     probe.finish(order)
 
 
-@case(
-    "start",
-    "6.6.5.4",
-    edges=2,
-    versions=ONLY,
-)
+@case("start", "6.6.5.4", edges=2, versions=ONLY)
 def start(probe: Probe) -> None:
     """An order that begins elsewhere: START_NODE_OUT_OF_RANGE."""
     error = probe.refuses(probe.new_order(probe.way(2)[1:]))
@@ -146,12 +116,7 @@ def outdated(probe: Probe) -> None:
     probe.finish(update)
 
 
-@case(
-    "unusable_field",
-    "6.6.5.4",
-    edges=1,
-    versions=ONLY,
-)
+@case("unusable_field", "6.6.5.4", edges=1, versions=ONLY)
 def unusable_field(probe: Probe) -> None:
     """A field that the vehicle can't use: UNSUPPORTED_PARAMETER."""
     order = probe.new_order(probe.way(1))
@@ -160,11 +125,7 @@ def unusable_field(probe: Probe) -> None:
     _demand_type(error, "UNSUPPORTED_PARAMETER")
 
 
-@case(
-    "apart",
-    "6.6",
-    versions=ONLY,
-)
+@case("apart", "6.6", versions=ONLY)
 def apart(probe: Probe) -> None:
     """Instant actions are in instantActionStates, not among the order's."""
     id = probe.instant("stateRequest")
