@@ -130,9 +130,8 @@ def text_of(forecast: Forecast) -> str:
     if likely:
         named = ", ".join(order.reference for order in likely[:NAMED])
         more = f" and {len(likely) - NAMED} more" if len(likely) > NAMED else ""
-        verb = "s" if len(likely) == 1 else ""
         count = f"{len(likely)} order{'' if len(likely) == 1 else 's'}"
-        sentences.append(f"{count} will likely be late: {named}{more}" if verb or named else count)
+        sentences.append(f"{count} will likely be late: {named}{more}")
     else:
         sentences.append("no order of now will likely be late")
     return "; ".join(sentences)

@@ -103,6 +103,11 @@ KINDS = {
         "If robots rest, look for a jam; if none rests, the stations need more robots.",
         remedies=("SHOW", "MOMENT"),
     ),
+    "ORDERS_WILL_BE_LATE": AlarmKind(
+        WARNING,
+        "Orders will be late",
+        "Try on the page Operations, in Looking ahead, whether a station or robots more help.",
+    ),
     "WATCHDOG": AlarmKind(
         WARNING,
         "Robots made no progress for 30 s",

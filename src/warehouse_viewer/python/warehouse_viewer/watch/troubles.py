@@ -14,13 +14,14 @@ from warehouse_layout.message_enums import EventKind
 from warehouse_viewer.watch.alarm_book import Trouble
 
 if TYPE_CHECKING:
-    from warehouse_msgs.msg import CoordinatorState, FleetState
+    from warehouse_msgs.msg import CoordinatorState, FleetState, ForecastResult
     from warehouse_viewer.ros.emergency_stop import EmergencyStop
 
 UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
 HELD_UP = 120.0  # that a robot waits [s, simulated]
 QUEUED = 600.0  # the same in the queue of a station, where waiting is as it should be
+FORECAST = 1800.0  # for which a forecast counts at most [s, simulated]
 LASTING = 600.0  # for which a momentary trouble is shown [s, simulated]
 
 BROKEN = "ROBOT_BROKEN"
@@ -57,6 +58,12 @@ def _parted(text: str) -> tuple[str, str]:
 def _broken(name: str, failures: str) -> str:
     failures = failures.replace("drive without torque", "drive")  # the word of pages and API
     return f"{name} is broken ({failures})"
+
+
+def clock(seconds: float) -> str:
+    """Returns a simulated time as the pages write it, without seconds: 0:15."""
+    minutes = round(seconds / 60)
+    return f"{minutes // 60}:{minutes % 60:02}"
 
 
 def of_sentence(text: str) -> Trouble:
@@ -118,6 +125,21 @@ def of_notices(notices: Iterable[str]) -> Iterator[Trouble]:
     """Yields a shift's notices."""
     for text in notices:
         yield Trouble("NOTICE", text, text)
+
+
+def of_forecast(forecast: ForecastResult | None, now: float) -> Iterator[Trouble]:
+    """Yields the alarm that orders will be late, by the newest forecast of the shift as it is."""
+    if forecast is None or not forecast.runs or forecast.changes:
+        return
+    begin, length = forecast.made_at, 60 * forecast.minutes
+    if not begin <= now < begin + min(length, FORECAST):
+        return
+    bands = (forecast.late_p10, forecast.late_p50, forecast.late_p90)
+    least, likely, most = (max(0, round(band[-1] - band[0])) for band in bands)
+    if likely:
+        orders = "1 order" if likely == 1 else f"{likely} orders"
+        text = f"{orders} ({least} to {most}) will become late by {clock(begin + length)}"
+        yield Trouble("ORDERS_WILL_BE_LATE", "orders", f"{text}, by a forecast", begin)
 
 
 class Moments:

@@ -7,7 +7,7 @@ import pytest
 from sample_messages import fleet
 
 from warehouse_layout.message_enums import EventKind
-from warehouse_msgs.msg import CoordinatorState, StationState
+from warehouse_msgs.msg import CoordinatorState, ForecastResult, StationState
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.watch import alarm_file, troubles
 from warehouse_viewer.watch.alarm_book import GRACE, AlarmBook, Trouble
@@ -123,6 +123,19 @@ def test_a_station_that_waits_says_for_whom():
         ("STATION_STARVED", 10.0),
     ]
     assert "unit 4" in pending[0].text and "1 on their way" in pending[1].text
+
+
+def test_orders_that_a_forecast_says_late_are_an_alarm_while_it_counts():
+    bands = {"late_p10": [1.0, 3.0], "late_p50": [1.0, 6.0], "late_p90": [2.0, 9.0]}
+    result = ForecastResult(made_at=600.0, minutes=60.0, runs=9, **bands)
+    (trouble,) = troubles.of_forecast(result, 700.0)
+    text = "5 orders (2 to 7) will become late by 1:10, by a forecast"
+    assert (trouble.kind, trouble.text, trouble.since) == ("ORDERS_WILL_BE_LATE", text, 600.0)
+    assert not [*troubles.of_forecast(result, 600.0 + troubles.FORECAST)]
+    result.changes = ["+0 close pick1"]  # what would be is no fault
+    assert not [*troubles.of_forecast(result, 700.0)]
+    assert not [*troubles.of_forecast(ForecastResult(made_at=600.0, minutes=60.0), 700.0)]
+    assert not [*troubles.of_forecast(None, 700.0)]
 
 
 def test_what_happened_in_a_moment_is_told_for_a_while_and_counted():
