@@ -24,6 +24,7 @@ from rostest_support.node_test import call, wait_until
 from rostest_support.page_test import fetch
 
 from gazebo_msgs.srv import SetPhysicsProperties, SetPhysicsPropertiesRequest
+from warehouse_msgs.srv import Forecast, ForecastRequest
 
 BURST = 10_000  # messages
 LOUD = {"/warehouse/events", "/warehouse/fleet", "/mov"}  # topics that get the burst
@@ -115,6 +116,8 @@ class Malformed(unittest.TestCase):
         rospy.Subscriber("/rosout", Log, cls.hear)
         wait_until(lambda: fetch("api/v1/kpis")[0] == 200, "the shift's first figures")
         wait_until(lambda: fetch("api/v1/transports/1")[0] == 200, "a first transport")
+        assert call("/warehouse/forecast", Forecast, ForecastRequest(minutes=1.0, runs=1)).accepted
+        wait_until(lambda: fetch("api/v1/forecasts/1")[0] == 200, "a first forecast")
         cls.answers = cls.statuses()
         cls.pids = pids()
         assert cls.dropped == [], "what the nodes tell each other is sound"

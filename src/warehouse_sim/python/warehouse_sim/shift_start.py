@@ -14,6 +14,7 @@ from typing import Any
 
 from std_srvs.srv import TriggerRequest, TriggerResponse
 
+from warehouse_client.message_check import subscribe
 from warehouse_client.services import is_offered
 from warehouse_msgs.msg import Notices
 
@@ -56,7 +57,7 @@ class ShiftStart:
             return "a shift runs already"
         self.end()
         self._fault = ""
-        notices = self._ros.Subscriber("warehouse/notices", Notices, self._on_notices)
+        notices = subscribe(self._ros, "warehouse/notices", Notices, self._on_notices)
         try:
             has_coordinator = is_offered(self._ros, COORDINATOR)
             self._launch = self._beginner.submit(self._begin, has_coordinator).result()

@@ -32,8 +32,7 @@ def add(box: Toolbox) -> None:
         changes: Changes = None,
         simulation: Simulation = "",
     ) -> str:
-        """Runs the shift ahead many times, as it is or with changes, which are not made: orders
-        done, open and late by then, and when all of now are done. Takes up to half a minute."""
+        """Looks ahead of a shift, in half a minute, as it is or with changes that are not made."""
         warehouse = await box.hub.simulation(simulation)
         asked = {"minutes": minutes, "changes": changes or []}
         answer = await warehouse.send("POST", "forecasts", asked)

@@ -7,6 +7,7 @@ import threading
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from warehouse_client.message_check import subscribe
 from warehouse_msgs.msg import Stop
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ class EmergencyStop:
         self._hold = self._kept()
         self._has_stopped = self._hold is not None
         self._released: float | None = None  # [s], simulated
-        self._subscriber = ros.Subscriber("stop", Stop, self._on_stop)
+        subscribe(ros, "stop", Stop, self._on_stop)
 
     @property
     def hold(self) -> Hold | None:

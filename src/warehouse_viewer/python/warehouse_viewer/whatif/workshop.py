@@ -167,9 +167,11 @@ class Workshop:
         return functools.partial(priced.bill, robots, stations)
 
     def report(self, names: Sequence[str]) -> str:
-        """Returns the report about all runs of scenarios, HTML."""
+        """Returns the report about all runs of scenarios, one at least, HTML."""
         from warehouse_operations.reports import report
 
+        if not names:
+            raise ScenarioError("a scenario's name was expected")
         results = [runs.read(run.folder) for name in names for run in self._runs(name)]
         return report.page(results)
 
