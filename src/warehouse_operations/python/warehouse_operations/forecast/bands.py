@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from warehouse_operations.forecast.ahead import Outcome, Task
+from warehouse_operations.reports.limits import clock
 
 QUANTILES = (0.1, 0.5, 0.9)
 SERIES = ("done", "open", "late", "pieces_per_hour")
@@ -135,12 +136,6 @@ def text_of(forecast: Forecast) -> str:
     else:
         sentences.append("no order of now will likely be late")
     return "; ".join(sentences)
-
-
-def clock(seconds: float) -> str:
-    """Returns a time of the shift as h:mm."""
-    minutes = round(seconds / 60)
-    return f"{minutes // 60}:{minutes % 60:02}"
 
 
 def _range(values: Iterable[float]) -> str:

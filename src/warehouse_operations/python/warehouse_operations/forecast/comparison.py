@@ -5,19 +5,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
 
 from warehouse_operations.forecast.ahead import Outcome
 from warehouse_operations.forecast.bands import SERIES
-
-CONFIDENCE = 0.95
-FEWEST = 3  # pairs of an interval
+from warehouse_operations.reports.comparison import Estimate
 
 
 @dataclass(frozen=True)
 class Difference:
     """The effect of changes at the end: the mean over the pairs, and half of its 95 % interval
-    (paired t); NaN with fewer than FEWEST pairs."""
+    (paired t); NaN with too few pairs, as of an Estimate."""
 
     name: str
     without: float
@@ -39,9 +36,8 @@ def differences(without: Sequence[Outcome], with_: Sequence[Outcome]) -> list[Di
     for name in (*SERIES[:3], "pieces"):
         ends = [[getattr(outcome, name)[-1] for outcome in pair] for pair in pairs]
         before, after = np.array(ends, float).T
-        change = after - before
-        mean = float(change.mean())
-        out.append(Difference(name, float(before.mean()), mean, _half(change)))
+        change = Estimate.of(after - before)
+        out.append(Difference(name, float(before.mean()), change.mean, change.half))
     return out
 
 
@@ -49,10 +45,3 @@ def sentence(without: Sequence[Outcome], with_: Sequence[Outcome]) -> str:
     """Returns the differences in a few words."""
     words = {"done": "orders done", "open": "open", "late": "late", "pieces": "pieces"}
     return ", ".join(f"{each} {words[each.name]}" for each in differences(without, with_))
-
-
-def _half(change: np.ndarray) -> float:
-    if len(change) < FEWEST:
-        return float("nan")
-    t = float(stats.t.ppf((1 + CONFIDENCE) / 2, len(change) - 1))
-    return t * float(change.std(ddof=1)) / len(change) ** 0.5

@@ -17,11 +17,12 @@ from warehouse_operations.fleets import availability
 from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.forecast import comparison, of_database
 from warehouse_operations.forecast.ahead import Outcome, Task
-from warehouse_operations.forecast.bands import Forecast, clock, forecast_of
+from warehouse_operations.forecast.bands import Forecast, forecast_of
 from warehouse_operations.forecast.fork import ForkError
 from warehouse_operations.forecast.request import ForecastError, Request, tasks_of
 from warehouse_operations.forecast.workers import Runs, RunsError
 from warehouse_operations.policies import PolicyError
+from warehouse_operations.reports.limits import clock
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.event_file import seconds_of
 from warehouse_operations.runs.progress import ProgressLine

@@ -82,7 +82,7 @@ class Replenishing:
                 del coming[station]
 
     def _fetch(self, station: WorkStation) -> bool:
-        """Fetches a unit for bundles that wait, once so many go along as the policy asks for;
+        """Fetches a unit once the number of waiting bundles that fit on it satisfies the policy;
         returns whether one comes."""
         bundles, units = self._goods_in.bundles.values(), self._visits.free_units
         least = self._policies.batches.least(self._view)

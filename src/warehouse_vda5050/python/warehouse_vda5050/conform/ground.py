@@ -56,7 +56,7 @@ class Ground:
         return min(range(len(self.places)), key=lambda i: self.places[i].distance(x, y))
 
     def way(self, here: int, edges: int) -> list[Place]:
-        """Returns the places of a way of so many edges, towards the end that is farther away."""
+        """Returns the places of a way with a number of edges, towards the farther end."""
         ahead = self.edges - here >= here
         numbers = range(here, here + edges + 1) if ahead else range(here, here - edges - 1, -1)
         return [self.places[i] for i in numbers]

@@ -106,7 +106,7 @@ class Probe:
         return self.wire.now() - self._began
 
     def limit(self, seconds: float) -> None:
-        """Lets all waiting end after so many seconds."""
+        """Ends all waiting after a number of seconds."""
         self._end = self.now() + seconds
 
     def poll(self) -> None:
@@ -192,8 +192,8 @@ class Probe:
         return here
 
     def way(self, edges: int) -> list[Place]:
-        """Returns a way of so many edges; drives to an end of the ground if there is too little
-        room. Raises Untestable."""
+        """Returns a way with a number of edges; drives to an end of the ground if there is too
+        little room. Raises Untestable."""
         here = self.here()
         assert self.ground
         if edges > self.ground.edges:

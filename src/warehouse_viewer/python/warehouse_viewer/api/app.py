@@ -55,7 +55,7 @@ from warehouse_viewer.whatif.workshop import Workshop
 class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
     `history` seconds (simulated) are kept, to be looked at again; 0: none. `alarms`: the file from
-    which a viewer that is restarted has them; None: it begins empty. `hooks` are told of alarms.
+    which a viewer that is restarted has them; None: it begins empty. `hooks` get the alarms.
     """
 
     def __init__(

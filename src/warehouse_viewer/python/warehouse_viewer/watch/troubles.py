@@ -11,6 +11,7 @@ import numpy as np
 
 from warehouse_client.message_names import failures_of
 from warehouse_layout.message_enums import EventKind
+from warehouse_operations.reports.limits import clock
 from warehouse_viewer.watch.alarm_book import Trouble
 
 if TYPE_CHECKING:
@@ -58,12 +59,6 @@ def _parted(text: str) -> tuple[str, str]:
 def _broken(name: str, failures: str) -> str:
     failures = failures.replace("drive without torque", "drive")  # the word of pages and API
     return f"{name} is broken ({failures})"
-
-
-def clock(seconds: float) -> str:
-    """Returns a simulated time as the pages write it, without seconds: 0:15."""
-    minutes = round(seconds / 60)
-    return f"{minutes // 60}:{minutes % 60:02}"
 
 
 def of_sentence(text: str) -> Trouble:

@@ -121,7 +121,7 @@ SCHEMAS[SIZING] = object_of(
     ),
     seconds=NUMBER | {"description": "since it began, while it runs [s, wall]"},
     progress=TEXT | {"description": "the last shift, while it runs"},
-    answer=TEXT | {"description": "in sentences, or why there is none"},
+    answer=TEXT | {"description": "the answer in sentences, or why the sizing failed"},
     url=TEXT | {"description": "of its report; empty before there is one"},
 )
 

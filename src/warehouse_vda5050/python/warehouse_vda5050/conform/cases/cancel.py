@@ -149,7 +149,7 @@ def base_end(probe: Probe) -> None:
 
 @case("after_end", "6.6.3.2", edges=1)
 def after_end(probe: Probe) -> None:
-    """After the end of an order there is none to cancel."""
+    """A cancelOrder fails after the order has ended."""
     probe.drive(probe.new_order(probe.way(0)))
     status = probe.over(probe.instant("cancelOrder"))
     demand(status == "FAILED", f"it is {status}")

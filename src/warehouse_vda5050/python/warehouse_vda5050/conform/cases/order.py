@@ -2,6 +2,8 @@
 """Orders (6.6): taken, reported node by node, driven to their end; or refused."""
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 from warehouse_vda5050.conform import view
 from warehouse_vda5050.conform.case import Chapter
@@ -86,27 +88,17 @@ def released_reported(probe: Probe) -> None:
 @case("node_leaves", "6.10.2", edges=2)
 def node_leaves(probe: Probe) -> None:
     """A traversed node is lastNodeId, and no longer in nodeStates."""
-    order = probe.new_order(probe.way(2))
-    mark = len(probe.log.entries)
-    probe.drive(order)
-    for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order) and view.reached(state) >= 0:
-            last = view.reached(state)
-            left = view.sequences(state, "nodeStates")
-            demand(all(k > last for k in left), f"lastNodeSequenceId {last} is among {left}")
+    for state in _drive(probe, probe.new_order(probe.way(2))):
+        last, left = view.reached(state), view.sequences(state, "nodeStates")
+        demand(all(k > last for k in left), f"lastNodeSequenceId {last} is among {left}")
 
 
 @case("edge_leaves", "6.10.2", edges=2)
 def edge_leaves(probe: Probe) -> None:
     """An edge leaves edgeStates with its end node."""
-    order = probe.new_order(probe.way(2))
-    mark = len(probe.log.entries)
-    probe.drive(order)
-    for state in probe.log.values(Kind.STATE, mark):
-        if view.has(state, order) and view.reached(state) >= 0:
-            last = view.reached(state)
-            left = view.sequences(state, "edgeStates")
-            demand(all(k > last for k in left), f"after node {last} the edges {left} are left")
+    for state in _drive(probe, probe.new_order(probe.way(2))):
+        last, left = view.reached(state), view.sequences(state, "edgeStates")
+        demand(all(k > last for k in left), f"after node {last} the edges {left} are left")
 
 
 @case("last_node", "6.10.2", edges=3)
@@ -114,12 +106,18 @@ def last_node(probe: Probe) -> None:
     """lastNodeId and lastNodeSequenceId belong together."""
     order = probe.new_order(probe.way(3))
     names = {node["sequenceId"]: node["nodeId"] for node in order["nodes"]}
+    for state in _drive(probe, order):
+        number, name = state.get("lastNodeSequenceId"), state.get("lastNodeId")
+        demand(names.get(number) == name, f"node {number} is {names.get(number)}, not {name}")
+
+
+def _drive(probe: Probe, order: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Drives an order; yields the states that came of it from its first node on."""
     mark = len(probe.log.entries)
     probe.drive(order)
     for state in probe.log.values(Kind.STATE, mark):
         if view.has(state, order) and view.reached(state) >= 0:
-            number, name = state.get("lastNodeSequenceId"), state.get("lastNodeId")
-            demand(names.get(number) == name, f"node {number} is {names.get(number)}, not {name}")
+            yield state
 
 
 @case("not_early", "6.10.2", edges=2)

@@ -67,4 +67,4 @@ class Forecast(BaseModel):
     late: Band | None = Field(None, description="orders past their due time")
     pieces_per_hour: Band | None = None
     finish: End | None = Field(None, description="all orders known at made_at are done")
-    text: str = Field("", description="the result in words, or why there is none")
+    text: str = Field("", description="the result in words, or why the forecast failed")
