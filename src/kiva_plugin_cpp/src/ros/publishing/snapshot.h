@@ -42,7 +42,7 @@ struct RobotPose {
   std::array<double, 4> twist_covariance{};  ///< Covariance of forward speed and turn rate.
   double wheel_angle[2] = {0, 0};            ///< Left, right [rad].
   double tower = 0;                          ///< Height above its rest [m].
-  std::optional<kiva::Pose> counted;         ///< Pose of base_link in kiva<id>/odom, of a steered robot.
+  std::optional<kiva::Pose> counted;         ///< A steered robot's base_link in kiva<id>/odom.
 };
 
 /// The states of all models, or of all links.
