@@ -14,7 +14,8 @@ constexpr double kWarnAgainOfTwist = 10;  // [s], wall
 
 std::string nameOf(int kiva_id) { return "kiva" + std::to_string(kiva_id); }
 
-/// Returns the name of a velocity component that the robot can't follow; empty if it can follow all.
+/// Returns the name of a velocity component that the robot can't follow; empty if it can follow
+/// all.
 std::string otherMotion(const geometry_msgs::Twist& twist) {
   const std::pair<const char*, double> others[] = {{"linear.y", twist.linear.y},
                                                    {"linear.z", twist.linear.z},
