@@ -87,7 +87,8 @@ def tasks_of(
 def names_of(site: Site, shift: Shift) -> Names:
     """Returns what changes may name."""
     stations = [station.name for station in shift.stations]
-    return Names(stations, site.robots, shift.assortment.skus, True)
+    orders = {name for order in shift.orders.values() for name in order.names}
+    return Names(stations, site.robots, shift.assortment.skus, True, orders)
 
 
 def comes_more(shift: Shift) -> bool:
