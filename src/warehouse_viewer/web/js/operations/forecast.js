@@ -52,6 +52,8 @@ export function policiesOf({ policies, default_policies: usual }) {
   ]));
 }
 
+const options = (changes) => changes.map(({ text, label }) => make('option', { value: text, textContent: label }));
+
 export class ForecastCard {
   constructor() {
     Object.assign(this, { id: 0, plain: null, throughput: null, known: '', policies: [] });
@@ -87,7 +89,6 @@ export class ForecastCard {
     if (known === this.known) return;
     this.known = known;
     const chosen = $('forecast-change').value;
-    const options = (list) => list.map(({ text, label }) => make('option', { value: text, textContent: label }));
     $('forecast-change').replaceChildren(
       make('option', { value: '', textContent: 'nothing' }),
       ...options(changes),
