@@ -60,7 +60,7 @@ def basic_instance(tmp_path):
 
 
 def test_ten_minutes_on_the_basic_instance_are_limited_by_its_stations(basic_instance):
-    """As RAWSim-O's are: but for the way of the first units."""
+    """Two stations are the limit, as in RAWSim-O, but for the way of the first units."""
     pieces = []
     for seed in range(1, 21):
         with open_operations(Description(layout=basic_instance, seed=seed, physics=False)) as ops:
