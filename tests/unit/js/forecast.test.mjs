@@ -24,6 +24,9 @@ test('open stations can be closed, closed ones opened, robots be more and fewer'
 });
 
 test('policies other than the usual can be tried, but not one that needs a file', () => {
-  const about = { policies: { storage: ['random', 'nearest'], orders: ['pile-on', 'learned'] }, default_policies: { storage: 'nearest', orders: 'pile-on' } };
-  assert.deepEqual(policiesOf(about), { storage: [{ text: '+0 policy storage random', label: 'storage: random' }], orders: [] });
+  const about = {
+    policies: { orders: ['due date', 'pile-on', 'learned'], units: ['nearest'], bins: [], batches: [], replenishment: [], storage: ['random'] },
+    default_policies: { orders: 'pile-on', units: 'nearest' },
+  };
+  assert.deepEqual(Object.values(policiesOf(about)).flat(), [{ text: '+0 policy orders due date', label: 'orders: due date' }]);
 });

@@ -13,6 +13,7 @@ const ROBOTS = [2, 1, -1, -2];
 const FIRST = 'order'; // the value of "an order first"
 const HIGHEST = 255; // priority
 const OWN = 'learned'; // a policy that needs a file
+const ROLES = ['orders', 'units', 'bins', 'batches', 'replenishment']; // the coordinator has the others
 
 /** Points of the orders done in the last hour, counted back from now; x in minutes from now. */
 export function pastOf({ interval, begin, end, orders_completed: done }) {
@@ -47,7 +48,7 @@ export function changesOf(stations) {
 /** Other policies that can be tried: {role: [{text, label}]}, without those that are the default. */
 export function policiesOf({ policies, default_policies: usual }) {
   const others = (role) => policies[role].filter((name) => name !== usual[role] && name !== OWN);
-  return Object.fromEntries(Object.keys(policies).map((role) => [
+  return Object.fromEntries(ROLES.map((role) => [
     role, others(role).map((name) => ({ text: `+0 policy ${role} ${name}`, label: `${role}: ${name}` })),
   ]));
 }
@@ -56,7 +57,7 @@ const options = (changes) => changes.map(({ text, label }) => make('option', { v
 
 export class ForecastCard {
   constructor() {
-    Object.assign(this, { id: 0, plain: null, throughput: null, known: '', policies: [] });
+    Object.assign(this, { id: 0, asked: 0, plain: null, throughput: null, known: '', policies: [] });
     this.plot = new Plot($('chart-forecast'), look);
     on($('forecast-form'), 'submit', (event) => {
       event.preventDefault();
@@ -109,6 +110,7 @@ export class ForecastCard {
     try {
       const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
       ({ forecast_id: this.id } = await post('/forecasts', asked));
+      this.asked = this.id;
       this.take(await get(`/forecasts/${this.id}`));
     } catch (error) {
       this.say(error.message, '');
@@ -117,7 +119,7 @@ export class ForecastCard {
 
   /** A forecast, of this page's or of another one. */
   take(forecast) {
-    if (forecast.state !== 'DONE') return;
+    if (forecast.state !== 'DONE' || this.keepsOwn(forecast)) return;
     const { forecast_id: id, made_at: begin, runs, changes, text } = forecast;
     this.id = Math.max(this.id, id);
     const changed = changes.length ? `, with ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
@@ -127,6 +129,11 @@ export class ForecastCard {
     this.shown = forecast;
     this.past = this.throughput ? pastOf(this.throughput) : [];
     this.draw();
+  }
+
+  /** Whether this page's change stays in sight, since nothing was asked for since. */
+  keepsOwn({ forecast_id: id, changes }) {
+    return !changes.length && id !== this.asked && this.shown?.changes.length > 0 && this.shown.forecast_id === this.asked;
   }
 
   say(text, state) {
