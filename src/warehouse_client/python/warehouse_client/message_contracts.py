@@ -34,7 +34,7 @@ class Contract:
     values are indices. names: the prefix of the names in a field, before their number. totals: the
     fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
     fields in which infinity and NaN have a meaning. source: the only node that is accepted while it
-    publishes; "": any node.
+    publishes, besides those of `beside`; "": any node.
     """
 
     tables: Sequence[str] = ()
@@ -47,6 +47,7 @@ class Contract:
     positive: frozenset[str] = frozenset()
     any_number: frozenset[str] = frozenset()
     source: str = ""
+    beside: frozenset[str] = frozenset()
 
 
 def _words(*names: str) -> Kinds:
@@ -85,7 +86,10 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    "Event": Contract(source=_WORLD, kinds={"kind": message_names.EVENT}),
+    # Robots behind a broker have their events from the node that drives them.
+    "Event": Contract(
+        source=_WORLD, beside=frozenset({"vda5050_master"}), kinds={"kind": message_names.EVENT}
+    ),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
     ),
