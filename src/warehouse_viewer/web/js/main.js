@@ -26,6 +26,7 @@ import { Requested } from './panels/requested.js';
 import { SceneKeys, speak } from './scene/scene_keys.js';
 import { Signs } from './scene/signs.js';
 import { Stage } from './scene/stage.js';
+import { drawsInSoftware } from './base/software.js';
 import { Tip } from './base/tip.js';
 import { shownName } from './base/words.js';
 import { World } from './base/world.js';
@@ -164,10 +165,12 @@ class Page {
     this.stage.setPaint(scene);
     this.signs.build(document.documentElement.dataset.theme);
     this.trails?.clear();
-    if (String(floor) === this.floor) return;
-    this.floor = String(floor);
-    this.stage.setFloor(floor, grid);
-    this.navigator.showAll();
+    if (String(floor) !== this.floor) {
+      this.floor = String(floor);
+      this.stage.setFloor(floor, grid);
+      this.navigator.showAll();
+    }
+    this.fine?.renew();
   }
 
   takeUpdate(update) {
@@ -269,8 +272,8 @@ class Page {
       this.routes?.follow();
     }
     this.drawn = now;
-    this.drawExtras();
     const isUnsettled = this.actors.fill(this.stage.camera, innerHeight, now);
+    this.drawExtras();
     this.labels.draw(this.actors.view, this.named(), [
       ...this.signs.labels(this.actors.view), ...this.where?.draw() ?? [], ...this.zones?.labels() ?? [], ...this.fallen.labels(),
       ...this.requested.labels()]);
@@ -280,6 +283,8 @@ class Page {
   /** What lies around and over the floor, before each picture. */
   drawExtras() {
     this.zones?.hide(this.moment !== null);
+    this.fine?.draw(this.actors.view);
+    if (this.stage.frames === 1) this.offerFine();
   }
 
   /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
@@ -484,6 +489,10 @@ class Page {
     toggle('trails', () => this.showTrails());
     toggle('heat', () => this.showHeat());
     toggle('zone', (isOn) => this.drawZone(isOn));
+    toggle('fine', (isOn) => {
+      localStorage.setItem('picture', isOn ? 'fine' : 'plain');
+      this.showFine(isOn);
+    });
     toggle('xray', (isOn) => this.actors?.setSeeThrough(isOn));
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));
@@ -524,6 +533,23 @@ class Page {
     this.heat.want(isPressed($('heat')));
   }
 
+  /** The fine picture comes after the first plain one; where the processor draws it stays plain. */
+  offerFine() {
+    const lack = drawsInSoftware() ? 'drawn without a graphics card' : '';
+    $('fine').disabled = Boolean(lack); // it commands nothing: a recording has it, too
+    if (lack) $('fine').title += ` – not now: ${lack}`;
+    setText($('quality'), lack ? `plain, ${lack}` : 'fine, by the graphics card; Fine among the tools makes it plain');
+    if (!lack && localStorage.getItem('picture') !== 'plain') this.showFine(true);
+  }
+
+  async showFine(isOn) {
+    press($('fine'), isOn);
+    if (!this.stage || (!isOn && !this.fine)) return;
+    const { Fine } = await import('./fine/fine.js');
+    this.fine ??= new Fine(this);
+    this.fine.set(isOn);
+  }
+
   changeTheme() {
     const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
     document.documentElement.dataset.theme = theme;
@@ -535,6 +561,7 @@ class Page {
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
     this.actors?.setTheme(theme);
+    this.fine?.setTheme(theme);
     this.signs?.setTheme(theme);
   }
 

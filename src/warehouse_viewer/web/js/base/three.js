@@ -3,11 +3,11 @@
 // file as /three/build/three.module.js, and index.html loads three.min.js before, which is half as large.
 
 export const {
-  AlwaysDepth, Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
-  DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Frustum, Group,
+  AlwaysDepth, Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, CanvasTexture, Color, CubeTexture, CylinderBufferGeometry, DataTexture,
+  DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Fog, Frustum, Group,
   HemisphereLight, InstancedBufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InstancedMesh, InterleavedBufferAttribute, LineBasicMaterial, LineSegments, LinearFilter,
-  LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
-  OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster, RepeatWrapping,
-  RingBufferGeometry, Scene, ShaderMaterial, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
+  LinearMipMapLinearFilter, LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial, Object3D,
+  OrthographicCamera, PCFSoftShadowMap, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster, RepeatWrapping,
+  RingBufferGeometry, Scene, ShaderMaterial, ShadowMaterial, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
   Vector3, VertexColors, WebGLRenderTarget, WebGLRenderer,
 } = window.THREE;

@@ -80,6 +80,11 @@ export class Actors {
     return kind === 'scenery' ? this.sceneryBase : crowds[kind].base;
   }
 
+  /** All that are drawn as crowds. */
+  get crowds() {
+    return [this.robots.crowd, this.units, this.items, ...this.sceneryCrowds, this.belts.slats];
+  }
+
   /** Chooses before a picture, by its time [ms], what is drawn in detail, and how. Returns whether the
    *  backdrop has to be drawn soon. */
   fill(camera, height, now) {

@@ -181,9 +181,9 @@ class Part {
     return this.copies[layer] ??= this.make(this.crowd.layers[layer]);
   }
 
-  make({ geometry, material, order }) {
+  make({ geometry, material, order, casts = false }) {
     const copies = new (drawsInSoftware() ? Merged : Instances)(geometry, material);
-    copies.mesh.renderOrder = order;
+    Object.assign(copies.mesh, { renderOrder: order, castShadow: casts });
     copies.mesh.layers.set(this.layer);
     this.crowd.group.add(copies.mesh);
     copies.begin();

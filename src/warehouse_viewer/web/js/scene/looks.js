@@ -153,7 +153,7 @@ export function materialOf(tinted = false) {
   return out;
 }
 
-function takeTint(shader) {
+export function takeTint(shader) {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', '#include <common>\nattribute vec3 tint;\nattribute float paint;')
     .replace('#include <color_vertex>', '#include <color_vertex>\nvColor = mix(vColor, tint, paint);');

@@ -25,13 +25,12 @@ const turn = new THREE.Matrix4();
 export class Robots {
   /** The World's robots, all of the same look. */
   constructor(group, world, links) {
-    const count = world.scene.robots.length;
-    this.world = world;
-    this.crowd = new Crowd(group, count, boundsOf(links), DETAIL);
+    const count = world.scene.robots.length, bounds = boundsOf(links);
+    Object.assign(this, { world, bounds });
+    this.crowd = new Crowd(group, count, bounds, DETAIL);
     this.rolled = new Float64Array(2 * count); // left and right wheel [rad]
     this.wheels = wheelsOf(links);
     if (!count || !links.some((link) => link.shapes.length)) return;
-    const bounds = boundsOf(links);
     addShadows(this.crowd, bounds, NEAR | FAR);
     this.crowd.add(merge(links.filter(({ name }) => !MOVING.includes(name)), true), materialOf(true), NEAR);
     this.crowd.add(hull(links, true, PAD * world.scene.grid), materialOf(true), FAR);
