@@ -56,7 +56,7 @@ class Gate:
 
     def __init__(self, ros: Any, topic: str, kind: Any, take: Callable[[Any], object]) -> None:
         self._ros, self._topic, self._take = ros, topic, take
-        self._source = CONTRACTS.get(kind._type, NO_CONTRACT).source
+        self._contract = CONTRACTS.get(kind._type, NO_CONTRACT)
         self._next = -math.inf  # when to warn again
         self.subscriber: Any = None  # rospy's, once there is one
 
@@ -73,11 +73,13 @@ class Gate:
         """Returns why a message of a foreign publisher is ignored; "" if it is accepted."""
         header = getattr(message, "_connection_header", None)
         subscription = getattr(self.subscriber, "impl", None)  # None before and after it
-        if not self._source or not header or subscription is None:
+        if not self._contract.source or not header or subscription is None:
             return ""
-        sender, source = header.get("callerid"), self._ros.resolve_name(self._source)
+        names = (self._contract.source, *self._contract.beside)
+        source, *beside = (self._ros.resolve_name(name) for name in names)
+        sender = header.get("callerid")
         heard = {connection.callerid_pub for connection in subscription.connections}
-        is_foreign = sender != source and source in heard
+        is_foreign = sender not in (source, *beside) and source in heard
         return f"it is from {sender}; {source} publishes this topic" if is_foreign else ""
 
 

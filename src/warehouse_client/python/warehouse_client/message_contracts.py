@@ -25,7 +25,7 @@ class Contract:
     values are indices. names: the prefix of the names in a field, before their number. totals: the
     fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
     fields in which infinity and NaN have a meaning. source: the only node that is accepted while it
-    publishes; "": any node.
+    publishes, with those `beside` it; "": any node.
     """
 
     tables: Sequence[str] = ()
@@ -38,6 +38,7 @@ class Contract:
     positive: frozenset[str] = frozenset()
     any_number: frozenset[str] = frozenset()
     source: str = ""
+    beside: tuple[str, ...] = ()
 
 
 def _words(*names: str) -> Kinds:
@@ -50,6 +51,7 @@ _ENDS = {0: "none yet", Event.DONE: "DONE", Event.BLOCKED: "BLOCKED"}
 _DOING = _words(*message_names.WORK, "manual", "out_of_service")
 _, _UNIT, _ITEM, _BELT = KINDS
 _WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
+_VDA5050 = ("vda5050_master", "vda5050_vehicles")  # publish events of their vehicles
 
 _WAREHOUSE = {
     "CoordinatorPaths": Contract(
@@ -68,7 +70,7 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    "Event": Contract(source=_WORLD, kinds={"kind": message_names.EVENT}),
+    "Event": Contract(source=_WORLD, beside=_VDA5050, kinds={"kind": message_names.EVENT}),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
     ),
@@ -140,7 +142,7 @@ _WAREHOUSE = {
     "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
     "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
     "Vda5050": Contract(
-        tables=("kiva_id manufacturer serial connection order errors driven",),
+        tables=("kiva_id manufacturer serial connection order errors driven faults",),
         kinds={
             "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
             "connection": {

@@ -159,6 +159,8 @@ def test_another_program_is_not_heard_while_the_world_tells(ros):
     tell("/gazebo")
     assert [event.text for event in taken] == ["/gazebo"]
     assert "it is from /stranger; /gazebo publishes this topic" in ros.warnings[0]
+    tell("/vda5050_master")  # events of vehicles are published beside those of the world
+    assert taken.pop().text == "/vda5050_master"
     del connections[0]  # as where a recording is played
     tell("/stranger")
     assert [event.text for event in taken] == ["/gazebo", "/stranger"]
