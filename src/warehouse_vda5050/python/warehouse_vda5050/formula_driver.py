@@ -15,23 +15,16 @@ LIFT_TIME = 2.0  # [s]
 
 
 class FormulaRobot(Driver):
-    """Heads along each stretch at once, and halts where its path ends; step() lets time go by.
+    """Heads along each stretch at once, and halts where its path ends.
 
     limits: top speeds of stretches, by their ends [m/s]; headings: those to stand with, by point
     [rad]. reports: fields of its Report that are something else; lift_fault: why no lift succeeds,
     '' if it does; lift_time: how long one takes [s].
     """
 
-    def __init__(
-        self,
-        x: float,
-        y: float,
-        yaw: float,
-        speed: float = 1.0,
-        sheet: Factsheet | None = None,
-    ) -> None:
+    def __init__(self, x: float, y: float, yaw: float, speed: float = 1.0) -> None:
         self.x, self.y, self.yaw = x, y, yaw
-        self._speed, self._sheet = speed, sheet or Factsheet()
+        self._speed, self._sheet = speed, Factsheet("conform", "a vehicle that conform plays")
         self.limits: dict[tuple[Point, Point], float] = {}
         self.headings: dict[Point, float] = {}
         self.reports: dict[str, Any] = {}

@@ -35,6 +35,14 @@ class VirtualSettings:
     visualization: float = 1.0
 
 
+class VirtualRobot(FormulaRobot):
+    """A robot of a virtual fleet."""
+
+    def factsheet(self) -> Factsheet:
+        """Returns what it is."""
+        return Factsheet(description="virtual robot", max_speed=self._speed)
+
+
 class VirtualFleet:
     """Vehicles 1 … count at a broker, spread over a floor. They don't feel each other.
 
@@ -50,8 +58,7 @@ class VirtualFleet:
             self._add(settings, number, cell)
 
     def _add(self, settings: VirtualSettings, number: int, cell: Cell) -> None:
-        sheet = Factsheet(description="virtual robot", max_speed=settings.speed)
-        robot = FormulaRobot(*settings.grid.position(cell), 0.0, settings.speed, sheet)
+        robot = VirtualRobot(*settings.grid.position(cell), 0.0, settings.speed)
         faults = VehicleFaults(robot, lambda text, _begins: vehicle.note_event(text))
         vehicle = Vehicle(
             faults.driver,

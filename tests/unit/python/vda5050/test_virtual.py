@@ -50,7 +50,7 @@ def test_a_formula_drives_along_its_path_at_its_speed():
 
 
 def test_a_formula_stands_while_it_is_paused_and_ends_at_the_next_point():
-    robot = FormulaRobot(0.0, 0.0, 0.0)
+    robot = FormulaRobot(0.0, 0.0, 0.0, speed=1.0)
     robot.follow(1, 0, [(0.0, 0.0), (2.0, 0.0), (9.0, 0.0)], 3)
     robot.step(1.0)
     robot.stop(True)
@@ -63,7 +63,7 @@ def test_a_formula_stands_while_it_is_paused_and_ends_at_the_next_point():
 
 
 def test_a_formula_lifts_in_its_time():
-    robot = FormulaRobot(0.0, 0.0, 0.0)
+    robot = FormulaRobot(0.0, 0.0, 0.0, speed=1.0)
     robot.lift("7", True)
     robot.step(1.0)
     assert robot.report().busy and robot.report().load == ""
