@@ -9,6 +9,7 @@ from warehouse_vda5050.mqtt.loop import Link, MqttLoop, Outgoing
 from warehouse_vda5050.recording.entry import Entry
 from warehouse_vda5050.topics import Kind
 
+PATIENCE = 5.0  # for the broker's last answer [s]
 STEP = 0.05  # longest wait before the clock is looked at [s]
 RETAINED = tuple(f"/{kind.value}" for kind in Kind if kind.retained)
 
@@ -62,7 +63,8 @@ class Player:
             if self.stopped:
                 return
             self.sent, self.time = self.sent + 1, entry.time
-        self._wait(self._is_idle, progress)
+        end = time.monotonic() + PATIENCE
+        self._wait(lambda: self._link.is_answered or time.monotonic() > end, progress)
 
     def _send(self, entry: Entry, progress: Callable[[], None]) -> float:
         """Sends a message once there is a connection; returns how long there was none [s]."""
