@@ -51,12 +51,14 @@ class Gate:
     """Passes the sound messages of a topic on to take(message); warns of others.
 
     Messages of the world, the coordinator or a shift are accepted from that node alone while it
-    publishes: a valid message of another program would replace its state until the next one.
+    publishes, and events of robots behind a broker from their master: a valid message of another
+    program would replace its state until the next one.
     """
 
     def __init__(self, ros: Any, topic: str, kind: Any, take: Callable[[Any], object]) -> None:
         self._ros, self._topic, self._take = ros, topic, take
-        self._contract = CONTRACTS.get(kind._type, NO_CONTRACT)
+        contract = CONTRACTS.get(kind._type, NO_CONTRACT)
+        self._source, self._beside = contract.source, contract.beside
         self._next = -math.inf  # when to warn again
         self.subscriber: Any = None  # rospy's, once there is one
 
@@ -73,13 +75,12 @@ class Gate:
         """Returns why a message of a foreign publisher is ignored; "" if it is accepted."""
         header = getattr(message, "_connection_header", None)
         subscription = getattr(self.subscriber, "impl", None)  # None before and after it
-        if not self._contract.source or not header or subscription is None:
+        if not self._source or not header or subscription is None:
             return ""
-        names = (self._contract.source, *self._contract.beside)
-        source, *beside = (self._ros.resolve_name(name) for name in names)
-        sender = header.get("callerid")
+        sender, source = header.get("callerid"), self._ros.resolve_name(self._source)
         heard = {connection.callerid_pub for connection in subscription.connections}
-        is_foreign = sender not in (source, *beside) and source in heard
+        accepted = {source, *map(self._ros.resolve_name, self._beside)}
+        is_foreign = sender not in accepted and source in heard
         return f"it is from {sender}; {source} publishes this topic" if is_foreign else ""
 
 

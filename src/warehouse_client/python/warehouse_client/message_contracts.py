@@ -25,7 +25,7 @@ class Contract:
     values are indices. names: the prefix of the names in a field, before their number. totals: the
     fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
     fields in which infinity and NaN have a meaning. source: the only node that is accepted while it
-    publishes, with those `beside` it; "": any node.
+    publishes, besides those of `beside`; "": any node.
     """
 
     tables: Sequence[str] = ()
@@ -38,7 +38,7 @@ class Contract:
     positive: frozenset[str] = frozenset()
     any_number: frozenset[str] = frozenset()
     source: str = ""
-    beside: tuple[str, ...] = ()
+    beside: frozenset[str] = frozenset()
 
 
 def _words(*names: str) -> Kinds:
@@ -51,7 +51,6 @@ _ENDS = {0: "none yet", Event.DONE: "DONE", Event.BLOCKED: "BLOCKED"}
 _DOING = _words(*message_names.WORK, "manual", "out_of_service")
 _, _UNIT, _ITEM, _BELT = KINDS
 _WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
-_VDA5050 = ("vda5050_master", "vda5050_vehicles")  # publish events of their vehicles
 
 _WAREHOUSE = {
     "CoordinatorPaths": Contract(
@@ -70,7 +69,12 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    "Event": Contract(source=_WORLD, beside=_VDA5050, kinds={"kind": message_names.EVENT}),
+    # Robots behind a broker have events from the nodes of VDA 5050, too.
+    "Event": Contract(
+        source=_WORLD,
+        beside=frozenset({"vda5050_master", "vda5050_vehicles"}),
+        kinds={"kind": message_names.EVENT},
+    ),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
     ),

@@ -22,7 +22,7 @@ class FormulaRobot(Driver):
     '' if it does; lift_time: how long one takes [s].
     """
 
-    def __init__(self, x: float, y: float, yaw: float, speed: float = 1.0) -> None:
+    def __init__(self, x: float, y: float, yaw: float, speed: float = 1.5) -> None:
         self.x, self.y, self.yaw = x, y, yaw
         self._speed, self._sheet = speed, Factsheet("conform", "a vehicle that conform plays")
         self.limits: dict[tuple[Point, Point], float] = {}

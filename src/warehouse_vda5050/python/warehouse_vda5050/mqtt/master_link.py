@@ -19,7 +19,7 @@ from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
 from warehouse_vda5050.validation import MessageError
 
 HEARD = (Kind.CONNECTION, Kind.STATE, Kind.FACTSHEET)
-KEPT = (Kind.CONNECTION, Kind.FACTSHEET)  # by brokers, for whoever comes later
+KEPT = (Kind.CONNECTION, Kind.FACTSHEET)  # by brokers, for masters that come later
 FromVehicle = VehicleState | Connection | Factsheet
 
 

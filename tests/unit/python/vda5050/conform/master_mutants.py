@@ -161,7 +161,7 @@ def _(value, memory):
 
 @json_of("serial_other", "serialNumber is the vehicle's", "/instantActions")
 def _(value, memory):
-    value["serialNumber"] = "somebody"
+    value["serialNumber"] = "other"
 
 
 @json_of("number_as_text", "numbers are numbers")

@@ -166,4 +166,4 @@ def own_topics(stage: Stage) -> None:
     """The master sends order and instantActions; the other topics are the vehicle's."""
     _sent(stage, *TO_VEHICLE)
     entries = stage.foreign.entries
-    demand(not entries, f"{entries and entries[0].topic} was sent by somebody else")
+    demand(not entries, f"{entries and entries[0].topic} was not sent by the vehicle")
