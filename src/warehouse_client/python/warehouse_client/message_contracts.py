@@ -10,7 +10,16 @@ from typing import Any
 
 from warehouse_client import message_names
 from warehouse_layout.models.models import KINDS
-from warehouse_msgs.msg import Event, Look, OrderEvent, OrderStatus, Station, StationState, Vda5050
+from warehouse_msgs.msg import (
+    ClosedZones,
+    Event,
+    Look,
+    OrderEvent,
+    OrderStatus,
+    Station,
+    StationState,
+    Vda5050,
+)
 
 Kinds = Mapping[Any, str]  # the values that a message defines, and their names
 
@@ -53,6 +62,14 @@ _, _UNIT, _ITEM, _BELT = KINDS
 _WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
 
 _WAREHOUSE = {
+    "ClosedZones": Contract(
+        source=_FLEET,
+        tables=(
+            "transport_id shelf_id why",
+            "event_id event_time event_kind event_by event_text",
+        ),
+        kinds={"event_kind": message_names.constants(ClosedZones)},
+    ),
     "CoordinatorPaths": Contract(
         source=_FLEET,
         tables=("kiva_id released planned waits_for goal_x goal_y", "x y"),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: its state, modes of robots, and transports."""
 
+from typing import Any
+
 from fastapi import APIRouter, Body, HTTPException, Path
 
 from warehouse_viewer.api import catalogue
@@ -127,7 +129,8 @@ async def get_transports(
 ) -> object:
     """How far each is, the newest first; those since the viewer began."""
     rows = backend.transports.newest_first(state)
-    return {"total": len(rows), "transports": rows[offset : offset + limit]}
+    chosen = [_with_zone(row, backend) for row in rows[offset : offset + limit]]
+    return {"total": len(rows), "transports": chosen}
 
 
 @router.get("/transports/{number}", response_model=Transport, responses=problems(404))
@@ -136,7 +139,14 @@ async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) 
     row = backend.transports.get(number)
     if row is None:
         raise HTTPException(404, f"no transport {number}")
-    return row
+    return _with_zone(row, backend)
+
+
+def _with_zone(row: dict[str, Any], backend: ApiBackend) -> dict[str, Any]:
+    """Returns a transport with the closed zone that it waits for, if it does, as its text."""
+    message = backend.feed.zones
+    held = dict(zip(message.transport_id, message.why)) if message else {}
+    return row | {"text": held[row["id"]]} if row["id"] in held else row
 
 
 @router.post(
