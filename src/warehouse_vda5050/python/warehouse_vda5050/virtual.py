@@ -96,7 +96,7 @@ class VirtualFleet:
     @property
     def sent(self) -> Counter[Kind]:
         """The count of messages that were sent, by kind."""
-        return sum((link.sent for link in self.links), Counter())
+        return sum((link.sent_counts for link in self.links), Counter())
 
     @property
     def connected(self) -> int:

@@ -42,7 +42,7 @@ class VehicleLink:
         self._headers = Headers(identity, codec.version)
         self._online = self._connection(ConnectionState.ONLINE)
         self._now = -math.inf
-        self.sent: Counter[Kind] = Counter()  # messages of this program, but for connections
+        self.sent_counts: Counter[Kind] = Counter()  # without connections
         self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
         subscriptions = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
@@ -94,7 +94,7 @@ class VehicleLink:
 
     def _send(self, kind: Kind, message: Any) -> None:
         for outgoing in self.faults.wire.outgoing(kind, self._outgoing(kind, message), self._now):
-            self.sent[kind] += self.link.publish(outgoing)
+            self.sent_counts[kind] += self.link.publish(outgoing)
 
     def _outgoing(self, kind: Kind, message: Message) -> Outgoing:
         header = self.faults.wire.stamped(self._headers.next(kind))
