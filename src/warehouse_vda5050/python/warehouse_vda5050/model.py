@@ -257,11 +257,13 @@ class Connection:
 
 @dataclass(frozen=True)
 class Visualization:
-    """Position and speed alone, for pictures."""
+    """Position and speed alone, for pictures. state_id: headerId of the state before it; 3.0 alone
+    has it."""
 
     position: AgvPosition | None = None
     velocity: Velocity | None = None
     header: Header = Header()
+    state_id: int = 0
 
 
 @dataclass(frozen=True)

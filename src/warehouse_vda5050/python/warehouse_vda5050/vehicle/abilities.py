@@ -55,6 +55,7 @@ ACTIONS = (
         ("mapId", "STRING", False, "that of the floor"),
         ("lastNodeId", "STRING", True, "any; the position says which"),
     ),
+    _instant("clearInstantActions", "forgets the states of instant actions that are over"),
     _instant("stateRequest", "sends a state"),
     _instant("factsheetRequest", "sends this factsheet"),
     _instant(

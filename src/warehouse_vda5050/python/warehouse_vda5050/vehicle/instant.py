@@ -31,6 +31,7 @@ class Commanded(Protocol):
     driver: Driver
     hands: Hands
     journal: Journal
+    instant: InstantDesk
     order: OrderProgress | None  # under way, or the last one
 
     def begin_cancel(self, now: float) -> bool:
@@ -68,8 +69,8 @@ class InstantDesk:
 
     def begin(self, action: Action, now: float) -> None:
         """Begins an action, unless it is known."""
-        known = self._states.get(action.id)
-        if known and not (known.status.is_over and now - self._begun[action.id] > COPY):
+        known, begun = self._states.get(action.id), self._begun.get(action.id, -math.inf)
+        if (known and not known.status.is_over) or now - begun <= COPY:
             return
         self._trim(now)
         self._begun[action.id] = now
@@ -84,6 +85,11 @@ class InstantDesk:
         else:
             over = result is not RUNS
             self._set(action, ActionStatus.FINISHED if over else ActionStatus.RUNNING, result or "")
+
+    def clear(self) -> None:
+        """Forgets the states of actions that are over; late copies of them are known all the
+        same."""
+        self._states = {id: s for id, s in self._states.items() if not s.status.is_over}
 
     def end(self, type: str) -> None:
         """Ends all running actions of a type."""
@@ -101,6 +107,9 @@ class InstantDesk:
         self._states[action.id] = state
 
     def _trim(self, now: float) -> None:
+        for id in [id for id, at in self._begun.items() if now - at > COPY]:
+            if id not in self._states:
+                del self._begun[id]
         crowded = len(self._states) >= MOST
         over = [
             id
@@ -170,6 +179,11 @@ def _request_factsheet(vehicle: Commanded, action: Action, now: float) -> str | 
     return ""
 
 
+def _clear(vehicle: Commanded, action: Action, now: float) -> str | None:
+    vehicle.instant.clear()
+    return ""
+
+
 def _report_log(vehicle: Commanded, action: Action, now: float) -> str | None:
     try:
         return vehicle.journal.store(str(action.parameter("reason", "")))
@@ -205,5 +219,6 @@ ACTIONS: dict[str, Begin] = {
     "stateRequest": _request_state,
     "factsheetRequest": _request_factsheet,
     "logReport": _report_log,
+    "clearInstantActions": _clear,
     "trigger": _trigger,
 }
