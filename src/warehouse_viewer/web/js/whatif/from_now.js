@@ -46,13 +46,6 @@ export class FromNow {
       this.lookAhead();
     });
     on($('now-clear'), 'click', () => this.show([]));
-    this.offer();
-  }
-
-  /** Only a page in which a shift runs has a now. */
-  async offer() {
-    const stations = await get('/stations').catch(() => null);
-    $('from-now').hidden = !stations;
   }
 
   async lookAhead() {
