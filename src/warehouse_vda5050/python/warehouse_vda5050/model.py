@@ -32,6 +32,7 @@ class ActionStatus(StrEnum):
     INITIALIZING = "INITIALIZING"
     RUNNING = "RUNNING"
     PAUSED = "PAUSED"
+    RETRIABLE = "RETRIABLE"  # it failed, and waits for retry or skipRetry; 3.0 alone has it
     FINISHED = "FINISHED"
     FAILED = "FAILED"
 

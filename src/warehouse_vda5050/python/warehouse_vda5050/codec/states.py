@@ -72,7 +72,7 @@ def _node_state_json(node: NodeState) -> dict[str, Any]:
 
 def _action_state_json(action: ActionState) -> dict[str, Any]:
     status = action.status
-    if status is ActionStatus.PAUSED:
+    if status in (ActionStatus.PAUSED, ActionStatus.RETRIABLE):
         status = ActionStatus.RUNNING
     return {
         "actionId": action.id,

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """VDA 5050 3.0.0: other names than 2.1.0, and more specific error types.
 
-Names are those of the schemas published with the specification. Zones, corridors, shared paths and
-retriable actions are refused (field_rules).
+Names are those of the schemas published with the specification. Zones, corridors and shared paths
+are refused (field_rules).
 """
 
 import re

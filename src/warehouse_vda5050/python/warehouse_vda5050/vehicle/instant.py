@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from warehouse_vda5050.driver import Driver
+from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.model import MAP_ID, Action, ActionState, ActionStatus
 from warehouse_vda5050.topics import Kind
@@ -32,6 +32,7 @@ class Commanded(Protocol):
     hands: Hands
     journal: Journal
     instant: InstantDesk
+    report: Report | None
     order: OrderProgress | None  # under way, or the last one
 
     def begin_cancel(self, now: float) -> bool:
@@ -179,6 +180,18 @@ def _request_factsheet(vehicle: Commanded, action: Action, now: float) -> str | 
     return ""
 
 
+def _retry(vehicle: Commanded, action: Action, now: float) -> str | None:
+    meant, report = str(action.parameter("actionId") or ""), vehicle.report
+    known = report is not None and vehicle.hands.retry(meant, report, now)
+    return _refuse_if("" if known else f"action {meant[:60]!r} does not wait for a retry")
+
+
+def _skip_retry(vehicle: Commanded, action: Action, now: float) -> str | None:
+    meant = str(action.parameter("actionId") or "")
+    known = vehicle.hands.skip(meant)
+    return _refuse_if("" if known else f"action {meant[:60]!r} does not wait for a retry")
+
+
 def _clear(vehicle: Commanded, action: Action, now: float) -> str | None:
     vehicle.instant.clear()
     return ""
@@ -220,5 +233,7 @@ ACTIONS: dict[str, Begin] = {
     "factsheetRequest": _request_factsheet,
     "logReport": _report_log,
     "clearInstantActions": _clear,
+    "retry": _retry,
+    "skipRetry": _skip_retry,
     "trigger": _trigger,
 }

@@ -82,6 +82,70 @@ def cleared_copy(probe: Probe) -> None:
     demand(not probe.log.values(Kind.FACTSHEET, mark), "the factsheet is sent again")
 
 
+def _failing(probe: Probe) -> str:
+    """Has a drop fail that may be retried, of a load that is not there; returns its id."""
+    probe.need("drop", "NODE")
+    probe.need("retry", "INSTANT")
+    if view.rows(probe.state, "loads"):
+        raise Untestable("the vehicle carries a load")
+    action = {**action_of("drop", probe.new_id("drop")), "retriable": True}
+    mark = len(probe.log.entries)
+    probe.accept(probe.new_order(probe.way(0), actions={0: [action]}))
+    _demand_retriable(probe, mark)
+    return str(action["actionId"])
+
+
+def _demand_retriable(probe: Probe, mark: int) -> None:
+    """Demands RETRIABLE in a state from number `mark` on. Names of 2.1.0 have no such word."""
+    end = probe.now() + probe.settings.answer
+    while not any('"RETRIABLE"' in e.text for e in probe.log.heard(Kind.STATE, mark)):
+        demand(probe.now() < end, "no action is RETRIABLE")
+        probe.poll()
+
+
+def _demand_failed(probe: Probe, id: str) -> None:
+    probe.instant("stateRequest")
+    probe.answer()
+    text = [*probe.log.heard(Kind.STATE)][-1].text
+    status = view.status(probe.state, id)
+    demand('"RETRIABLE"' not in text and status == "FAILED", f"it is {status}, or RETRIABLE still")
+
+
+@case("retriable", "6.6.9", edges=1, versions=ONLY)
+def retriable(probe: Probe) -> None:
+    """An action that fails and is retriable is RETRIABLE; skipRetry makes it FAILED."""
+    id = _failing(probe)
+    probe.finished(probe.instant("skipRetry", [("actionId", id)]))
+    _demand_failed(probe, id)
+
+
+@case("retry", "6.2.3.1", edges=1, versions=ONLY)
+def retry(probe: Probe) -> None:
+    """retry begins the action again."""
+    id = _failing(probe)
+    mark = len(probe.log.entries)
+    probe.finished(probe.instant("retry", [("actionId", id)]))
+    _demand_retriable(probe, mark)
+    probe.finished(probe.instant("skipRetry", [("actionId", id)]))
+
+
+@case("retriable_cancelled", "6.6.9", edges=1, versions=ONLY)
+def retriable_cancelled(probe: Probe) -> None:
+    """cancelOrder makes an action FAILED that is RETRIABLE."""
+    id = _failing(probe)
+    probe.finished(probe.instant("cancelOrder"))
+    _demand_failed(probe, id)
+
+
+@case("retry_unknown", "6.2.3.1", versions=ONLY)
+def retry_unknown(probe: Probe) -> None:
+    """retry and skipRetry of an action that is not RETRIABLE are FAILED."""
+    for type in ("retry", "skipRetry"):
+        probe.need(type, "INSTANT")
+        status = probe.over(probe.instant(type, [("actionId", "conform-none")]))
+        demand(status == "FAILED", f"{type} is {status}")
+
+
 @case("reference_state", "7.9", edges=2, versions=ONLY)
 def reference_state(probe: Probe) -> None:
     """A visualization has the headerId of the state that it follows."""
