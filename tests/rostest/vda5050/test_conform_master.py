@@ -86,7 +86,17 @@ class ConformMaster(unittest.TestCase):
             address = f"localhost:{broker.port}"
             conform = started(
                 *("rosrun", "warehouse_vda5050", "conform", "--broker", address, "--master"),
-                *("--play", *played, "--out", folder, "--strict", "--only", *TRIED),
+                *(
+                    "--play",
+                    *played,
+                    "--out",
+                    folder,
+                    "--strict",
+                    "--patience",
+                    "120",
+                    "--only",
+                    *TRIED,
+                ),
             )
             master = started(
                 *("roslaunch", "warehouse_vda5050", "master.launch", f"broker:={address}"),
