@@ -10,7 +10,16 @@ from typing import Any
 
 from warehouse_client import message_names
 from warehouse_layout.models.models import KINDS
-from warehouse_msgs.msg import Event, Look, OrderEvent, OrderStatus, Station, StationState, Vda5050
+from warehouse_msgs.msg import (
+    ClosedZones,
+    Event,
+    Look,
+    OrderEvent,
+    OrderStatus,
+    Station,
+    StationState,
+    Vda5050,
+)
 
 Kinds = Mapping[Any, str]  # the values that a message defines, and their names
 
@@ -53,6 +62,14 @@ _, _UNIT, _ITEM, _BELT = KINDS
 _WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
 
 _WAREHOUSE = {
+    "ClosedZones": Contract(
+        source=_FLEET,
+        tables=(
+            "transport_id shelf_id why",
+            "event_id event_time event_kind event_by event_text",
+        ),
+        kinds={"event_kind": message_names.constants(ClosedZones)},
+    ),
     "CoordinatorPaths": Contract(
         source=_FLEET,
         tables=("kiva_id released planned waits_for goal_x goal_y", "x y"),
@@ -69,9 +86,11 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    # Robots behind a broker have their events from the node that drives them.
+    # Robots behind a broker have events from the nodes of VDA 5050, too.
     "Event": Contract(
-        source=_WORLD, beside=frozenset({"vda5050_master"}), kinds={"kind": message_names.EVENT}
+        source=_WORLD,
+        beside=frozenset({"vda5050_master", "vda5050_vehicles"}),
+        kinds={"kind": message_names.EVENT},
     ),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
@@ -144,7 +163,7 @@ _WAREHOUSE = {
     "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
     "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
     "Vda5050": Contract(
-        tables=("kiva_id manufacturer serial connection order errors driven",),
+        tables=("kiva_id manufacturer serial connection order errors driven faults",),
         kinds={
             "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
             "connection": {

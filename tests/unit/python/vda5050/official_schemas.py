@@ -3,28 +3,13 @@
 
 import json
 
-import jsonschema
-import paths
-
+from warehouse_vda5050.schemas import validator_of
 from warehouse_vda5050.topics import Kind
 
-FOLDER = paths.ROOT / "tests" / "vda5050"
+VALIDATORS = {kind: validator_of(kind) for kind in Kind}
 
 
-def validators(version):
-    folder = FOLDER / f"schemas_{version.replace('.', '_')}"
-    return {
-        kind: jsonschema.Draft202012Validator(
-            json.loads((folder / f"{kind.value}.json").read_text())
-        )
-        for kind in Kind
-    }
-
-
-VALIDATORS = validators("2.1.0")
-
-
-def faults(kind, payload, known=VALIDATORS):
+def faults(kind, payload, version="2.1.0"):
     """Returns what is wrong with a message as it was sent, a line each."""
-    errors = known[kind].iter_errors(json.loads(payload))
+    errors = validator_of(kind, version).iter_errors(json.loads(payload))
     return [f"{kind.value} {list(fault.path)}: {fault.message}" for fault in errors]
