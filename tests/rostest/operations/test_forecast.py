@@ -32,6 +32,11 @@ class Forecasts(unittest.TestCase):
         rospy.wait_for_service("/warehouse/forecast", LONG)
         latched("/warehouse/kpis", Kpis, lambda kpis: kpis.orders_completed > 2)
 
+    def test_0_the_shift_is_looked_ahead_of_without_a_request(self):
+        first = latched("/warehouse/forecasts", ForecastResult)
+        self.assertEqual((first.forecast_id, first.minutes, list(first.changes)), (1, 60.0, []))
+        self.assertGreaterEqual(first.runs, 5)
+
     def test_1_a_forecast_comes_while_the_shift_goes_on(self):
         stations = Listener("/warehouse/stations", StationStates)
         begin = rospy.get_time()
@@ -68,6 +73,7 @@ class Forecasts(unittest.TestCase):
             ((1441.0, 1), "minutes is 1441; above 0, up to 1440 (a day), was expected"),
             ((math.nan, 1), "minutes is nan"),
             ((10.0, 1, "nonsense"), "were expected"),
+            ((10.0, 1, "+0 policy storage random"), "the coordinator decides it by itself"),
         ):
             answer = ask(*asked)
             self.assertEqual((answer.forecast_id, answer.accepted), (0, False))

@@ -65,6 +65,9 @@ BESIDE = """(() => {
 })()"""
 
 
+STATE = "document.getElementById('forecast-state')"
+
+
 class OperationsPage(WorkPageTest):
     """Tests that run in this order: each finds what the last one left."""
 
@@ -109,15 +112,23 @@ class OperationsPage(WorkPageTest):
         self.assertTrue(self.page.read("!document.getElementById('forecast-other').hidden"))
         status, latest = ask("/forecasts/latest")
         self.assertEqual((status, latest["state"]), (200, "DONE"))
-        self.assertEqual(f"{latest['text']}.".lower(), text.lower())
+        submit("urgent", "sku-5", 1)
+        first = "document.getElementById('forecast-order')"
+        self.look_ahead("order", f"page.forecast.askOrder(); {first}.value = 'urgent'")
+        self.page.until(f"page.forecast.id > {latest['forecast_id']}")
+        self.assertIn("looks ahead", self.page.read(f"{STATE}.textContent"))
+        self.page.driver.execute_script("page.forecast.offerPolicies()")
+        self.look_ahead("+0 policy orders due date")
+        self.page.until("page.forecast.shown.changes[0] === '+0 policy orders due date'")
         status, answer = ask("/forecasts", {"changes": ["+0 close pick99"]})
         self.assertEqual(status, 409)
         self.assertIn("pick99", answer["detail"])
 
-    def look_ahead(self, change):
+    def look_ahead(self, change, more=""):
+        """Asks for a forecast with a change. more: what is filled in besides."""
         options = "document.getElementById('forecast-change')"
         self.page.until(f"[...{options}.options].some((o) => o.value === '{change}')")
-        self.page.driver.execute_script(f"{options}.value = '{change}'")
+        self.page.driver.execute_script(f"{options}.value = '{change}'; {more}")
         self.page.driver.execute_script("document.getElementById('forecast-form').requestSubmit()")
 
     def test_2_a_person_picks_and_finds_too_few(self):

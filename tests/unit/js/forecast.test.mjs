@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { aheadOf, changesOf, pastOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
+import { aheadOf, changesOf, pastOf, policiesOf } from '../../../src/warehouse_viewer/web/js/operations/forecast.js';
 
 test('orders done are counted back from now', () => {
   const past = pastOf({ interval: 60, begin: 90, end: 270, orders_completed: [1, 2, 3, 0] });
@@ -21,4 +21,12 @@ test('open stations can be closed, closed ones opened, robots be more and fewer'
   assert.deepEqual(changes.map(({ text }) => text),
     ['+0 robots +2', '+0 robots +1', '+0 robots -1', '+0 robots -2', '+0 close pick1', '+0 open pick2']);
   assert.equal(changes[2].label, '1 robot fewer');
+});
+
+test('policies other than the usual can be tried, but not one that needs a file', () => {
+  const about = {
+    policies: { orders: ['due date', 'pile-on', 'learned'], units: ['nearest'], bins: [], batches: [], replenishment: [], storage: ['random'] },
+    default_policies: { orders: 'pile-on', units: 'nearest' },
+  };
+  assert.deepEqual(Object.values(policiesOf(about)).flat(), [{ text: '+0 policy orders due date', label: 'orders: due date' }]);
 });

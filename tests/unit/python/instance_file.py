@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instance files in RAWSim-O's format: one-way streets around blocks two deep, picking stations on
-the right, replenishing stations on the left, with straight lanes or with halls and winding ones."""
+"""Files in RAWSim-O's formats. Instances: one-way streets around blocks two deep, picking stations
+on the right, replenishing stations on the left, with straight lanes or with halls and winding ones.
+Layout configurations: the parameters of its generator, those of its BasicInstance among them."""
 
 import itertools
 import xml.etree.ElementTree as ElementTree
@@ -196,3 +197,46 @@ def _height(street_y, k, count):
 def _chain(join, places):
     for a, b in zip(places, places[1:]):
         join(a, b)
+
+
+CONFIGURATION = """<?xml version="1.0" encoding="utf-8"?>
+<LayoutConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+{}</LayoutConfiguration>
+"""
+SMALL = {
+    "TierCount": 1,
+    "BotCount": 8,
+    "PodAmount": 0.85,
+    "PodCapacity": 500,
+    "OStationCapacity": 18,
+    "AisleLayoutType": "Tim",
+    "AislesTwoDirectional": "false",
+    "SingleLane": "true",
+    "NameLayout": "1-2-2-8-0.85",
+    "NrHorizontalAisles": 4,
+    "NrVerticalAisles": 4,
+    "HorizontalLengthBlock": 4,
+    "WidthHall": 6,
+    "WidthBuffer": 4,
+    "DistanceEntryExitStation": 3,
+    "CounterClockwiseRingwayDirection": "true",
+    "NPickStationEast": 2,
+    "NReplenishmentStationWest": 2,
+}
+BASIC_INSTANCE = {
+    "BotCount": 16,
+    "OStationCapacity": 12,
+    "ItemTransferTime": 10,
+    "ItemPickTime": 3,
+    "AisleLayoutType": "HighwayHallway",
+    "NameLayout": "1-2-2-16-0.85",
+    "NrHorizontalAisles": 8,
+    "NrVerticalAisles": 6,
+}
+
+
+def write_configuration(path, **values):
+    """Writes a layout configuration, .xlayo: that of SMALL, but for the values given."""
+    elements = "".join(f"  <{k}>{v}</{k}>\n" for k, v in {**SMALL, **values}.items())
+    path.write_text(CONFIGURATION.format(elements))
+    return path

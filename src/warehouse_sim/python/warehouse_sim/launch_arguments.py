@@ -271,6 +271,7 @@ ARGUMENTS: dict[str, Check] = {
     "actions": _flag,
     "coordinator": _flag,
     "transports": _one_of(*CHOICES["transports"]),
+    "forecast_every": _number(lambda minutes: 0 <= minutes <= 1440, "0 to 1440 minutes"),
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,

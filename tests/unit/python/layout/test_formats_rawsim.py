@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from instance_file import write_hall_instance, write_instance
+from instance_file import write_configuration, write_hall_instance, write_instance
 
 from warehouse_layout import convert as formats
 from warehouse_layout.convert import FormatError
@@ -69,41 +69,9 @@ def test_a_station_without_a_queue_is_reported(tmp_path):
     assert [s.queue + s.exit for s in file.stations] == [()] * 4
 
 
-CONFIGURATION = """<?xml version="1.0" encoding="utf-8"?>
-<LayoutConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
-{}</LayoutConfiguration>
-"""
-SMALL = {
-    "TierCount": 1,
-    "BotCount": 8,
-    "PodAmount": 0.85,
-    "PodCapacity": 500,
-    "OStationCapacity": 18,
-    "AisleLayoutType": "Tim",
-    "AislesTwoDirectional": "false",
-    "SingleLane": "true",
-    "NameLayout": "1-2-2-8-0.85",
-    "NrHorizontalAisles": 4,
-    "NrVerticalAisles": 4,
-    "HorizontalLengthBlock": 4,
-    "WidthHall": 6,
-    "WidthBuffer": 4,
-    "DistanceEntryExitStation": 3,
-    "CounterClockwiseRingwayDirection": "true",
-    "NPickStationEast": 2,
-    "NReplenishmentStationWest": 2,
-}
-
-
 @pytest.fixture
 def write(tmp_path):
-    def _write(**values):
-        path = tmp_path / "a.xlayo"
-        elements = "".join(f"  <{k}>{v}</{k}>\n" for k, v in {**SMALL, **values}.items())
-        path.write_text(CONFIGURATION.format(elements))
-        return path
-
-    return _write
+    return lambda **values: write_configuration(tmp_path / "a.xlayo", **values)
 
 
 def test_a_configuration(write, tmp_path):

@@ -11,10 +11,12 @@ from paths import ROOT
 
 from warehouse_layout.file import layout_file
 from warehouse_layout.generate import layout_choice
+from warehouse_layout.message_enums import OrderEventKind
 from warehouse_operations.runs import event_file, simulation, sweep
 from warehouse_operations.runs.event_file import Event, EventError, of_line, seconds_of
 from warehouse_operations.runs.simulation import Description, open_operations
 
+COMPLETED = OrderEventKind.COMPLETED
 SIMULATE = ROOT / "src" / "warehouse_viewer" / "nodes" / "simulate"
 HOUR = 3600.0
 
@@ -42,9 +44,11 @@ def test_all_kinds_are_read(tmp_path):
         "- {at: 61, robots: -2}\n- {at: 62, fail: robot 7}\n- {at: 63, fail: 10%, for: 15m}\n"
         "- {at: 64, speed: 50%}\n- {at: 65, sku_out: sku-3}\n- {at: 66, orders: rush.csv}\n"
         "- {at: 67, picker: {station: pick1, seconds_a_piece: 14}}\n"
+        "- {at: 68, priority: {order: rush-17, to: 5}}\n"
+        "- {at: 69, policy: {storage: random, units: most lines}}\n"
     )
     events = event_file.read(path)
-    assert [event.at for event in events] == [60, 61, 62, 63, 64, 65, 66, 67, 600, 9000]
+    assert [event.at for event in events] == [60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 600, 9000]
     values = {(event.kind, str(event.value)) for event in events}
     assert ("robots", "4") in values and ("robots", "-2") in values and ("fail", "7") in values
     assert ("orders", str(rush)) in values and ("speed", "0.5") in values
@@ -71,6 +75,13 @@ def test_all_kinds_are_read(tmp_path):
         ("- {at: 1, orders: fill}", "[0].orders", "CSV file"),
         ("- {at: 1, picker: {station: pick1}}", "[0].picker", "seconds_a_piece"),
         ("- {at: 1, picker: {station: a, seconds_a_piece: 0}}", "[0].picker", "from 0.1"),
+        ("- {at: 1, priority: 5}", "[0].priority", "{order: rush-17, to: 5}"),
+        ("- {at: 1, priority: {order: [], to: 5}}", "[0].priority", "reference or number"),
+        ("- {at: 1, priority: {order: a, to: 256}}", "[0].priority", "to is 256; 0 to 255"),
+        ("- {at: 1, priority: {order: a, to: .nan}}", "[0].priority", "to is .nan"),
+        ("- {at: 1, policy: nearest}", "[0].policy", "{storage: nearest}"),
+        ("- {at: 1, policy: {storing: nearest}}", "[0].policy", "'storing' is not a role"),
+        ("- {at: 1, policy: {storage: far}}", "[0].policy", "there is no 'far'"),
         ("- {at: 1, close: a, open: b}", "[0]", "one of"),
         ("- {at: 1, close: a, for: 5}", "[0]", "goes with fail"),
         ("- often", "[0]", "is often"),
@@ -93,6 +104,8 @@ def test_times_and_lines():
     assert of_line("+10m robots +2", 100.0) == Event(700.0, "robots", 2)
     assert of_line("+0 close pick3", 50.0) == Event(50.0, "close", "pick3")
     assert of_line("2:30:00 fail robot 7 for 15m") == Event(9000.0, "fail", 7, 900.0)
+    assert of_line("5 priority rush 17 9").value == {"order": "rush 17", "to": 9}
+    assert of_line("5 policy units most lines").value == {"units": "most lines"}
     assert of_line("5 picker pick1 14").value == {"station": "pick1", "seconds_a_piece": 14}
     for text in ("close pick3", "soon close pick3", "5 shut pick3"):
         with pytest.raises(EventError):
@@ -191,6 +204,33 @@ def test_a_picker_is_slow():
         before = ops.shift.station("pick1").pieces
         ops.run(minutes=30)
         assert ops.shift.station("pick1").pieces - before < 0.5 * before
+
+
+def test_an_order_gets_another_priority(tmp_path):
+    rows = "".join(f"o-{i},sku-{i % 9 + 1},1,0\n" for i in range(300))
+    (tmp_path / "many.csv").write_text("reference,sku,quantity,at\n" + rows)
+    orders, over = str(tmp_path / "many.csv"), {}
+    for events in ((), (Event(60.0, "priority", {"order": "o-299", "to": 9}),)):
+        with opened(*events, orders=orders) as ops:
+            times = {}
+            ops.shift.on_order_event = lambda order, kind, *_, times=times, ops=ops: (
+                times.setdefault(order.reference, ops.time) if kind == COMPLETED else None
+            )
+            ops.run(minutes=30)
+            over[bool(events)] = times.get("o-299", ops.time)
+    assert over[True] < 600 < over[False]
+
+
+def test_another_policy_decides_from_then_on():
+    event = Event(600.0, "policy", {"storage": "random", "batches": "together"})
+    with opened(event) as ops:
+        before = ops.shift.policies.storage
+        ops.run(minutes=9)
+        assert ops.shift.policies.storage is before
+        ops.run(minutes=2)
+        assert type(ops.shift.policies.storage).__name__ == "Random"
+        assert type(ops.shift.policies.batches).__name__ == "Together"
+        assert ops.shift.policies.chosen["storage"] == "random"
 
 
 def test_the_same_events_give_the_same_shift():

@@ -2,8 +2,8 @@
 """What is asked of a forecast, checked before anything starts."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 
 from warehouse_operations.fleets.availability import Availability
 from warehouse_operations.forecast.ahead import Task, times_of
@@ -70,11 +70,12 @@ def tasks_of(
     shift: Shift,
     fork: Fork,
     availability: Availability | None = None,
+    elsewhere: Collection[str] = (),
 ) -> list[Task]:
-    """Returns the Task of a request; with changes two: as it is, and with them. Raises
-    ForecastError before anything starts."""
+    """Returns the Task of a request; with changes two: as it is, and with them. elsewhere: see
+    Names. Raises ForecastError before anything starts."""
     request.check()
-    names = names_of(site, shift)
+    names = replace(names_of(site, shift), elsewhere=elsewhere)
     events = request.events(names, fork.time - fork.began)
     coming = any(event.kind == "orders" for event in events)
     if not (shift.orders or comes_more(shift) or fork.recent or coming):
@@ -87,7 +88,8 @@ def tasks_of(
 def names_of(site: Site, shift: Shift) -> Names:
     """Returns what changes may name."""
     stations = [station.name for station in shift.stations]
-    return Names(stations, site.robots, shift.assortment.skus, True)
+    orders = {name for order in shift.orders.values() for name in order.names}
+    return Names(stations, site.robots, shift.assortment.skus, True, orders)
 
 
 def comes_more(shift: Shift) -> bool:

@@ -204,6 +204,14 @@ class Policies:
             setattr(self, role, policy)
             self.chosen[role] = _name_of(policy) if policy is what else what
 
+    def change(self, chosen: Mapping[str, Any]) -> None:
+        """Has other policies decide from now on, for the roles that are named. Raises
+        PolicyError."""
+        others = Policies(dict(chosen))
+        for role in chosen:
+            setattr(self, role, getattr(others, role))
+            self.chosen[role] = others.chosen[role]
+
     @classmethod
     def read(cls, path: str | Path) -> "Policies":
         """Returns the policies of a YAML file, beside which their files lie, or of a controller of

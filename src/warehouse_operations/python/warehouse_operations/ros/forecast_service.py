@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The service that forecasts the shift that runs; its runs are processes beside the node."""
 
+import contextlib
 import itertools
 import math
 import threading
@@ -27,6 +28,7 @@ from warehouse_operations.stock.site import Site
 from warehouse_operations.store import moment
 
 PAUSED = 2.0  # after which a shift whose time stands still is paused [s, wall]
+HOUR = 60.0  # how far the shift is looked ahead of without a request [min]
 BUDGET = 20.0  # time for as many runs as possible [s, wall]
 NAMES = ("p10", "p50", "p90")
 
@@ -55,6 +57,10 @@ class Host(Protocol):
         """What keeps its robots from work."""
 
     @property
+    def elsewhere(self) -> Sequence[str]:
+        """Roles of policies that the coordinator has."""
+
+    @property
     def last_step(self) -> float:
         """When the shift was advanced last [s, wall]."""
 
@@ -67,10 +73,15 @@ class Host(Protocol):
 
 
 class ForecastService:
-    """Answers requests for forecasts, and publishes each on a latched topic."""
+    """Answers requests for forecasts, and publishes each on a latched topic.
 
-    def __init__(self, host: Host) -> None:
+    every: how often the shift is looked ahead of without a request [s]; 0: never.
+    """
+
+    def __init__(self, host: Host, every: float = 0.0) -> None:
         self._host, self._ids = host, itertools.count(1)
+        self._every, self._last = every, -math.inf
+        self._at_work: threading.Thread | None = None
         self._lock, self._runs = threading.Lock(), Runs([], 0)
         self._newest = 0
         self._topic = rospy.Publisher(
@@ -83,20 +94,42 @@ class ForecastService:
         with self._lock:
             self._runs.give_up()
 
+    def keep_up(self, now: float) -> None:
+        """Looks ahead if it is time to, at a time of the shift [s], and no forecast is made."""
+        if now < self._last:  # the world was reset
+            self._last = -math.inf
+        if not self._every or now - self._last < self._every:
+            return
+        if self._at_work and self._at_work.is_alive():
+            return
+        self._last = now
+        with contextlib.suppress(ForecastError, ForkError):  # such as an hour without orders
+            self._begin(Request(HOUR))
+
     def _forecast(self, request: Any) -> Any:
-        asked = Request(request.minutes, request.runs, tuple(request.changes))
         try:
-            asked.check()
-            tasks, known = self._tasks(asked)
+            asked = Request(request.minutes, request.runs, tuple(request.changes))
+            return srv.ForecastResponse(self._begin(asked), True, "")
         except (ForecastError, ForkError) as error:
             return srv.ForecastResponse(0, False, str(error))
+
+    def _begin(self, asked: Request) -> int:
+        """Begins a forecast, in place of one under way; returns its number. Raises ForecastError,
+        ForkError."""
+        asked.check()
+        tasks, known = self._tasks(asked)
         with self._lock:
             self._runs.give_up()
             self._newest = number = next(self._ids)
             self._runs = runs = Runs(tasks, asked.runs, budget=BUDGET)
-        work = number, asked, tasks, known, runs
-        threading.Thread(target=self._make, args=work, name="forecast", daemon=True).start()
-        return srv.ForecastResponse(number, True, "")
+            self._at_work = threading.Thread(
+                target=self._make,
+                args=(number, asked, tasks, known, runs),
+                name="forecast",
+                daemon=True,
+            )
+            self._at_work.start()
+        return number
 
     def _tasks(self, asked: Request) -> tuple[list[Task], dict[int, tuple[str, float]]]:
         """Forks the shift. Raises ForecastError, ForkError."""
@@ -110,7 +143,7 @@ class ForecastService:
             shift, fleet = host.with_fleet()
             fork: Fork = of_shift(shift, fleet, recent)
             known = {o.order_id: (o.reference, o.due) for o in shift.orders.values()}
-        return tasks_of(asked, host.site, shift, fork, host.availability), known
+        return tasks_of(asked, host.site, shift, fork, host.availability, host.elsewhere), known
 
     def _make(
         self,

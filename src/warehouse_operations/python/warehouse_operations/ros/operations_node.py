@@ -55,12 +55,17 @@ STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 class OperationsNode:
     """Runs a shift and serves it.
 
-    database: a URL, or the path of an SQLite file. orders: see open_shift. Raises what
-    open_shift raises, and rospy.ROSInterruptException where ROS shuts down meanwhile.
+    database: a URL, or the path of an SQLite file. orders: see open_shift. forecast_every: see
+    ForecastService [s]. Raises what open_shift raises, and rospy.ROSInterruptException where ROS shuts down meanwhile.
     """
 
     def __init__(
-        self, database: str, orders: str = "fill", policies: Policies | None = None, seed: int = 1
+        self,
+        database: str,
+        orders: str = "fill",
+        policies: Policies | None = None,
+        seed: int = 1,
+        forecast_every: float = 0.0,
     ) -> None:
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._log = FleetLog()
@@ -81,7 +86,7 @@ class OperationsNode:
         self._database = Database(database)
         self._begin()
         ShiftServices(self)
-        self._forecasts = ForecastService(self)
+        self._forecasts = ForecastService(self, forecast_every)
         # Published last: a node that has received this topic finds all services.
         self._stations = _publisher("stations", msg.StationStates)
 
@@ -125,6 +130,11 @@ class OperationsNode:
         except RealismError as error:
             rospy.logwarn(f"motion and service stay as they are: {error}")
             return Measured()
+
+    @property
+    def elsewhere(self) -> tuple[str, ...]:
+        """Roles of policies that the coordinator has."""
+        return OF_THE_COORDINATOR
 
     @property
     def last_step(self) -> float:
@@ -285,6 +295,7 @@ class OperationsNode:
             self._next_kpis = now + KPIS_PERIOD
             self._publish_figures(now)
             self._keep_heat(slices=1)
+        self._forecasts.keep_up(now)
 
     def carry_out(self, act: Callable[[Shift], Any]) -> Any:
         """Calls act(shift), waits until the database has its effects, and returns its result."""

@@ -117,3 +117,14 @@ class Director:
         if "pickers" in event.value:
             station.set_pickers(event.value["pickers"], self._shift.now)
         station.next_work()
+
+    def _priority(self, event: Event) -> None:
+        name, priority = event.value["order"], event.value["to"]
+        named = [order for order in self._shift.orders.values() if name in order.names]
+        for order in named:
+            self._shift.change_order(order.order_id, priority, None)
+        if not named:
+            self._shift.notices.add(f"order {name} is not open: it gets no other priority")
+
+    def _policy(self, event: Event) -> None:
+        self._shift.policies.change(event.value)

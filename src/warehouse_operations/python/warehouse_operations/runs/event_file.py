@@ -9,6 +9,8 @@
 - {at: 600, sku_out: red}          # its pieces are gone, and no more come
 - {at: 600, orders: rush.csv}      # come besides the others, their times from then on
 - {at: 600, picker: {station: pick1, seconds_a_piece: 14}}   # also pickers: 2
+- {at: 600, priority: {order: rush-17, to: 5}}   # an order that is open then, by reference or number
+- {at: 600, policy: {storage: nearest}}          # roles with a policy each; see policies
 
 A line says the same for one event: `+10m robots +2`, `2:30:00 close pick3`.
 """
@@ -21,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from warehouse_layout.file.station_settings import StationSettingError, check_setting
+from warehouse_operations.policies import Policies, PolicyError
 from warehouse_operations.stock.lined_yaml import LinedYaml, Place, shown
 from warehouse_operations.stock.order_file import DemandError, read_csv
 
@@ -28,9 +31,10 @@ LAST = 1e9  # [s]
 REPAIR = 600.0  # time to the repair of a robot that fails [s]
 MOST_ROBOTS = 20_000
 MOST_EVENTS = 10_000
+HIGHEST = 255  # priority
 PICKER = ("seconds_a_piece", "pickers")
 UNITS = {"": 1.0, "s": 1.0, "m": 60.0, "min": 60.0, "h": 3600.0}
-EXPECTED = "close, open, robots, fail, speed, sku_out, orders or picker"
+EXPECTED = "close, open, robots, fail, speed, sku_out, orders, picker, priority or policy"
 
 
 class EventError(ValueError):
@@ -42,8 +46,9 @@ class Event:
     """What happens at a time of the shift [s]. where: its file and line, for messages.
 
     value: a station's name (close, open), a number of robots (robots), a robot's id or a share
-    below 1 of all (fail), a share of the top speed (speed), a SKU (sku_out), a path (orders), or
-    what is set at a station (picker). duration: until robots that fail are repaired [s].
+    below 1 of all (fail), a share of the top speed (speed), a SKU (sku_out), a path (orders), what
+    is set at a station (picker), an order with its priority (priority), or policies by role
+    (policy). duration: until robots that fail are repaired [s].
     """
 
     at: float
@@ -129,10 +134,14 @@ def of_line(text: str, now: float = 0.0) -> Event:
 
 
 def _value_of(kind: str, words: Sequence[str]) -> Any:
-    if kind != "picker":
-        return " ".join(words)
-    station, *rest = words
-    return {"station": station} | dict(zip(PICKER, map(plain, rest)))
+    first, *rest = words
+    if kind == "picker":
+        return {"station": first} | dict(zip(PICKER, map(plain, rest)))
+    if kind == "priority":
+        return {"order": " ".join(words[:-1]), "to": plain(words[-1])}
+    if kind == "policy":
+        return {first: " ".join(rest)}
+    return " ".join(words)
 
 
 def plain(text: str) -> Any:
@@ -271,6 +280,28 @@ class _Reader:
                 raise self._fault("picker", str(error)) from error
         return out
 
+    def priority(self, value: Any) -> dict[str, Any]:
+        """Returns an order's reference or number, and its priority from then on."""
+        whole = isinstance(value, Mapping) and value.keys() == {"order", "to"}
+        order, to = (value["order"], value["to"]) if whole else (None, None)
+        if isinstance(order, bool) or not isinstance(order, (str, int)) or order == "":
+            text = "has to be {order: rush-17, to: 5}, an order's reference or number"
+            raise self._fault("priority", text)
+        if isinstance(to, bool) or not isinstance(to, int) or not 0 <= to <= HIGHEST:
+            raise self._fault("priority", f"to is {shown(to)}; 0 to {HIGHEST} was expected")
+        return {"order": str(order), "to": to}
+
+    def policy(self, value: Any) -> dict[str, Any]:
+        """Returns policies by role."""
+        if not isinstance(value, Mapping) or not value:
+            text = f"is {shown(value)}; {{storage: nearest}}, for example, was expected"
+            raise self._fault("policy", text)
+        try:
+            Policies(dict(value))
+        except PolicyError as error:
+            raise self._fault("policy", str(error).removeprefix("policies: ")) from error
+        return dict(value)
+
 
 _VALUES: dict[str, Callable[[_Reader, Any], Any]] = {
     "close": _Reader.close,
@@ -281,6 +312,8 @@ _VALUES: dict[str, Callable[[_Reader, Any], Any]] = {
     "sku_out": _Reader.sku_out,
     "orders": _Reader.orders,
     "picker": _Reader.picker,
+    "priority": _Reader.priority,
+    "policy": _Reader.policy,
 }
 
 

@@ -61,6 +61,11 @@ class Order:
         return -self.priority, self.due or float("inf"), self.order_id
 
     @property
+    def names(self) -> tuple[str, str]:
+        """What it may be called by: its reference, and its number."""
+        return self.reference, str(self.order_id)
+
+    @property
     def pieces(self) -> int:
         """The number of pieces not picked yet."""
         return sum(line.open for line in self.lines)

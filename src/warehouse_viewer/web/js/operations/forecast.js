@@ -6,9 +6,14 @@ import { get, post } from '../base/api.js';
 import { axis, faint, font, Plot } from '../base/charts.js';
 import { $, make, on, token } from '../base/dom.js';
 import { number } from '../base/numbers.js';
+import { ask } from '../base/request.js';
 import { clock } from '../base/time.js';
 
 const ROBOTS = [2, 1, -1, -2];
+const FIRST = 'order'; // the value of "an order first"
+const HIGHEST = 255; // priority
+const OWN = 'learned'; // a policy that needs a file
+const ROLES = ['orders', 'units', 'bins', 'batches', 'replenishment']; // the coordinator has the others
 
 /** Points of the orders done in the last hour, counted back from now; x in minutes from now. */
 export function pastOf({ interval, begin, end, orders_completed: done }) {
@@ -40,35 +45,72 @@ export function changesOf(stations) {
   return [...robots, ...shut];
 }
 
+/** Other policies that can be tried: {role: [{text, label}]}, without those that are the default. */
+export function policiesOf({ policies, default_policies: usual }) {
+  const others = (role) => policies[role].filter((name) => name !== usual[role] && name !== OWN);
+  return Object.fromEntries(ROLES.map((role) => [
+    role, others(role).map((name) => ({ text: `+0 policy ${role} ${name}`, label: `${role}: ${name}` })),
+  ]));
+}
+
+const options = (changes) => changes.map(({ text, label }) => make('option', { value: text, textContent: label }));
+
 export class ForecastCard {
   constructor() {
-    Object.assign(this, { id: 0, plain: null, throughput: null, known: '' });
+    Object.assign(this, { id: 0, asked: 0, plain: null, throughput: null, known: '', policies: [] });
     this.plot = new Plot($('chart-forecast'), look);
     on($('forecast-form'), 'submit', (event) => {
       event.preventDefault();
       this.ask();
     });
+    on($('forecast-change'), 'focus', () => this.offerPolicies(), { once: true });
+    on($('forecast-change'), 'change', () => this.askOrder());
+  }
+
+  async offerPolicies() {
+    const about = await ask('GET', '/whatif/about').catch(() => null);
+    if (about) this.policies = Object.values(policiesOf(about)).flat();
+    this.known = '';
+    if (this.stations) this.takeStations(this.stations);
+  }
+
+  /** An order that is to come first is named. */
+  askOrder() {
+    const named = $('forecast-change').value === FIRST;
+    $('forecast-order').hidden = !named;
+    $('forecast-order').required = named;
+    if (named) $('forecast-order').focus();
   }
 
   /** Offers what can be changed. */
   takeStations(stations) {
-    const changes = changesOf(stations);
+    this.stations = stations;
+    const changes = [...changesOf(stations), { text: FIRST, label: 'an order first …' }];
     const known = JSON.stringify(changes);
     if (known === this.known) return;
     this.known = known;
     const chosen = $('forecast-change').value;
     $('forecast-change').replaceChildren(
       make('option', { value: '', textContent: 'nothing' }),
-      ...changes.map(({ text, label }) => make('option', { value: text, textContent: label })));
-    $('forecast-change').value = changes.some(({ text }) => text === chosen) ? chosen : '';
+      ...options(changes),
+      ...this.policies.length ? [make('optgroup', { label: 'another policy' }, ...options(this.policies))] : []);
+    const all = [...changes, ...this.policies];
+    $('forecast-change').value = all.some(({ text }) => text === chosen) ? chosen : '';
+  }
+
+  /** The change that is chosen, as the service takes it. */
+  change() {
+    const { value } = $('forecast-change');
+    return value === FIRST ? `+0 priority ${$('forecast-order').value.trim()} ${HIGHEST}` : value;
   }
 
   async ask() {
-    const change = $('forecast-change').value;
+    const change = this.change();
     this.say('', 'looks ahead for about 20 s …');
     try {
       const asked = { minutes: Number($('forecast-minutes').value), changes: change ? [change] : [] };
       ({ forecast_id: this.id } = await post('/forecasts', asked));
+      this.asked = this.id;
       this.take(await get(`/forecasts/${this.id}`));
     } catch (error) {
       this.say(error.message, '');
@@ -77,7 +119,7 @@ export class ForecastCard {
 
   /** A forecast, of this page's or of another one. */
   take(forecast) {
-    if (forecast.state !== 'DONE') return;
+    if (forecast.state !== 'DONE' || this.keepsOwn(forecast)) return;
     const { forecast_id: id, made_at: begin, runs, changes, text } = forecast;
     this.id = Math.max(this.id, id);
     const changed = changes.length ? `, with ${changes.map((line) => line.replace(/^\+0\S* /, '')).join(', ')}` : '';
@@ -87,6 +129,11 @@ export class ForecastCard {
     this.shown = forecast;
     this.past = this.throughput ? pastOf(this.throughput) : [];
     this.draw();
+  }
+
+  /** Whether this page's change stays in sight, since nothing was asked for since. */
+  keepsOwn({ forecast_id: id, changes }) {
+    return !changes.length && id !== this.asked && this.shown?.changes.length > 0 && this.shown.forecast_id === this.asked;
   }
 
   say(text, state) {

@@ -161,6 +161,8 @@ def test_robots_are_added_and_taken_away(shift):
         (Request(changes=("+0 close pick99",)), "close is pick99; there are"),
         (Request(changes=("+0 shut pick1",)), "shut is unknown"),
         (Request(changes=("+0 fail robot 999",)), "fail is robot 999; there are 1 to"),
+        (Request(changes=("+0 priority gone 9",)), "priority is of gone; no such order is open"),
+        (Request(changes=("+0 policy storage far",)), "policy storage: there is no 'far'"),
         (Request(10, changes=("+20m close pick1",)), "comes after the 10 minutes"),
         (Request(changes=("0 close pick1",)), "is over; +0 is now"),
         (Request(1441), "minutes is 1441; above 0, up to 1440 (a day), was expected"),

@@ -5,14 +5,22 @@ import os
 
 import numpy as np
 import pytest
-from instance_file import write_hall_instance, write_instance
+from instance_file import (
+    BASIC_INSTANCE,
+    write_configuration,
+    write_hall_instance,
+    write_instance,
+)
 
-from warehouse_operations import Operations
+from warehouse_layout import convert as formats
+from warehouse_layout.file import layout_file
+from warehouse_layout.place import placement
 from warehouse_operations.policies import Policies, PolicyError, rawsim_policies
 from warehouse_operations.runs import simulation
 from warehouse_operations.runs.rawsim import InstanceError, read_instance
 from warehouse_operations.runs.rawsim_settings import read_settings
 from warehouse_operations.runs.simulation import Description, open_operations, simulate
+from warehouse_operations.stock.site import Site
 
 
 @pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])
@@ -36,17 +44,31 @@ def test_an_instance(tmp_path, spacing, old):
     assert (settings.slots, settings.piece_s, settings.pick_s) == (12, 10.0, 3.0)
 
 
-def test_twenty_shifts_of_ten_minutes_are_above_the_published_one(tmp_path):
-    """16 bots, 2 + 2 stations, 600 s: RAWSim-O picks 110 pieces, 96 lines, 68 orders."""
-    site = read_instance(write_instance(tmp_path / "a.xinst"))
-    rows = []
+PUBLISHED = 110.4  # pieces that RAWSim-O picks on its BasicInstance in 600 s, mean of five seeds
+BOUND = 120  # pieces that two stations can pick in 600 s
+
+
+@pytest.fixture
+def basic_instance(tmp_path):
+    """The floor of RAWSim-O's BasicInstance, as its generator makes it."""
+    layout = tmp_path / "basic.layout.yaml"
+    formats.convert(write_configuration(tmp_path / "basic.xlayo", **BASIC_INSTANCE), layout)
+    file = layout_file.read(layout)
+    plan = Site.of_layout(placement.place(file, 1), "").plan
+    assert (plan.shape, file.storage_units, file.robots) == ((28, 56), 428, 16)
+    return str(layout)
+
+
+def test_ten_minutes_on_the_basic_instance_are_limited_by_its_stations(basic_instance):
+    """Two stations are the limit, as in RAWSim-O, but for the way of the first units."""
+    pieces = []
     for seed in range(1, 21):
-        ops = Operations(site=site, seed=seed, physics=False)
-        ops.run(seconds=600)
-        figures = ops.kpis()
-        rows.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
-        assert figures["item_upper_bound_per_hour"] == pytest.approx(720)
-    assert (np.mean(rows, axis=0) > (110, 96, 68)).all()
+        with open_operations(Description(layout=basic_instance, seed=seed, physics=False)) as ops:
+            ops.run(minutes=10)
+            figures = ops.kpis()
+        pieces.append(figures["items_picked"])
+        assert figures["item_upper_bound_per_hour"] == pytest.approx(6 * BOUND)
+    assert PUBLISHED <= np.mean(pieces) <= 1.03 * PUBLISHED < BOUND
 
 
 SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration><Seed>3</Seed>
@@ -169,9 +191,9 @@ def test_a_shift_with_settings(tmp_path):
     assert faults == [] and run.kpis["items_picked"] > 30
 
 
-def with_physics(path, seed, minutes=10):
+def with_physics(seed, minutes=10, **site):
     """The figures of a shift; no robot touched, blocked or held up another for long."""
-    with open_operations(Description(instance=str(path), seed=seed)) as ops:
+    with open_operations(Description(seed=seed, **site)) as ops:
         ops.run(minutes=minutes)
         figures = ops.kpis()
         assert ops.fleet.stuck == 0
@@ -180,12 +202,17 @@ def with_physics(path, seed, minutes=10):
     return figures
 
 
-def test_shifts_with_physics_are_above_the_published_one(tmp_path):
-    path = write_instance(tmp_path / "a.xinst", spacing=1.04)
+def test_ten_minutes_with_physics_on_the_basic_instance_are_those_of_rawsim(basic_instance):
     seeds = range(1, int(os.environ.get("INSTANCE_SEEDS", "3")) + 1)
-    runs = [with_physics(path, seed) for seed in seeds]
-    assert np.mean([figures["items_picked"] for figures in runs]) > 110
-    assert np.mean([figures["bundles_stored"] for figures in runs]) > 60
+    runs = [with_physics(seed, layout=basic_instance) for seed in seeds]
+    pieces = np.mean([figures["items_picked"] for figures in runs])
+    assert pieces == pytest.approx(PUBLISHED, rel=0.03)
+    assert np.mean([figures["bundles_stored"] for figures in runs]) > 50
+
+
+def test_shifts_with_physics_on_an_instance(tmp_path):
+    path = write_instance(tmp_path / "a.xinst", spacing=1.04)
+    assert with_physics(1, instance=str(path))["item_score"] > 0.9
 
 
 def test_halls_buffers_and_winding_queues(tmp_path):
@@ -193,7 +220,7 @@ def test_halls_buffers_and_winding_queues(tmp_path):
     path = write_hall_instance(tmp_path / "a.xinst")
     lanes = {(s.name[:-1], len(s.cells), s.service) for s in read_instance(path).plan.stations}
     assert lanes == {("pick", 16, 12), ("replenish", 16, 12)}
-    assert with_physics(path, seed=1, minutes=15)["item_score"] > 0.9
+    assert with_physics(1, 15, instance=str(path))["item_score"] > 0.9
 
 
 XCONF = """<?xml version="1.0" encoding="utf-8"?>
