@@ -24,7 +24,7 @@ from warehouse_operations.fleets.availability import HOUR, Energy
 from warehouse_operations.fleets.consumption import GRAVITY, ROBOT, WHEEL_INERTIA, WHEEL_RADIUS
 
 STANDING = 5.0  # least time of a standstill whose use is measured [s]
-PIECE = 30.0  # of a long standstill, one sample [s]
+PIECE, STEP = 30.0, 0.02  # of a long standstill, one sample: time [s], change of the charge
 LONGEST_GAP = 60.0  # between two reports of a robot that stands [s]
 BULK = 0.7  # state of charge up to which chargers give all their power
 TAPERED = 0.15, 0.9  # part of that power in which the taper is measured
@@ -70,20 +70,30 @@ def _standstills(track: Track) -> Iterator[tuple[float, float]]:
 
 
 def _pieces(track: Track, begin: int, end: int) -> Iterator[tuple[float, float]]:
-    time, charge = track.time[begin:end], track.charge[begin:end]
-    while len(time) > 1 and time[-1] - time[0] >= STANDING:
-        upto = max(int(np.searchsorted(time, time[0] + PIECE, "right")), 2)
-        t, c = time[:upto], charge[:upto]
-        long, changes = t[-1] - t[0], c[-1] - c[0]
-        if STANDING <= long and np.diff(t).max() <= LONGEST_GAP and changes:
-            # A full battery, or one that begins to be charged, does not change evenly.
-            half = len(t) // 2
-            first = (c[half] - c[0]) * (c[-1] - c[half]) >= 0
-            if first and c.max() < 1:
-                yield float(changes / long), float((c[0] + c[-1]) / 2)
-        time, charge = time[upto - 1 :], charge[upto - 1 :]
-        if upto >= len(t) and len(time) <= 1:
-            return
+    """Yields the same of pieces of a standstill, short enough that a charger's power hardly falls
+    meanwhile."""
+    time, charge = track.time, track.charge
+    while begin < end - 1:
+        last = begin + 1
+        while last < end - 1 and time[last] - time[begin] < PIECE:
+            if time[last] - time[begin] >= STANDING and abs(charge[last] - charge[begin]) >= STEP:
+                break
+            last += 1
+        t, c = time[begin : last + 1], charge[begin : last + 1]
+        if _is_even(t, c):
+            yield float((c[-1] - c[0]) / (t[-1] - t[0])), float((c[0] + c[-1]) / 2)
+        begin = last
+
+
+def _is_even(time: np.ndarray, charge: np.ndarray) -> bool:
+    """Returns whether a piece is long enough, and changes by itself alone: a full battery does not,
+    nor does one at a charger that begins or ends."""
+    if time[-1] - time[0] < STANDING or np.diff(time).max() > LONGEST_GAP or charge.max() >= 1:
+        return False
+    half = len(charge) // 2
+    return bool(
+        charge[-1] != charge[0] and (charge[half] - charge[0]) * (charge[-1] - charge[half]) >= 0
+    )
 
 
 def _taper(rising: np.ndarray, power: Finding, electronics: Finding, joules: float) -> Finding:
@@ -111,7 +121,9 @@ def _efficiency(tracks: list[Track], electronics: Finding, joules: float) -> Fin
             seconds = track.time[after] - track.time[before]
             spent = (track.charge[before] - track.charge[after]) * joules
             spent -= electronics.value * seconds
-            way = np.hypot(np.diff(track.x[before : after + 1]), np.diff(track.y[before : after + 1]))
+            way = np.hypot(
+                np.diff(track.x[before : after + 1]), np.diff(track.y[before : after + 1])
+            )
             peak = _top(track.speed[before : after + 1])
             if not peak or np.abs(track.turning[before : after + 1]).max() > TURNS:
                 continue
@@ -133,4 +145,3 @@ def _top(speed: np.ndarray) -> float:
     below = speed[int(np.argmax(even)) : len(speed) - int(np.argmax(even[::-1]))]
     steady = len(below) >= 3 and below.min() >= (1 - 2 * EVEN) * top
     return top if steady and not dips else 0.0
-

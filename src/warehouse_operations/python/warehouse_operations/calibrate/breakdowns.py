@@ -38,6 +38,7 @@ def of_recording(recording: Recording) -> Breakdowns:
 
 def note(recording: Recording, track: Track) -> None:
     """Adds the failures of a track, and its hours, to its Recording."""
+    recording.of_figures = False
     recording.robot_hours += float(track.time[-1] - track.time[0]) / HOUR
     for kind, bit in {**BITS, ANY_OTHER: OTHER}.items():
         broken = (track.failures & bit) > 0

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.stats import chi2
 
-Array = NDArray[np.float64]
 CONFIDENCE = 0.95
 RESAMPLES = 400
 SEED = 1
@@ -34,11 +33,6 @@ class Estimate:
     high: float
     count: int
     kind: str = "samples"
-
-    def scaled(self, factor: float, shift: float = 0.0) -> "Estimate":
-        """Returns the estimate of factor · parameter + shift."""
-        ends = sorted((factor * self.low + shift, factor * self.high + shift))
-        return Estimate(factor * self.value + shift, *ends, self.count, self.kind)
 
 
 @dataclass(frozen=True)
@@ -69,7 +63,7 @@ def shorth(values: ArrayLike) -> float:
     return float(ordered[begin : begin + half].mean())
 
 
-def edited(values: ArrayLike) -> Array:
+def edited(values: ArrayLike) -> np.ndarray:
     """Returns the values without those farther than REJECTED scaled median absolute deviations from
     the median (Hampel, Journal of the American Statistical Association 69, 1974)."""
     array = np.asarray(values, float)
@@ -88,7 +82,7 @@ def resampled(
     values: ArrayLike,
     least: int,
     kind: str = "samples",
-    of: Callable[[Array], float] = shorth,
+    of: Callable[[np.ndarray], float] = shorth,
 ) -> Finding:
     """Returns an estimate with a percentile interval of the bootstrap (Efron, Tibshirani: An
     Introduction to the Bootstrap, 1993, chapter 13). values: rows, one a sample."""
@@ -104,7 +98,7 @@ def resampled(
 
 def fitted(
     rows: Sequence[Sequence[float]], least: int, kind: str
-) -> tuple[Array, Array, int] | TooLittle:
+) -> tuple[np.ndarray, np.ndarray, int] | TooLittle:
     """Returns coefficients of a linear fit, their covariance, and the number of rows in it.
 
     rows: the regressors, then the value. Least squares of the rows that the line of least absolute
@@ -124,9 +118,9 @@ def fitted(
     return coefficients, variance * np.linalg.pinv(x.T @ x), len(table)
 
 
-def _least_absolute(x: Array, y: Array) -> Array:
-    """Returns the coefficients of least absolute deviations, by least squares that are weighted
-    anew (Schlossmacher, Journal of the American Statistical Association 68, 1973)."""
+def _least_absolute(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Returns the coefficients of least absolute deviations, by least squares with weights that
+    follow the residuals (Schlossmacher, JASA 68, 1973)."""
     weights = np.ones(len(y))
     for _ in range(REWEIGHTED):
         root = np.sqrt(weights)

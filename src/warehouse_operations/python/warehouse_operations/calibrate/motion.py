@@ -26,6 +26,7 @@ TURNS = 0.02  # above this rate [rad/s]
 CREEPS = 0.2  # slower is no cruise [m/s]
 GAP = 2.5  # longest time between two samples of a drive [s]
 STRAIGHT = 0.1  # most change of heading in one drive [rad]
+STEADY = 3  # samples of a cruise, since two may be before and after a peak
 EVEN = 0.01  # share by which speeds of a cruise may differ
 RAMP = 0.15, 0.9  # part of the top speed in which a ramp is measured
 LEAST_WAY = 0.02  # of a ramp's sample [m]
@@ -43,6 +44,13 @@ class Ramp(NamedTuple):
 
     acceleration: float
     loaded: bool
+
+
+class Middle(NamedTuple):
+    """A sample near the middle of a turn: its rate [rad/s], and its angle to the nearer end."""
+
+    rate: float
+    angle: float
 
 
 @dataclass(frozen=True)
@@ -94,11 +102,7 @@ def _cruises(track: Track) -> Iterator[float]:
     near = np.diff(track.time) <= GAP
     going = same & near & (v[1:] > CREEPS) & (np.abs(np.diff(track.turning)) < TURNS)
     for begin, end in _stretches(going):
-        moved = math.hypot(
-            track.x[end] - track.x[begin],
-            track.y[end] - track.y[begin],
-        )
-        if moved > 0:
+        if end - begin + 1 >= STEADY:
             yield float(np.median(v[begin : end + 1]))
 
 
@@ -148,7 +152,7 @@ def _turns(tracks: list[Track]) -> tuple[Finding, Finding, Finding]:
     """Returns top rate [rad/s] and angular acceleration [rad/s²] of turns in place, and the time of
     a quarter turn [s]."""
     ramps: list[Ramp] = []
-    tops: list[Ramp] = []
+    tops: list[Middle] = []
     for track in tracks:
         turning = np.where(np.abs(track.speed) <= STANDS, track.turning, 0.0)
         for before, after in _spans(turning, TURNS, track):
@@ -156,18 +160,19 @@ def _turns(tracks: list[Track]) -> tuple[Finding, Finding, Finding]:
     ramp = _of_ramps(ramps, "samples in turns")
     if isinstance(ramp, TooLittle):
         return TooLittle(len(tops), LEAST, "turns"), ramp, ramp
-    rate = _of_ramps(tops, "samples in the middle of turns")
-    if isinstance(rate, TooLittle):
-        return rate, ramp, rate
-    unlimited = math.sqrt(ramp.value * QUARTER)
-    if rate.value > CAPPED * unlimited:
-        return rate, ramp, combined(lambda a: 2 * math.sqrt(QUARTER / a), ramp)
+    middle = [(top.rate, top.rate / math.sqrt(2 * ramp.value * top.angle)) for top in tops]
+    kind = "samples in the middle of turns"
+    share = resampled([part for _, part in middle], LEAST, kind)
+    if isinstance(share, TooLittle):
+        return share, ramp, share
+    if share.value > CAPPED:
+        peak = combined(lambda a: math.sqrt(a * QUARTER), ramp)
+        return peak, ramp, combined(lambda a: 2 * math.sqrt(QUARTER / a), ramp)
+    rate = resampled([rate for rate, _ in middle], LEAST, kind)
     return rate, ramp, combined(lambda w, a: QUARTER / w + w / a, rate, ramp)
 
 
-def _turn(
-    track: Track, before: int, after: int, ramps: list[Ramp], tops: list[Ramp]
-) -> None:
+def _turn(track: Track, before: int, after: int, ramps: list[Ramp], tops: list[Middle]) -> None:
     """Adds the samples of a quarter turn to those of ramps and of their middle."""
     moved = np.hypot(track.x[after] - track.x[before], track.y[after] - track.y[before])
     turned = abs(_wrapped(track.yaw[after] - track.yaw[before]))
@@ -180,7 +185,7 @@ def _turn(
         if LEAST_TURN < angle < TURN_RAMP * turned:
             ramps.append(Ramp(float(w**2 / (2 * angle)), loaded))
         elif angle > (0.5 - TURN_MIDDLE) * turned:
-            tops.append(Ramp(float(w), loaded))
+            tops.append(Middle(float(w), float(angle)))
 
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:

@@ -35,7 +35,7 @@ LIFTS = 8  # of an estimate
 NO_ANSWER = 2  # exit code
 
 
-class NothingFound(Exception):
+class NothingFoundError(Exception):
     """Raised for recordings that determine no parameter; says what each lacks."""
 
 
@@ -99,26 +99,26 @@ def _lift(recording: Recording) -> Finding:
     return replace(lift, low=lift.low - step, high=lift.high + step)
 
 
-def _of_motion(found: motion.Motion, lift: Finding) -> list[Line]:
+def _of_motion(robots: motion.Motion, lift: Finding) -> list[Line]:
     rows: list[tuple[str, str, str, Finding]] = [
-        ("speed", "speed", "m/s", found.speed),
-        ("acceleration", "acceleration", "m/s²", found.acceleration),
-        ("", "speeding up", "m/s²", found.speeding_up),
-        ("", "braking", "m/s²", found.braking),
-        ("quarter_turn_time", "quarter turn", "s", found.quarter_turn_time),
-        ("", "top rate of a turn", "rad/s", found.turn_rate),
-        ("", "ramp of a turn", "rad/s²", found.turn_acceleration),
+        ("speed", "speed", "m/s", robots.speed),
+        ("acceleration", "acceleration", "m/s²", robots.acceleration),
+        ("", "speeding up", "m/s²", robots.speeding_up),
+        ("", "braking", "m/s²", robots.braking),
+        ("quarter_turn_time", "quarter turn", "s", robots.quarter_turn_time),
+        ("", "top rate of a turn", "rad/s", robots.turn_rate),
+        ("", "ramp of a turn", "rad/s²", robots.turn_acceleration),
         ("lift_time", "lift", "s", lift),
     ]
     return [Line("motion", *row) for row in rows]
 
 
-def _of_energy(found: battery.Use, capacity: float) -> list[Line]:
+def _of_energy(use: battery.Use, capacity: float) -> list[Line]:
     rows: list[tuple[str, str, str, Finding]] = [
-        ("electronics", "electronics", "W", found.electronics),
-        ("charge_power", "charging", "W", found.charge_power),
-        ("charge_taper", "taper of charging", "", found.charge_taper),
-        ("drive_efficiency", "efficiency of driving", "", found.drive_efficiency),
+        ("electronics", "electronics", "W", use.electronics),
+        ("charge_power", "charging", "W", use.charge_power),
+        ("charge_taper", "taper of charging", "", use.charge_taper),
+        ("drive_efficiency", "efficiency of driving", "", use.drive_efficiency),
     ]
     lines = [Line("energy", *row) for row in rows]
     if any(isinstance(line.finding, Estimate) for line in lines):
@@ -127,17 +127,17 @@ def _of_energy(found: battery.Use, capacity: float) -> list[Line]:
     return lines
 
 
-def _of_failures(found: breakdowns.Breakdowns) -> list[Line]:
+def _of_failures(breaks: breakdowns.Breakdowns) -> list[Line]:
     lines = [
-        Line("failures", "per_robot_hour", "failures", "1/h", found.per_robot_hour),
-        Line("failures", "repair_time", "repair", "s", found.repair_time),
+        Line("failures", "per_robot_hour", "failures", "1/h", breaks.per_robot_hour),
+        Line("failures", "repair_time", "repair", "s", breaks.repair_time),
     ]
-    if found.kinds:
-        count = sum(found.kinds.values())
+    if breaks.kinds:
+        count = sum(breaks.kinds.values())
         for kind in KINDS:
-            share = found.kinds.get(kind, 0) / count
+            share = breaks.kinds.get(kind, 0) / count
             # Shares by the rule of succession would never be 0; a file says what was counted.
-            estimate = Estimate(share, share, share, found.kinds.get(kind, 0), "failures")
+            estimate = Estimate(share, share, share, breaks.kinds.get(kind, 0), "failures")
             lines.append(Line("failures", kind, f"share of {kind}", "", estimate))
     return lines
 
@@ -151,20 +151,20 @@ def _of_service(whole: service.Pace, by_station: dict[str, service.Pace]) -> lis
         Line("service", "", "exchange of units", "s", whole.exchange),
     ]
     for name, pace in by_station.items():
-        section = f"service/stations/{name}"
-        lines.append(Line(section, "seconds_a_piece", "a piece", "s", pace.piece, pace.deviation))
+        row = ("service", "seconds_a_piece", "a piece", "s", pace.piece, pace.deviation)
+        lines.append(Line(*row, station=name))
     return lines
 
 
 def write(recording: Recording, capacity: float, out: Path) -> str:
-    """Writes the file; returns the table. Raises NothingFound, CalibrationError."""
+    """Writes the file; returns the table. Raises NothingFoundError, CalibrationError."""
     lines = findings(recording, capacity)
     measured = [line for line in lines if isinstance(line.finding, Estimate) and line.key]
     if not measured:
         lacking = "; ".join(
             f"{line.name}: {line.finding}" for line in lines if isinstance(line.finding, TooLittle)
         )
-        raise NothingFound(f"nothing can be said ({lacking})")
+        raise NothingFoundError(f"nothing can be said ({lacking})")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         unfinished = out.with_name(out.name + ".new")

@@ -23,8 +23,7 @@ SIMPLE = re.compile(r"[A-Za-z0-9_]+")
 
 @dataclass(frozen=True)
 class Line:
-    """A number of a section. section: with the station's name for that of a station. key: ""
-    for what no file takes. unit: for the table."""
+    """A number of a section. key: "" for what no file takes. unit: for the table."""
 
     section: str
     key: str
@@ -32,26 +31,32 @@ class Line:
     unit: str
     finding: Finding
     deviation: Finding | None = None  # of the time of a piece
+    station: str = ""  # that differs from the others
 
 
-def text(lines: Sequence[Line], sources: Sequence[str], remarks: Sequence[str] = ()) -> str:
+def text(lines: Sequence[Line], sources: Sequence[str]) -> str:
     """Returns the content of a file."""
-    out = [HEAD, *(f"# Source: {source}" for source in sources), *(f"# {r}" for r in remarks)]
-    for section in dict.fromkeys(line.section for line in lines):
+    out = [HEAD, *(f"# Source: {source}" for source in sources)]
+    for section in dict.fromkeys(line.section for line in lines if not line.station):
         out += _section(section, [line for line in lines if line.section == section])
     return "\n".join(out) + "\n"
 
 
 def _section(section: str, lines: Sequence[Line]) -> list[str]:
     """Returns the lines of a section; comments alone where nothing was measured."""
-    path = section.split("/")
-    indent = "  " * len(path)
-    content = [_line(line, indent) for line in lines]
+    content = [_line(line, "  ") for line in lines if not line.station]
     if not any(isinstance(line.finding, Estimate) and line.key for line in lines):
-        return [f"# {section}: nothing was measured", *(f"# {text.strip(' #')}" for text in content)]
-    if len(path) == 1:
-        return [f"{section}:", *content]
-    return [f"{'  ' * (len(path) - 1)}{quoted(path[-1])}:", *content]
+        return [
+            f"# {section}: nothing was measured",
+            *(f"# {text.strip(' #')}" for text in content),
+        ]
+    stations = [line for line in lines if line.station]
+    if stations:
+        content.append("  stations:")
+        for name in dict.fromkeys(line.station for line in stations):
+            content.append(f"    {quoted(name)}:")
+            content += [_line(line, "      ") for line in stations if line.station == name]
+    return [f"{section}:", *content]
 
 
 def _line(line: Line, indent: str) -> str:
@@ -96,8 +101,7 @@ def table(lines: Sequence[Line]) -> str:
     """Returns what was measured as a table for people, and what was not, by name."""
     rows = [f"{'':28}{'value':>10}  {'95 % interval':>22}  of"]
     for line in lines:
-        station = line.section.rpartition("/")[2] if "/" in line.section else ""
-        name = f"{line.name} at {station}" if station else line.name
+        name = f"{line.name} at {line.station}" if line.station else line.name
         if isinstance(line.finding, Estimate):
             value, low, high = (
                 number(v) for v in (line.finding.value, line.finding.low, line.finding.high)

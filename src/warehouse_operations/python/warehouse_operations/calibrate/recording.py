@@ -34,10 +34,14 @@ class Track:
 
     @classmethod
     def of_rows(cls, rows: Sequence[Sequence[float]]) -> "Track":
-        """Returns the track of rows with these columns, sorted by time, one a time."""
+        """Returns the track of rows with these columns, sorted by time. Of several of a time the
+        last stays, and of several of the same moment of a motion, which was reported again, the
+        first."""
         table = np.asarray(rows, float)
         table = table[np.argsort(table[:, 0], kind="stable")]
         table = table[np.append(np.diff(table[:, 0]) > 0, True)]
+        again = (np.diff(table[:, 1:6], axis=0) == 0).all(axis=1) & (table[1:, 4] > 0)
+        table = table[np.append(True, ~again)]
         columns: list[Any] = list(table.T)
         columns[6] = columns[6] > 0
         columns[8] = columns[8].astype(int)
@@ -52,12 +56,14 @@ class Track:
 class Recording:
     """What a source holds. tracks: by robot. lifts: durations of raising and lowering [s];
     lift_step: between two looks at a robot that may lift, 0 where each begin and end is there [s].
+    of_figures: whether failures are those of a run's figures, which count what tracks tell, too.
     robot_hours, failures, repairs: exposure, the kind of each failure, and durations of repairs
     [s]; unrepaired: the time of those not over [s]. gaps: of pieces at stations; see service."""
 
     tracks: dict[str, Track] = field(default_factory=dict)
     lifts: list[float] = field(default_factory=list)
     lift_step: float = 0.0
+    of_figures: bool = True
     robot_hours: float = 0.0
     failures: list[str] = field(default_factory=list)
     repairs: list[float] = field(default_factory=list)
@@ -75,10 +81,21 @@ class Recording:
             self.lifts, self.lift_step = [], other.lift_step  # what is finer holds
         if other.lift_step == self.lift_step:
             self.lifts += other.lifts
+        self._add_failures(other)
+        for name in ("pieces", "bundles", "arrivals", "sources"):
+            getattr(self, name).extend(getattr(other, name))
+
+    def _add_failures(self, other: "Recording") -> None:
+        """Adds failures. Those of tracks hold: figures may count the same."""
+        if not other.robot_hours or (other.of_figures and not self.of_figures):
+            return
+        if self.of_figures and not other.of_figures:
+            self.robot_hours = self.unrepaired = 0.0
+            self.failures, self.repairs, self.of_figures = [], [], False
         self.robot_hours += other.robot_hours
         self.unrepaired += other.unrepaired
-        for name in ("failures", "repairs", "pieces", "bundles", "arrivals", "sources"):
-            getattr(self, name).extend(getattr(other, name))
+        self.failures += other.failures
+        self.repairs += other.repairs
 
 
 @dataclass(frozen=True)

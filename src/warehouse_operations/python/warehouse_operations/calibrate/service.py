@@ -64,9 +64,7 @@ def _differs(one_station: Finding, all_of_them: Finding) -> bool:
     return outside and abs(one_station.value / middle - 1) > APART
 
 
-def _pace(
-    pieces: Sequence[Piece], arrivals: Sequence[Arrival], bundles: Sequence[Piece]
-) -> Pace:
+def _pace(pieces: Sequence[Piece], arrivals: Sequence[Arrival], bundles: Sequence[Piece]) -> Pace:
     piece, line, spread = _pieces(pieces)
     pick = _pick(arrivals, piece, line)
     deviation = _deviation(spread, piece, pick)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from warehouse_fleet.robots.kinematics import MOTION, Kinematics
+from warehouse_fleet.robots.kinematics import MOTION
 from warehouse_layout.file.station_settings import StationSettingError, check_setting
 from warehouse_operations.fleets.availability import RealismError, content_of
 from warehouse_operations.stock.settings import Settings

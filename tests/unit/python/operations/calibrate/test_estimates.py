@@ -26,16 +26,16 @@ def test_outliers_are_edited():
 
 
 def test_too_few_samples_say_nothing():
-    found = estimates.resampled([1.0, 1.1], 8, "ramps")
-    assert found == TooLittle(2, 8, "ramps")
-    assert str(found) == "too little to say: 2 ramps, 8 were expected"
+    estimate = estimates.resampled([1.0, 1.1], 8, "ramps")
+    assert estimate == TooLittle(2, 8, "ramps")
+    assert str(estimate) == "too little to say: 2 ramps, 8 were expected"
 
 
 def held(make, truth, runs=200):
     """The share of estimates whose interval holds the truth."""
     rng = np.random.default_rng(5)
-    found = [make(rng) for _ in range(runs)]
-    return np.mean([each.low <= truth <= each.high for each in found])
+    made = [make(rng) for _ in range(runs)]
+    return np.mean([each.low <= truth <= each.high for each in made])
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():
@@ -49,8 +49,8 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 
 
 def test_repairs_that_are_not_over_count():
-    found = estimates.mean_duration([100.0, 200.0], 300.0, "repairs")
-    assert found.value == 300.0
+    estimate = estimates.mean_duration([100.0, 200.0], 300.0, "repairs")
+    assert estimate.value == 300.0
     assert estimates.rate(0, 100.0, "failures") == TooLittle(0, 1, "failures")
 
 

@@ -14,9 +14,9 @@ import rosbag
 import rospkg
 import rospy
 import yaml
+from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 
-from nav_msgs.msg import Odometry
 from warehouse_msgs.msg import FleetState, KivaStatus
 from warehouse_operations.calibrate import program
 from warehouse_operations.runs.simulation import Description, open_operations
@@ -103,8 +103,8 @@ def log_of(step, laps=40):
                 action = "RUNNING" if time - lap < 20 + LIFT else "FINISHED"
             lines.append((time, entry(time, topic, state(time, serial, action))))
         for lap in range(laps):
-            for time, action in ((20.0, "RUNNING"), (20 + LIFT, "FINISHED")):
-                time += lap * PERIOD
+            for after, action in ((20.0, "RUNNING"), (20 + LIFT, "FINISHED")):
+                time = lap * PERIOD + after
                 lines.append((time, entry(time, topic, state(time, serial, action))))
     return [line for _, line in sorted(lines)]
 
@@ -126,9 +126,9 @@ def check_motion(motion, share=0.01):
 def test_a_log_of_vehicles_says_their_motion(tmp_path, step):
     path = tmp_path / "messages.jsonl"
     path.write_text("\n".join(log_of(step)) + "\n")
-    found, text = numbers([tmp_path], tmp_path)  # the folder, as conform leaves it
-    check_motion(found["motion"])
-    assert set(found) == {"motion"}
+    content, text = numbers([tmp_path], tmp_path)  # the folder, as conform leaves it
+    check_motion(content["motion"])
+    assert set(content) == {"motion"}
     assert "# per_robot_hour: too little to say: 0 failures in 0.7 robot hours, 1 were" in text
 
 
@@ -218,7 +218,7 @@ def test_bags_without_robots_are_refused(tmp_path):
     [
         ("", "is empty; a rosbag, a log of VDA 5050 messages or the database of a shift was"),
         ("hello", "is none of what is read; a rosbag"),
-        ('{"a": 1}\n', ":1: '{\"a\": 1}'; a JSON object with \"time\", \"topic\" and \"payload\""),
+        ('{"a": 1}\n', ':1: \'{"a": 1}\'; a JSON object with "time", "topic" and "payload"'),
         (entry(0, "state", state(0.0, "1")) + "\n{half\n", ":2: '{half'; a JSON object with"),
         (
             entry(0, "uagv/v2/a/1/order", {}),
@@ -274,9 +274,9 @@ def test_databases_are_refused_in_a_sentence(shift, tmp_path):
 
 
 def test_a_short_shift_says_by_name_what_is_too_little(shift, tmp_path):
-    found, text = numbers([shift], tmp_path)
-    assert set(found) == {"service"}
-    assert found["service"]["seconds_a_piece"] == 10
+    content, text = numbers([shift], tmp_path)
+    assert set(content) == {"service"}
+    assert content["service"]["seconds_a_piece"] == 10
     assert "# motion: nothing was measured\n# speed: too little to say: 0 cruises, 8 were" in text
 
 
@@ -285,9 +285,8 @@ def test_the_program_ends_as_it_says(shift, tmp_path):
     command = [sys.executable, f"{folder}/nodes/calibrate"]
 
     def run(*arguments):
-        return subprocess.run(
-            [*command, *map(str, arguments)], capture_output=True, text=True, timeout=60
-        )
+        asked = [*command, *map(str, arguments)]
+        return subprocess.run(asked, capture_output=True, text=True, timeout=60, check=False)
 
     out = tmp_path / "deep" / "found.yaml"
     good = run(shift, "--out", out)

@@ -92,7 +92,10 @@ def test_presets_measure_nothing():
         ("motion: {pace: 1}", "motion: unknown 'pace'; it takes speed, acceleration"),
         ("motion: 3", "motion is 3; true, false or parameters"),
         ("service: {seconds: 3}", "service: unknown 'seconds'; it takes seconds_a_piece"),
-        ("service: {seconds_a_line: -1}", "seconds_a_line is -1; a number from 0 to 3600 s"),
+        (
+            "service: {seconds_a_line: -1}",
+            "service: seconds_a_line is -1; a number from 0 to 3600 s",
+        ),
         ("service: {stations: 5}", "service: stations: settings by station were expected"),
         ("service: {stations: {pick1: {a: 1}}}", "service: pick1: unknown 'a'"),
         ("- 3", "sections with parameters were expected"),

@@ -339,9 +339,7 @@ TEST(Reports, GoOnFromACheckpoint) {
 // --- motion
 
 TEST(MeasuredMotion, IsThatOfRobotsAsFarAsItWasMeasured) {
-  Floorplan plan = planWith([](Realism& real) {
-    real.motion = {true, 0.8, 0.5, 0, 4};
-  });
+  Floorplan plan = planWith([](Realism& real) { real.motion = {true, 0.8, 0.5, 0, 4}; });
   Warehouse w(plan);
   w.spawn("kiva", "kiva1", 0, 0);
   w.movx(1, 8);
