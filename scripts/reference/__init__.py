@@ -29,6 +29,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "hub-http.md": http.written_of_hub,
     "vda5050-fields.md": vda5050.written,
     "vda5050-cases.md": vda5050.cases,
+    "vda5050-master-cases.md": vda5050.master_cases,
     "commands.md": commands.written,
     "policies.md": policies.written,
     "realism-parameters.md": numbers.realism,

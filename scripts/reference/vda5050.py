@@ -59,6 +59,32 @@ def cases() -> str:
     return page("VDA 5050, cases of conformance", ABOUT_CASES, *parts)
 
 
+ABOUT_MASTER_CASES = (
+    "`rosrun warehouse_vda5050 conform --master` [tries a master]"
+    "(../how-to/vda5050-conformance.md#try-a-master) by these cases. Sections are those of 2.1.0;"
+    " of 3.0.0 where the case is for that alone. Cases marked strict are recommendations, tried"
+    " with `--strict`."
+)
+
+
+def master_cases() -> str:
+    """Returns the page of the cases for masters."""
+    from warehouse_vda5050.conform.master.cases import CASES
+
+    chapters = dict.fromkeys(case.chapter for case in CASES)
+    parts = [master_chapter(name, [c for c in CASES if c.chapter == name]) for name in chapters]
+    return page("VDA 5050, cases of conformance of masters", ABOUT_MASTER_CASES, *parts)
+
+
+def master_chapter(name, chosen) -> str:
+    """Returns the cases of one chapter."""
+    rows = [
+        (code(case.id), case.section, prose(case.sentence) + (" Strict." if case.strict else ""))
+        for case in chosen
+    ]
+    return f"## {name}\n\n{table(['case', 'section', 'sentence'], rows)}"
+
+
 def chapter(name, chosen) -> str:
     """Returns the cases of one chapter."""
     rows = [

@@ -124,6 +124,23 @@ class OperationsPage(WorkPageTest):
         self.assertEqual(status, 409)
         self.assertIn("pick99", answer["detail"])
 
+    def test_1_what_if_starts_from_now(self):
+        self.page.open(address() + "whatif")
+        self.page.until("!document.getElementById('from-now').hidden")
+        for line, columns in (("close pick1", 1), ("close pick99", 1), ("", 2)):
+            script = f"document.getElementById('now-changes').value = '{line}'"
+            self.page.driver.execute_script(script)
+            self.page.click_on("now-go")
+            if "99" in line:
+                self.page.until(
+                    "document.getElementById('now-told').textContent.includes('pick99')"
+                )
+            self.page.until(f"page.fromNow.columns.length === {columns}")
+        table = self.page.text("now-table")
+        for text in ("close pick1; 60 min", "as it is; 60 min", "Orders done", "±"):
+            self.assertIn(text, table)
+        self.page.open(address() + "operations")
+
     def look_ahead(self, change, more=""):
         """Asks for a forecast with a change. more: what is filled in besides."""
         options = "document.getElementById('forecast-change')"

@@ -7,6 +7,7 @@ import time
 from contextlib import contextmanager
 
 from selenium import webdriver
+from selenium.common.exceptions import ElementClickInterceptedException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 
@@ -176,8 +177,17 @@ class Browser:
             self.driver.execute_cdp_cmd("Input.dispatchDragEvent", event)
 
     def click_on(self, element):
-        """Clicks an element, by its id, where a person would."""
-        self.driver.find_element("id", element).click()
+        """Clicks an element, by its id, where a person would: once nothing lies over its middle,
+        as it may while a page that is alive moves it."""
+        end = time.monotonic() + self._patience
+        while True:
+            try:
+                self.driver.find_element("id", element).click()
+                return
+            except ElementClickInterceptedException:
+                if time.monotonic() > end:
+                    raise
+                time.sleep(SETTLES)
 
     def type(self, keys, element=None):
         """Presses keys one by one: in an element that is clicked first, or where the focus is."""

@@ -50,6 +50,8 @@ test('a figure is judged by its target', () => {
   assert.deepEqual(verdict({ value: 92, target: 100 })[0], 'near');
   assert.deepEqual(verdict({ value: 80, target: 100 })[0], 'missed');
   assert.deepEqual(verdict({ value: 5, target: 0 }), ['', '']);
+  assert.deepEqual(verdict({ value: 80, target: 100, early: true }), ['', 'the shift begins']);
+  assert.deepEqual(verdict({ value: 100, target: 100, early: true })[0], 'good');
   assert.deepEqual([0.02, 0.03, 0.05].map((value) => verdict({ value, target: 0.02 }, true)[0]), ['good', 'near', 'missed']);
 });
 

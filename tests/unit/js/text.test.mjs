@@ -7,7 +7,7 @@ import { reasonOf } from '../../../src/warehouse_viewer/web/js/base/request.js';
 import { counted, number, percent } from '../../../src/warehouse_viewer/web/js/base/numbers.js';
 import { clock } from '../../../src/warehouse_viewer/web/js/base/time.js';
 import { shownName } from '../../../src/warehouse_viewer/web/js/base/words.js';
-import { planOf } from '../../../src/warehouse_viewer/web/js/panels/builder.js';
+import { planOf } from '../../../src/warehouse_viewer/web/js/panels/build_dialog.js';
 import { fanOf } from '../../../src/warehouse_viewer/web/js/scene/overlays.js';
 import { decode } from '../../../src/warehouse_viewer/web/js/base/protocol.js';
 import { found, rowsOf, wanted } from '../../../src/warehouse_viewer/web/js/base/search.js';

@@ -6,6 +6,7 @@ import { test } from 'node:test';
 import { fitsOrders, freeName, ordersText, partsOf } from '../../../src/warehouse_viewer/web/js/whatif/choices.js';
 import { demandOf, demandText, describeDesign, edgesOf } from '../../../src/warehouse_viewer/web/js/whatif/design_words.js';
 import { eventsOf, linesOf } from '../../../src/warehouse_viewer/web/js/whatif/events.js';
+import { changesOf, differenceOf, endOf, rangeOf } from '../../../src/warehouse_viewer/web/js/whatif/from_now.js';
 import { named } from '../../../src/warehouse_viewer/web/js/whatif/intro.js';
 import { hashOf, namesOf } from '../../../src/warehouse_viewer/web/js/whatif/picks.js';
 import { chartOf, topOf } from '../../../src/warehouse_viewer/web/js/whatif/whiskers.js';
@@ -30,10 +31,12 @@ test('only what is not the same differs', () => {
 });
 
 test('events are lines of a field', () => {
-  const lines = ['2:00:00 close pick1', '90m robots +2', '3h fail 20% for 30m', '600 fail robot 7', '1h picker pick2 14 2', '5m sku_out bolt m8'];
+  const lines = ['2:00:00 close pick1', '90m robots +2', '3h fail 20% for 30m', '600 fail robot 7', '1h picker pick2 14 2', '5m sku_out bolt m8', '6m priority rush 17 9', '7m policy units most lines'];
   const events = eventsOf(`${lines.join('\n')}\n\n  `);
   assert.deepEqual(events[2], { at: '3h', fail: '20%', for: '30m' });
   assert.deepEqual(events[4], { at: '1h', picker: { station: 'pick2', seconds_a_piece: 14, pickers: 2 } });
+  assert.deepEqual(events[6], { at: '6m', priority: { order: 'rush 17', to: 9 } });
+  assert.deepEqual(events[7], { at: '7m', policy: { units: 'most lines' } });
   assert.deepEqual(linesOf(events), lines);
   assert.deepEqual(linesOf(undefined), []);
   assert.deepEqual(eventsOf('close'), [{ at: 'close', '': '' }]); // the server says what is wrong
@@ -87,4 +90,13 @@ test('the demand and the edges of a building are those of the program', () => {
   for (const demand of ['day.csv', 'day.demand.yaml*1.3', '']) assert.equal(demandText(demandOf(demand)), demand);
   assert.deepEqual(['36 x 26', '36×26', '36, 26', ' 36x26 ', 'large'].map(edgesOf), ['36x26', '36x26', '36x26', '36x26', 'large']);
   assert.equal(describeDesign({ building: 'hall.layout.yaml', demand: 'day.csv*1.3', late: 0.005, cpu_hours: 2, seed: 1 }), 'hall · day.csv × 1.3 · 0.5 % may be late · 2 CPU h · seed 1');
+});
+
+test('what comes of the shift that runs is a column', () => {
+  assert.deepEqual(changesOf('close pick1\n\n +10m robots +2 \n2:30:00 open pick1'), ['+0 close pick1', '+10m robots +2', '2:30:00 open pick1']);
+  assert.equal(rangeOf({ p10: [1, 370.2], p50: [2, 414.4], p90: [3, 437] }), '414 (370–437)');
+  assert.equal(endOf({ p10: 3000, p50: 3240, p90: null }), '0:54:00 (0:50:00–later)');
+  assert.equal(endOf({ p10: null, p50: null, p90: null }), 'not within');
+  assert.equal(differenceOf('all done; against as it is: -61.4 ± 10.6 orders done'), '-61.4 ± 10.6 orders done');
+  assert.equal(differenceOf('all done'), '');
 });

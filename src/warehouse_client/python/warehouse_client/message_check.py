@@ -51,12 +51,14 @@ class Gate:
     """Passes the sound messages of a topic on to take(message); warns of others.
 
     Messages of the world, the coordinator or a shift are accepted from that node alone while it
-    publishes: a valid message of another program would replace its state until the next one.
+    publishes, and events of robots behind a broker from their master: a valid message of another
+    program would replace its state until the next one.
     """
 
     def __init__(self, ros: Any, topic: str, kind: Any, take: Callable[[Any], object]) -> None:
         self._ros, self._topic, self._take = ros, topic, take
-        self._source = CONTRACTS.get(kind._type, NO_CONTRACT).source
+        contract = CONTRACTS.get(kind._type, NO_CONTRACT)
+        self._source, self._beside = contract.source, contract.beside
         self._next = -math.inf  # when to warn again
         self.subscriber: Any = None  # rospy's, once there is one
 
@@ -77,7 +79,8 @@ class Gate:
             return ""
         sender, source = header.get("callerid"), self._ros.resolve_name(self._source)
         heard = {connection.callerid_pub for connection in subscription.connections}
-        is_foreign = sender != source and source in heard
+        accepted = {source, *map(self._ros.resolve_name, self._beside)}
+        is_foreign = sender not in accepted and source in heard
         return f"it is from {sender}; {source} publishes this topic" if is_foreign else ""
 
 

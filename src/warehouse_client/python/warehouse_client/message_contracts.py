@@ -10,7 +10,16 @@ from typing import Any
 
 from warehouse_client import message_names
 from warehouse_layout.models.models import KINDS
-from warehouse_msgs.msg import Event, Look, OrderEvent, OrderStatus, Station, StationState, Vda5050
+from warehouse_msgs.msg import (
+    ClosedZones,
+    Event,
+    Look,
+    OrderEvent,
+    OrderStatus,
+    Station,
+    StationState,
+    Vda5050,
+)
 
 Kinds = Mapping[Any, str]  # the values that a message defines, and their names
 
@@ -25,7 +34,7 @@ class Contract:
     values are indices. names: the prefix of the names in a field, before their number. totals: the
     fields whose sum is the length of a field. positive: fields of numbers above 0. any_number:
     fields in which infinity and NaN have a meaning. source: the only node that is accepted while it
-    publishes; "": any node.
+    publishes, besides those of `beside`; "": any node.
     """
 
     tables: Sequence[str] = ()
@@ -38,6 +47,7 @@ class Contract:
     positive: frozenset[str] = frozenset()
     any_number: frozenset[str] = frozenset()
     source: str = ""
+    beside: frozenset[str] = frozenset()
 
 
 def _words(*names: str) -> Kinds:
@@ -52,6 +62,14 @@ _, _UNIT, _ITEM, _BELT = KINDS
 _WORLD, _FLEET, _SHIFT = "gazebo", "coordinator", "operations"  # nodes
 
 _WAREHOUSE = {
+    "ClosedZones": Contract(
+        source=_FLEET,
+        tables=(
+            "transport_id shelf_id why",
+            "event_id event_time event_kind event_by event_text",
+        ),
+        kinds={"event_kind": message_names.constants(ClosedZones)},
+    ),
     "CoordinatorPaths": Contract(
         source=_FLEET,
         tables=("kiva_id released planned waits_for goal_x goal_y", "x y"),
@@ -68,7 +86,12 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    "Event": Contract(source=_WORLD, kinds={"kind": message_names.EVENT}),
+    # Robots behind a broker have events from the nodes of VDA 5050, too.
+    "Event": Contract(
+        source=_WORLD,
+        beside=frozenset({"vda5050_master", "vda5050_vehicles"}),
+        kinds={"kind": message_names.EVENT},
+    ),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
     ),
@@ -140,7 +163,7 @@ _WAREHOUSE = {
     "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
     "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
     "Vda5050": Contract(
-        tables=("kiva_id manufacturer serial connection order errors driven",),
+        tables=("kiva_id manufacturer serial connection order errors driven faults",),
         kinds={
             "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
             "connection": {

@@ -37,7 +37,16 @@ class CellHolders {
   /// Closes cells where people are or are about to be, in place of the previous zone. A robot
   /// inside drives on along its released cells, and out.
   void setZone(std::vector<Cell> cells);
-  bool isInZone(Cell cell) const { return is_in_zone_[cell] != 0; }
+  /// Closes cells for robots outside of them, in place of those of the call before. Robots inside
+  /// drive on within, and out.
+  void setClosedZone(std::vector<Cell> cells);
+  const std::vector<Cell>& closedZone() const { return closed_zone_; }
+  bool isInClosedZone(Cell cell) const { return is_in_closed_zone_[cell] != 0; }
+  /// Returns whether a robot in the cell `from` must not enter a cell of a zone.
+  bool isFenced(Cell from, Cell cell) const {
+    return (is_in_zone_[cell] && !is_in_zone_[from]) ||
+           (is_in_closed_zone_[cell] && !is_in_closed_zone_[from]);
+  }
   /// Returns the cells of the zone and those closed by close(), unordered.
   std::vector<Cell> closed(double now) const;
 
@@ -46,12 +55,17 @@ class CellHolders {
   const std::vector<Cell>& units() const { return units_; }
 
  private:
+  void replace(std::vector<Cell> cells, std::vector<Cell>& zone,
+               std::vector<std::uint8_t>& is_in) const;
+
   const Floor& floor_;
   std::vector<int> holder_;           ///< by cell
   std::vector<double> closed_until_;  ///< by cell [s]
   std::vector<Cell> closing_;         ///< cells that are or were closed by close()
   std::vector<Cell> zone_;
   std::vector<std::uint8_t> is_in_zone_;  ///< by cell
+  std::vector<Cell> closed_zone_;
+  std::vector<std::uint8_t> is_in_closed_zone_;  ///< by cell
   std::vector<Cell> units_;
 };
 

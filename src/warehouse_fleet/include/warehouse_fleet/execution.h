@@ -82,6 +82,9 @@ class Execution {
   /// Closes cells where people are or are about to be. A robot inside drives on along its released
   /// cells, and out.
   void setZone(std::vector<Cell> cells) { holders_.setZone(std::move(cells)); }
+  /// Closes a zone: no robot enters it from outside, and those inside may leave. Robots that are
+  /// about to enter stop before it, if they still can. Replaces the zone of the call before.
+  void setClosedZone(std::vector<Cell> cells);
   /// Closes a cell until `until` [s].
   void close(Cell cell, double until) { holders_.close(cell, until); }
   /// Stops the robot that a cell was released to before that cell, if it can still stop, since an

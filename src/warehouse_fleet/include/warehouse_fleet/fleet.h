@@ -48,6 +48,7 @@ struct Fleet {
   std::vector<std::uint8_t> committed;
   int committed_ticks = 0;
   std::vector<Cell> closed;  ///< cells that no robot may enter now
+  std::vector<Cell> zone;    ///< cells that robots inside leave, and no other enters
   std::vector<Cell> units;   ///< aisle cells with a unit: loaded robots can't pass
   std::vector<Cell> tight;   ///< cells where a load has no room to turn, but may pass
 

@@ -219,6 +219,14 @@ robot.)")
           py::arg("cells"),
           "Closes the cells (m,) int32 around people, and opens those of the call before; a robot "
           "inside goes on with what was released to it.")
+      .def(
+          "set_closed_zone",
+          [](Run& run, const Array<Cell>& cells) {
+            run.execution.setClosedZone({cells.data(), cells.data() + cells.size()});
+          },
+          py::arg("cells"),
+          "Closes the cells (m,) int32 for robots outside of them, and opens those of the call "
+          "before; robots inside may leave.")
       .def_property_readonly(
           "closing", [](const Run& run) { return run.execution.isClosing(); },
           "Whether a cell is closed by close(), or for an obstacle that a robot "

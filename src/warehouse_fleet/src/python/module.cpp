@@ -27,7 +27,7 @@ using Flags = std::optional<Array<std::uint8_t>>;
 Fleet makeFleet(const Array<Cell>& cell, const Array<Heading>& heading, const Array<Cell>& goal,
                 const Flags& loaded, const std::optional<Array<Cell>>& home, const Flags& stopped,
                 const Flags& committed, const std::optional<Array<Cell>>& closed,
-                const std::optional<Array<Cell>>& tight) {
+                const std::optional<Array<Cell>>& tight, const std::optional<Array<Cell>>& zone) {
   Fleet fleet;
   fleet.cell = copied<Cell>(cell);
   fleet.heading = copied<Heading>(heading);
@@ -38,6 +38,7 @@ Fleet makeFleet(const Array<Cell>& cell, const Array<Heading>& heading, const Ar
   fleet.committed = copied(committed);
   fleet.closed = copied(closed);
   fleet.tight = copied(tight);
+  fleet.zone = copied(zone);
   if (committed) {
     if (committed->ndim() != 2) throw py::value_error("committed must be (robots, ticks)");
     fleet.committed_ticks = static_cast<int>(committed->shape(1));
@@ -81,6 +82,7 @@ The properties are views of the arguments, empty for arrays that were left out.)
             py::arg("loaded") = py::none(), py::arg("home") = py::none(),
             py::arg("stopped") = py::none(), py::arg("committed") = py::none(),
             py::arg("closed") = py::none(), py::arg("tight") = py::none(),
+            py::arg("zone") = py::none(),
             R"(Copies what the planner is to see of n robots.
 
 cell: (n,) int32. heading: (n,) uint8, quarter turns from +x towards +y. goal: (n,) int32 cells, -1:
@@ -89,7 +91,7 @@ default: none does. home: (n,) int32, a storage place that the robot may enter l
 stopped: (n,) bool, the robot stays in any case; default: none. committed: (n, ticks) uint8,
 the next actions that each robot can no longer take back, in order, 255 from where it is free;
 default: all are free. closed: cells that no robot may enter now. tight: cells where a load may pass
-but has no room to turn. ValueError if committed has another shape.)");
+but has no room to turn. zone: cells that robots inside leave, and no other enters. ValueError if committed has another shape.)");
   fleet.def("__len__", &Fleet::size, "Returns the number of robots.");
   const auto field = [&](const char* name, auto member, const char* doc) {
     fleet.def_property_readonly(
@@ -106,6 +108,7 @@ but has no room to turn. ValueError if committed has another shape.)");
         "The storage place that each robot may enter loaded, (n,) int32, -1: none; or (0,).");
   field("stopped", &Fleet::stopped, "Whether each robot stays where it is, (n,) uint8, or (0,).");
   field("closed", &Fleet::closed, "The cells that no robot may enter, (m,) int32.");
+  field("zone", &Fleet::zone, "The cells that robots may leave, but not enter, (m,) int32.");
   field("tight", &Fleet::tight, "The cells where loads have no room to turn, (m,) int32.");
   fleet.def_property_readonly(
       "committed",

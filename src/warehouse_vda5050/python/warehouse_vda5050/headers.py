@@ -19,6 +19,11 @@ def iso(seconds: float) -> str:
     return moment.strftime("%Y-%m-%dT%H:%M:%S.") + f"{moment.microsecond // 1000:03d}Z"
 
 
+def shifted(timestamp: str, seconds: float) -> str:
+    """Returns a time of iso(), some seconds later."""
+    return iso(datetime.fromisoformat(timestamp).timestamp() + seconds)
+
+
 class Headers:
     """Makes the headers of one vehicle's messages, whichever side sends them.
 

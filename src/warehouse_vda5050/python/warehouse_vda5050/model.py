@@ -309,6 +309,7 @@ class Factsheet:
     max_message: int = 1 << 20  # bytes
     max_errors: int = 20
     state_interval: float = 30.0
+    order_interval: float = 0.0  # least time between two orders [s]
     versions: tuple[tuple[str, str], ...] = ()
     header: Header = field(default_factory=Header)
 

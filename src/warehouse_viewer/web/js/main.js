@@ -80,6 +80,7 @@ class Page {
       scan: (scan) => this.takeScan(scan),
       fleet: ({ fleet }) => this.takeFleet(fleet),
       ways: ({ ways }) => this.takeWays(ways),
+      zones: ({ zones }) => this.takeZones(zones),
       requested: ({ units }) => this.requested.take(units),
       why: ({ why }) => this.moment === null && this.details.takeWhy(why),
     }, (act) => this.soon(act));
@@ -230,6 +231,28 @@ class Page {
     this.showExtras();
   }
 
+  /** What is closed; the layer that draws it is loaded with the first zone. */
+  async takeZones(zones) {
+    this.closed = zones;
+    this.zoneTool?.take(zones);
+    if (!this.stage || (!this.zones && !zones.length)) return;
+    await this.loadZones();
+    this.zones.take(this.closed);
+  }
+
+  async loadZones() {
+    if (!this.stage) return;
+    const { ZoneLayer } = await import('./layers/zones.js');
+    this.zones ??= new ZoneLayer(this.stage, this.world);
+  }
+
+  async drawZone(isOn) {
+    const [{ ZoneTool }] = await Promise.all([import('./panels/zone_tool.js'), this.loadZones()]);
+    this.zoneTool ??= new ZoneTool(this);
+    this.zoneTool.take(this.closed ?? []);
+    this.zoneTool.want(isOn);
+  }
+
   takeScan(scan) {
     this.scans.set(scan.id, scan);
     this.showExtras();
@@ -246,11 +269,17 @@ class Page {
       this.routes?.follow();
     }
     this.drawn = now;
+    this.drawExtras();
     const isUnsettled = this.actors.fill(this.stage.camera, innerHeight, now);
     this.labels.draw(this.actors.view, this.named(), [
-      ...this.signs.labels(this.actors.view), ...this.where?.draw() ?? [], ...this.fallen.labels(),
+      ...this.signs.labels(this.actors.view), ...this.where?.draw() ?? [], ...this.zones?.labels() ?? [], ...this.fallen.labels(),
       ...this.requested.labels()]);
     return flies || isUnsettled || this.world.moving.size > 0;
+  }
+
+  /** What lies around and over the floor, before each picture. */
+  drawExtras() {
+    this.zones?.hide(this.moment !== null);
   }
 
   /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
@@ -405,6 +434,7 @@ class Page {
 
   leave() {
     if (this.placer) this.wantNone();
+    else if (isPressed($('zone'))) this.drawZone(false);
     else this.select(null);
   }
 
@@ -453,6 +483,7 @@ class Page {
     }
     toggle('trails', () => this.showTrails());
     toggle('heat', () => this.showHeat());
+    toggle('zone', (isOn) => this.drawZone(isOn));
     toggle('xray', (isOn) => this.actors?.setSeeThrough(isOn));
     on($('home'), 'click', () => this.showAll(false));
     on($('top'), 'click', () => this.showAll(true));

@@ -25,6 +25,7 @@ GENERATED = {
     "policies",
     "vda5050-fields",
     "vda5050-cases",
+    "vda5050-master-cases",
     "realism-parameters",
     "plugins",
     "changelog",

@@ -57,6 +57,7 @@ class Roads:
     def __init__(self):
         self.time = 100.0
         self.closed = NO_CELLS
+        self.is_cut = np.zeros(3 * WIDTH, bool)
         self.with_units = []
         self.at_goal = []
 
@@ -382,7 +383,7 @@ def test_a_closed_charging_place_is_not_given(desk):
 # --- assign
 
 
-def assignment(desk, kept=(False, False)):
+def assignment(desk, kept=(False, False), waits=lambda _transport: ""):
     return Assignment(
         desk.book,
         desk.robots,
@@ -392,6 +393,7 @@ def assignment(desk, kept=(False, False)):
         lambda asked, free: nearest_robots(
             desk.distances, desk.units.cell_of, desk.robots.cell, asked, free
         ),
+        waits,
     )
 
 
@@ -429,7 +431,9 @@ def test_only_a_few_units_of_a_station_are_fetched_ahead():
 
 
 def parking(desk, charging=(), choose_cell=lambda _robot: None):
-    return Parking(desk.aside, desk.book, desk.robots, desk.completion, charging, choose_cell)
+    return Parking(
+        desk.aside, desk.book, desk.robots, desk.completion, charging, choose_cell, desk.roads
+    )
 
 
 def test_a_robot_that_has_ended_a_transport_goes_where_the_policy_says(desk):
@@ -449,7 +453,9 @@ def test_a_robot_without_work_gives_its_goal_up_to_one_with_work(desk):
 
 
 def clearing(desk, charging=()):
-    return Clearing(desk.aside, desk.distances, desk.book, desk.robots, desk.units, charging)
+    return Clearing(
+        desk.aside, desk.distances, desk.book, desk.robots, desk.units, charging, desk.roads
+    )
 
 
 def test_robots_without_work_leave_the_street_for_cells_beneath_units(desk):

@@ -3,16 +3,10 @@
 
 import json
 
-import jsonschema
-import paths
-
+from warehouse_vda5050.schemas import validator_of
 from warehouse_vda5050.topics import Kind
 
-FOLDER = paths.ROOT / "tests" / "vda5050" / "schemas_2_1_0"
-VALIDATORS = {
-    kind: jsonschema.Draft202012Validator(json.loads((FOLDER / f"{kind.value}.json").read_text()))
-    for kind in Kind
-}
+VALIDATORS = {kind: validator_of(kind) for kind in Kind}
 
 
 def faults(kind, payload):

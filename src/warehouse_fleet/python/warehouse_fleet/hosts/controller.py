@@ -18,6 +18,7 @@ import numpy as np
 
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports
+from warehouse_fleet.traffic.closed_zones import ClosedZone
 from warehouse_fleet.traffic.people import NO_PEOPLE
 from warehouse_fleet.traffic.takeover import Handover, Takeover
 from warehouse_fleet.traffic.traffic import STAYS, Releases, Traffic
@@ -106,6 +107,7 @@ class FleetController:
         if takes_over_at is not None:
             self._takeover = Takeover(self.traffic, takes_over_at)
         self._handover = Handover()
+        self.ended_zones: list[ClosedZone] = []  # opened by themselves in the last tick
         self._next_cancels = -np.inf
         begin = takes_over_at or 0.0
         for cell in np.flatnonzero(plan.obstructed).tolist():
@@ -132,6 +134,7 @@ class FleetController:
         if traffic.takes_over and self._takeover:
             self._takeover.advance(reports)
         traffic.update_people(observation.people)
+        self.ended_zones = traffic.zones.end_due(traffic.time)
         tows = self._tows.due(traffic.time) if self._tows else []
         traffic.update_fallen(observation.fallen)
         looks = traffic.wants_map

@@ -17,6 +17,7 @@ from warehouse_fleet.hosts.coordinator_services import CoordinatorServices, chec
 from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
+from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
@@ -77,6 +78,7 @@ class CoordinatorNode:
         self._paths = publish("warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         self._keep_mode = rospy.ServiceProxy("gazebo/keep_robot_mode", KeepRobotMode)
         CoordinatorServices(self)
+        self._zones = ZoneKeeper(self)
         self._watch = WarehouseWatch()
         self._watch.begin()
 
@@ -118,6 +120,7 @@ class CoordinatorNode:
         self._keep_modes(was_gone & ~controller.robots.gone, reports)
         self._order(decision)
         self._publish_events(time)
+        self._zones.advance(controller, time, state_is_due)
         if time >= self._next_paths and self._paths.get_num_connections():
             self._next_paths = time + PATHS_PERIOD
             self._paths.publish(paths_message(controller))
@@ -248,6 +251,7 @@ class CoordinatorNode:
         self.controller.robots.mode[:] = self._kept = reports["mode"].copy()
         self.events.begin()
         self._begin_transports(whole, left_out, reports)
+        self._zones.begin(self.controller, time)
 
     def _begin_transports(self, whole: FloorPlan, left_out: LeftOut, reports: np.ndarray) -> None:
         transports = self.controller.transports

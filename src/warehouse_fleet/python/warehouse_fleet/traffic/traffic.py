@@ -17,6 +17,7 @@ from warehouse_fleet import Execution
 from warehouse_fleet.planners.plan_loop import PlanLoop
 from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import NOWHERE, Reports, RobotTable
+from warehouse_fleet.traffic.closed_zones import ClosedZones
 from warehouse_fleet.traffic.obstacles import ObstacleLog
 from warehouse_fleet.traffic.people import zone_around
 from warehouse_fleet.traffic.watchdog import Watchdog
@@ -100,7 +101,8 @@ class Traffic:
             self._after[station.cells[:-1]] = station.cells[1:]
         self._next_map = 0.0
         self.obstacles = ObstacleLog()
-        self.zone = np.zeros(0, np.int32)  # cells where people are or are about to be
+        self.people_zone = np.zeros(0, np.int32)  # cells where people are or are about to be
+        self.zones = ClosedZones(plan, self.floor, self._execution.set_closed_zone)
         self._had_people = False
         self._fallen = 0  # items on the floor
 
@@ -209,7 +211,13 @@ class Traffic:
     @property
     def closed(self) -> np.ndarray:
         """The cells that no robot may enter now."""
-        return self._execution.closed()
+        closed = self._execution.closed()
+        return np.union1d(closed, self.zones.cells).astype(np.int32) if len(self.zones) else closed
+
+    @property
+    def is_cut(self) -> np.ndarray:
+        """(cells,) bool: in closed zones, or cut off by them."""
+        return self.zones.is_cut
 
     @property
     def wants_map(self) -> bool:
@@ -241,9 +249,9 @@ class Traffic:
         if not people.name and not self._had_people:
             return
         self._had_people = bool(people.name)
-        self.zone = zone_around(self.plan, people)
-        self._execution.set_zone(self.zone)
-        edge = self.plan.beside(self.zone) if len(self.zone) else self.zone
+        self.people_zone = zone_around(self.plan, people)
+        self._execution.set_zone(self.people_zone)
+        edge = self.plan.beside(self.people_zone) if len(self.people_zone) else self.people_zone
         robots = self.robots
         robots.slowed_for_people = np.isin(robots.kiva_ids, [*people.slowed, *people.stopped])
         robots.slowed_for_people |= np.isin(robots.cell, edge)

@@ -131,7 +131,12 @@ class Charging:
             return
         robots = self._robots
         self._count()
-        for robot in [r for r in self.cell_of if not idle[r] or robots.charge[r] >= FULL]:
+        is_cut = self._roads.is_cut
+        for robot in [
+            r
+            for r, cell in self.cell_of.items()
+            if not idle[r] or robots.charge[r] >= FULL or is_cut[cell]
+        ]:
             del self.cell_of[robot]
         wants = idle & ~robots.broken & self.policy.sends(robots.charge, is_wanted)
         wants[list(self.cell_of)] = False
@@ -147,7 +152,8 @@ class Charging:
         """Assigns a charging place to the robot: a free one, or that of a robot which needs it
         less. Returns whether there was one."""
         robots = self._robots
-        cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *self._roads.closed.tolist()])
+        reachable = self._cells[~self._roads.is_cut[self._cells]]
+        cells = np.setdiff1d(reachable, [*self.cell_of.values(), *self._roads.closed.tolist()])
         if not len(cells):
             others = np.array(list(self.cell_of), int)
             done = others[self.policy.frees(robots.charge[others])]

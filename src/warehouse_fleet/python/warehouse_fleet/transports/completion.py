@@ -25,6 +25,14 @@ class Completion:
         self._book.publish_event(transport, Kind.FAILED, text)
         self.end(transport)
 
+    def put_back(self, transport: Transport) -> None:
+        """Has the unit of a transport, which has just been stored, fetched again later."""
+        robot, transport.is_put_back = transport.robot, False
+        self._book.unassign(transport)
+        self._book.publish_event(transport, Kind.RECEIVED, "its unit was put back")
+        self._freed.append(robot)
+        self._robots.send(robot, NOWHERE)
+
     def take_freed(self) -> list[int]:
         """Returns the robots whose transports have ended since the last call."""
         freed, self._freed = self._freed, []

@@ -22,6 +22,10 @@ class Roads(Protocol):
     def closed(self) -> np.ndarray:
         """The cells that no robot may enter now."""
 
+    @property
+    def is_cut(self) -> np.ndarray:
+        """(cells,) bool: in closed zones, or cut off by them."""
+
     def set_units(self, cells: Sequence[int]) -> None:
         """Closes cells for loaded robots."""
 

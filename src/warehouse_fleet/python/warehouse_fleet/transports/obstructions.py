@@ -22,6 +22,6 @@ def in_the_way(plan: FloorPlan, traffic: Traffic, units: UnitMap) -> Iterator[st
         x, y = plan.point_of(cell)
         name = f"storage_unit{units.unit_in[cell]}"
         yield f"{name} stands in a street at ({x:.1f}, {y:.1f}): bring it to a storage place"
-    for cell in sorted(cells - set(traffic.zone.tolist())):
+    for cell in sorted(cells - set(traffic.people_zone.tolist())):
         x, y = plan.point_of(cell)
         yield f"something stands in the way at ({x:.1f}, {y:.1f}): take it away"

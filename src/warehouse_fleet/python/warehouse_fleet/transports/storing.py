@@ -35,13 +35,28 @@ class Storing:
     def store(self, transport: Transport) -> None:
         """Sends the loaded robot of a transport to a free storage place."""
         self._book.keep(transport, NOWHERE)
-        taken = self.taken()
-        taken[self._roads.closed] = True
-        free = self._places[~taken[self._places]]
+        free = self._free_places()
         start = int(self._robots.cell[transport.robot])
         self._book.keep(transport, int(self._choose_place(transport.shelf, start, free)))
         self._book.go_on(transport, STORING)
         self._journeys.begin(transport.robot, transport.place, transport.place)
+
+    def has_place(self) -> bool:
+        """Returns whether a storage place is free that robots can reach now."""
+        taken = self.taken()
+        taken[self._roads.closed] = True
+        taken |= self._roads.is_cut
+        return not taken[self._places].all()
+
+    def _free_places(self) -> np.ndarray:
+        """Returns the free storage places that robots can reach now; where there are none, those
+        that they can reach later."""
+        taken = self.taken()
+        later = self._places[~taken[self._places]]
+        taken[self._roads.closed] = True
+        taken |= self._roads.is_cut
+        free = self._places[~taken[self._places]]
+        return free if len(free) else later
 
     def is_place(self, cell: int) -> bool:
         """Returns whether a cell is a storage place."""

@@ -65,7 +65,7 @@ class Leave(IntEnum):
 # A member of an enumeration is found by a slow search; these are looked at for each robot.
 OPEN, FETCHING, READY, LIFTING, BRINGING, WAITING, STORING, DROPPING = Step
 # What may follow each step. A robot may be found with a unit, lose its way or its transport, lift
-# again, and be sent to another storage place.
+# again, be sent to another storage place, and put a unit back that is fetched again later.
 FOLLOWS: dict[Step, frozenset[Step]] = {
     OPEN: frozenset((FETCHING, STORING)),
     FETCHING: frozenset((READY, OPEN)),
@@ -74,7 +74,7 @@ FOLLOWS: dict[Step, frozenset[Step]] = {
     BRINGING: frozenset((WAITING, STORING)),
     WAITING: frozenset((STORING, DROPPING)),
     STORING: frozenset((DROPPING, STORING)),
-    DROPPING: frozenset((DROPPING, STORING)),
+    DROPPING: frozenset((DROPPING, STORING, OPEN)),
 }
 FETCHED, INBOUND = frozenset((FETCHING, READY)), frozenset((LIFTING, BRINGING, WAITING))
 
@@ -96,6 +96,7 @@ class Transport:
     attempts: int = 0  # at lifting
     place: int = NOWHERE  # the storage cell that is kept for it while it is under way
     turn: int = 0  # its number among those that were given to robots
+    is_put_back: bool = False  # its unit is stored, and is fetched again later
 
 
 @dataclass
@@ -254,7 +255,7 @@ class TransportBook:
         """Takes a transport from its robot before the unit is lifted: another one fetches it."""
         self.go_on(transport, OPEN)
         self._leave_robot(transport)
-        transport.robot = NOWHERE
+        transport.robot = transport.place = NOWHERE
         self.enqueue(transport)
 
     def remove(self, transport: Transport) -> None:

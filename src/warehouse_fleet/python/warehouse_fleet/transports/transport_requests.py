@@ -120,9 +120,9 @@ class TransportRequests(ABC):
             return False, f"there is no transport {transport_id} under way"
         if transport.leave == Leave.CANCELLED:
             return False, f"transport {transport_id} was cancelled"
-        if transport.leave or transport.step > WAITING:
+        if transport.leave or (transport.step > WAITING and not transport.is_put_back):
             return False, f"transport {transport_id} has been released already"
-        if transport.step < WAITING:
+        if transport.step != WAITING:
             return False, f"transport {transport_id} has not arrived yet"
         self._let_go(transport, Leave.RELEASED)
         return True, ""
@@ -140,10 +140,10 @@ class TransportRequests(ABC):
             self.book.publish_event(transport, Kind.CANCELLED)
             self.end(transport)
             return True, ""
-        if transport.leave or transport.step > WAITING:
+        if transport.leave or (transport.step > WAITING and not transport.is_put_back):
             return True, ""
         self.book.publish_event(transport, Kind.CANCELLED)
-        transport.then = STORE
+        transport.then, transport.is_put_back = STORE, False
         self._let_go(transport, Leave.CANCELLED)
         if transport.step == BRINGING:
             self.turn_back(transport)

@@ -16,6 +16,7 @@ from warehouse_fleet.transports.dispatch.arrive import Arrival
 from warehouse_fleet.transports.dispatch.assign import Assignment, Matching, nearest_robots
 from warehouse_fleet.transports.dispatch.clear import Clearing
 from warehouse_fleet.transports.dispatch.depart import Departure
+from warehouse_fleet.transports.dispatch.evacuate import Evacuation
 from warehouse_fleet.transports.dispatch.idle import idle_robots
 from warehouse_fleet.transports.dispatch.lift import LiftWatch
 from warehouse_fleet.transports.dispatch.park import CellChoice, Parking
@@ -107,11 +108,19 @@ class Transports(TransportRequests):
         # The lane of a station has room for its queue and the unit that is served.
         capacity = {s.name: min(LIFTED, s.service + 1) for s in plan.stations}
         self._admission = Admission(book, robots, lifts, streets, capacity)
-        self._assignment = Assignment(
-            book, robots, units, journeys, charging.kept, self._match_robots
+        ground = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
+        self._evacuation = Evacuation(
+            traffic.zones, ground.ravel(), self.aside, self.distances, book, robots, units, storing
         )
-        self._parking = Parking(self.aside, book, robots, completion, charging.cell_of, self._park)
-        self._clearing = Clearing(self.aside, self.distances, book, robots, units, charging.cell_of)
+        self._assignment = Assignment(
+            book, robots, units, journeys, charging.kept, self._match_robots, self._evacuation.why
+        )
+        self._parking = Parking(
+            self.aside, book, robots, completion, charging.cell_of, self._park, traffic
+        )
+        self._clearing = Clearing(
+            self.aside, self.distances, book, robots, units, charging.cell_of, traffic
+        )
 
     # The decisions of others, who may be replaced at any time.
 
@@ -208,6 +217,11 @@ class Transports(TransportRequests):
         self._recovery.store_abandoned()
         self._streets.update()
 
+    def held(self) -> list[tuple[Transport, str]]:
+        """Returns the transports that wait for a closed zone, each with the reason."""
+        rows = [(transport, self._evacuation.why(transport)) for transport in self.book.open]
+        return [(transport, why) for transport, why in rows if why]
+
     # --- the dispatcher
 
     def advance(self, reports: Reports) -> None:
@@ -216,6 +230,7 @@ class Transports(TransportRequests):
         self._lift_watch.run(reports)
         self._arrival.run()
         self._departure.run()
+        self._evacuation.run()
         self._admission.run()
         self._charge(is_wanted=True)
         self._assignment.run()

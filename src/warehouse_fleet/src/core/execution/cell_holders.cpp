@@ -9,7 +9,8 @@ CellHolders::CellHolders(const Floor& floor)
     : floor_(floor),
       holder_(floor.size(), kNobody),
       closed_until_(floor.size(), -1),
-      is_in_zone_(floor.size(), 0) {}
+      is_in_zone_(floor.size(), 0),
+      is_in_closed_zone_(floor.size(), 0) {}
 
 void CellHolders::clear() { std::fill(holder_.begin(), holder_.end(), kNobody); }
 
@@ -29,11 +30,20 @@ bool CellHolders::isClosing(double now) const {
 }
 
 void CellHolders::setZone(std::vector<Cell> cells) {
-  for (const Cell cell : zone_) is_in_zone_[cell] = 0;
+  replace(std::move(cells), zone_, is_in_zone_);
+}
+
+void CellHolders::setClosedZone(std::vector<Cell> cells) {
+  replace(std::move(cells), closed_zone_, is_in_closed_zone_);
+}
+
+void CellHolders::replace(std::vector<Cell> cells, std::vector<Cell>& zone,
+                          std::vector<std::uint8_t>& is_in) const {
+  for (const Cell cell : zone) is_in[cell] = 0;
   cells.erase(std::remove_if(cells.begin(), cells.end(), [this](Cell c) { return !floor_.has(c); }),
               cells.end());
-  zone_ = std::move(cells);
-  for (const Cell cell : zone_) is_in_zone_[cell] = 1;
+  zone = std::move(cells);
+  for (const Cell cell : zone) is_in[cell] = 1;
 }
 
 std::vector<Cell> CellHolders::closed(double now) const {

@@ -32,6 +32,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
     course.plan_is_stale = false;
   }
   asked_.closed = closed();
+  asked_.zone = holders_.closedZone();
   asked_.units = holders_.units();
   asked_.tight = tight_;
   return asked_;

@@ -75,7 +75,7 @@ bool Execution::isAtEnd(int robot) const {
 }
 
 bool Execution::mayHave(int robot, Cell cell) {
-  if (holders_.isInZone(cell) && !holders_.isInZone(courses_[robot].cells.back())) return false;
+  if (holders_.isFenced(courses_[robot].cells.back(), cell)) return false;
   const int holder = holders_.holder(cell);
   const bool is_held = holder != kNobody && holder != robot;
   const int next = is_held ? holder : order_.first(cell, courses_);
@@ -178,6 +178,16 @@ void Execution::withdraw(int robot) {
   if (course.isWithdrawn() && now_ - course.sent < kUnanswered) return;
   course.withdraw();
   releaseUpTo(robot, keep);
+}
+
+void Execution::setClosedZone(std::vector<Cell> cells) {
+  holders_.setClosedZone(std::move(cells));
+  for (const Cell cell : holders_.closedZone()) {
+    const int robot = holders_.holder(cell);
+    if (robot == kNobody) continue;
+    const Cell at = courses_[robot].at;
+    if (at != kNowhere && !holders_.isInClosedZone(at)) recall(cell);
+  }
 }
 
 void Execution::recall(Cell cell) {

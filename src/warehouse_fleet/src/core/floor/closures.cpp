@@ -48,11 +48,12 @@ void Closures::update(const Fleet& fleet) {
 }
 
 Closures::Closed Closures::now(const Fleet& fleet) const {
-  Closed closed{fleet.closed, fleet.units, {}};
+  Closed closed{fleet.closed, fleet.zone, fleet.units, {}};
   for (int robot = 0; robot < fleet.size(); ++robot) {
     if (fleet.isStopped(robot)) closed.cells.push_back(fleet.cell[robot]);
   }
   sort(closed.cells);
+  sort(closed.zone);
   sort(closed.units);
   for (const Cell unit : closed.units) {
     if (isWaitedFor(unit, fleet)) closed.waiting.push_back(unit);
@@ -82,7 +83,7 @@ Closures::Closed Closures::lasting(const Closed& now) {
     }
     return lasting;
   };
-  Closed lasting{chosen(now.cells), chosen(now.units), {}};
+  Closed lasting{chosen(now.cells), {}, chosen(now.units), {}};
   since_ = std::move(since);
   return lasting;
 }
@@ -95,6 +96,7 @@ void Closures::open() {
     for (const int edge : against) next[edge] = kNowhere;
     against.clear();
     set(deck, closed_.cells, true);
+    set(deck, closed_.zone, true);
   }
   set(Deck::kAisles, closed_.units, true);
   set(Deck::kUnder, closed_.waiting, true);
@@ -103,6 +105,8 @@ void Closures::open() {
 void Closures::close() {
   std::vector<Cell> cut = lasting_.cells;
   cut.insert(cut.end(), lasting_.units.begin(), lasting_.units.end());
+  cut.insert(cut.end(), closed_.zone.begin(),
+             closed_.zone.end());  // closed for long from the start
   sort(cut);
   const std::vector<BackEdge> back = waysBack(floor_, cut);
   leadBack(Deck::kUnder, back);
@@ -111,7 +115,10 @@ void Closures::close() {
   units.insert(units.end(), closed_.waiting.begin(), closed_.waiting.end());
   leadBack(Deck::kUnder, waysToUnits(floor_, lasting_.cells, units));
   for (const Cell unit : closed_.waiting) comeFromBeyond(unit);
-  for (const Deck deck : {Deck::kUnder, Deck::kAisles}) set(deck, closed_.cells, false);
+  for (const Deck deck : {Deck::kUnder, Deck::kAisles}) {
+    fence(deck, closed_.zone);
+    set(deck, closed_.cells, false);
+  }
   set(Deck::kAisles, closed_.units, false);
 }
 
@@ -123,6 +130,18 @@ void Closures::set(Deck deck, const std::vector<Cell>& cells, bool is_open) {
       const Cell from = floor_.beside(cell, heading + 2);
       if (from == kNowhere) continue;
       next[from * kHeadings + heading] = is_open ? floor_.next(deck, from, heading) : kNowhere;
+    }
+  }
+}
+
+/// Closes the edges that lead into a zone (sorted) from outside; those within and out of it stay.
+void Closures::fence(Deck deck, const std::vector<Cell>& zone) {
+  auto& next = edges_.next[static_cast<int>(deck)];
+  for (const Cell cell : zone) {
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell from = floor_.beside(cell, heading + 2);
+      if (from == kNowhere || std::binary_search(zone.begin(), zone.end(), from)) continue;
+      next[from * kHeadings + heading] = kNowhere;
     }
   }
 }

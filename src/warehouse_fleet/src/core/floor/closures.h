@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The edges that are open in a step. Closed cells, cells of stopped robots and, for loaded robots,
-// cells of storage units are left out. Where such cells stay closed, the one-way streets that they
-// cut become two-way (severed.h).
+// cells of storage units are left out, as are the edges that lead into a zone from outside. Where
+// such cells stay closed, the one-way streets that they cut become two-way (severed.h).
 #pragma once
 
 #include <cstdint>
@@ -33,10 +33,12 @@ class Closures {
   /// Closed cells, sorted.
   struct Closed {
     std::vector<Cell> cells;    ///< closed to all robots
+    std::vector<Cell> zone;     ///< closed to robots outside of them
     std::vector<Cell> units;    ///< closed to loaded robots
     std::vector<Cell> waiting;  ///< units in lanes behind which a loaded robot waits
     bool operator==(const Closed& other) const {
-      return cells == other.cells && units == other.units && waiting == other.waiting;
+      return cells == other.cells && zone == other.zone && units == other.units &&
+             waiting == other.waiting;
     }
   };
 
@@ -46,6 +48,7 @@ class Closures {
   void open();
   void close();
   void set(Deck deck, const std::vector<Cell>& cells, bool is_open);
+  void fence(Deck deck, const std::vector<Cell>& zone);
   void comeFromBeyond(Cell unit);
   void leadBack(Deck deck, const std::vector<BackEdge>& edges);
   void tighten(const std::vector<Cell>& cells);

@@ -44,6 +44,7 @@ class Check {
       }
     }
     cells(fleet_.closed, "closed: ");
+    cells(fleet_.zone, "zone: ");
     cells(fleet_.units, "units: ");
     cells(fleet_.tight, "tight: ");
   }

@@ -16,6 +16,7 @@ class PlanDrive {
   PlanDrive(const Floor& floor, const Fleet& fleet, const Plan& plan, const Rules& rules)
       : floor_(floor), fleet_(fleet), plan_(plan), rules_(rules) {
     for (const Cell cell : fleet.closed) closed_[cell] = 1;
+    for (const Cell cell : fleet.zone) zone_[cell] = 1;
     for (int robot = 0; robot < fleet.size(); ++robot) {
       now_.push_back({fleet.cell[robot], fleet.heading[robot]});
     }
@@ -56,7 +57,9 @@ class PlanDrive {
     const Cell to = floor_.next(Deck::kUnder, state.cell, state.heading);
     const bool is_barred = to != kNowhere && fleet_.isLoaded(robot) && floor_.isStorage(to) &&
                            to != fleet_.homeOf(robot);
-    if (to != kNowhere && !is_barred && !closed_.count(to)) return {to, state.heading};
+    const bool is_fenced = zone_.count(to) && !zone_.count(state.cell);
+    const bool is_open = !is_barred && !is_fenced && !closed_.count(to);
+    if (to != kNowhere && is_open) return {to, state.heading};
     note(Kind::kWall, {robot}, state.cell);
     return state;
   }
@@ -113,7 +116,7 @@ class PlanDrive {
   const Fleet& fleet_;
   const Plan& plan_;
   const Rules rules_;
-  std::unordered_map<Cell, int> closed_;
+  std::unordered_map<Cell, int> closed_, zone_;
   int tick_ = 0;
   std::vector<GridPose> now_, then_;
   Standing stood_;

@@ -53,12 +53,10 @@ def forecast_of(
     known: Mapping[int, tuple[str, float]],
     *,
     changes: Sequence[str] = (),
-    spread: float = 1.0,
 ) -> Forecast:
     """Returns the forecast of some runs, at least one.
 
-    known: reference and due time [s] of the orders that were not over at the fork, by id. spread:
-    factor on the width of bands about their median; see Spread.
+    known: reference and due time [s] of the orders that were not over at the fork, by id.
     """
     began = task.fork.time
     times = np.array(task.times)
@@ -66,7 +64,7 @@ def forecast_of(
     pieces = np.array([outcome.pieces for outcome in outcomes], float)
     steps = np.diff(np.concatenate([[began], times]))
     values["pieces_per_hour"] = np.diff(pieces, axis=1, prepend=0.0) * 3600 / steps
-    bands = {name: widened(quantiles(rows), spread) for name, rows in values.items()}
+    bands = {name: quantiles(rows) for name, rows in values.items()}
     late = late_orders(outcomes, known, float(times[-1]))
     finish = finish_quantiles([outcome.finish for outcome in outcomes])
     forecast = Forecast(
@@ -79,11 +77,6 @@ def quantiles(rows: np.ndarray) -> np.ndarray:
     """Returns the QUANTILES of runs (n, times), (3, times): a further run is between the outer ones
     with a chance of 80 %, be they many or few (Weibull's plotting positions)."""
     return np.quantile(rows, QUANTILES, axis=0, method="weibull")
-
-
-def widened(band: np.ndarray, factor: float) -> np.ndarray:
-    """Returns a band, (3, n), that is a factor as wide about its median; no count is below 0."""
-    return np.maximum(band[1] + factor * (band - band[1]), 0.0)
 
 
 def finish_quantiles(ends: Sequence[float]) -> tuple[float, float, float]:

@@ -9,8 +9,8 @@
 - {at: 600, sku_out: red}          # its pieces are gone, and no more come
 - {at: 600, orders: rush.csv}      # come besides the others, their times from then on
 - {at: 600, picker: {station: pick1, seconds_a_piece: 14}}   # also pickers: 2
-- {at: 600, priority: {order: rush-17, to: 5}}   # an order that is open then, by reference or number
-- {at: 600, policy: {storage: nearest}}          # roles with a policy each; see policies
+- {at: 600, priority: {order: rush-17, to: 5}}   # of an order that is open then
+- {at: 600, policy: {storage: nearest}}  # roles with a policy each; see policies
 
 A line says the same for one event: `+10m robots +2`, `2:30:00 close pick3`.
 """

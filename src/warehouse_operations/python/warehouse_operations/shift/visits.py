@@ -147,6 +147,8 @@ class Visits:
             visit.outcome = "cancelled"
             if visit.lifted is None:
                 self._end(visit, event)
+        elif event.kind == Kind.RECEIVED:  # again: its unit was put back before a closed zone
+            visit.lifted = None
         elif event.kind == Kind.LIFTED:
             visit.lifted = event.stamp
             self._floor.cells.pop(visit.unit, None)

@@ -64,7 +64,7 @@ def _limits_json(sheet: Factsheet) -> dict[str, Any]:
             "state.errors": sheet.max_errors,
         },
         "timing": {
-            "minOrderInterval": 0.0,
+            "minOrderInterval": sheet.order_interval,
             "minStateInterval": 0.0,
             "defaultStateInterval": sheet.state_interval,
         },
@@ -113,6 +113,9 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
     kind = fields.object("typeSpecification") or Fields({})
     body = fields.object("physicalParameters") or Fields({})
     features = fields.object("protocolFeatures") or Fields({})
+    limits = fields.object("protocolLimits") or Fields({})
+    lengths = limits.object("maxArrayLens") or Fields({})
+    timing = limits.object("timing") or Fields({})
     default = Factsheet()
     return Factsheet(
         kind.text("seriesName", ""),
@@ -127,11 +130,31 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
         body.number("accelerationMax", default.max_acceleration),
         body.number("decelerationMax", default.max_deceleration),
         actions=tuple(_read_action(action) for action in features.objects("agvActions", ())),
+        max_nodes=_read_limit(lengths, default.max_nodes),
+        order_interval=max(0.0, timing.number("minOrderInterval", 0.0)),
         header=header,
     )
+
+
+def _read_limit(lengths: Fields, default: int) -> int:
+    """Returns how many nodes an order may have; 0 or none stands for no limit."""
+    nodes = lengths.natural("order.nodes", 0) or default
+    edges = lengths.natural("order.edges", 0) or default
+    return min(nodes, edges + 1)
 
 
 def _read_action(fields: Fields) -> SupportedAction:
     scopes = fields.any("actionScopes", [])
     names = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
-    return SupportedAction(fields.text("actionType"), names, fields.text("actionDescription", ""))
+    type, text = fields.text("actionType"), fields.text("actionDescription", "")
+    rows = fields.objects("actionParameters", ())
+    return SupportedAction(type, names, text, tuple(_read_parameter(row) for row in rows))
+
+
+def _read_parameter(fields: Fields) -> tuple[str, str, bool, str]:
+    return (
+        fields.text("key"),
+        fields.text("valueDataType", ""),
+        fields.flag("isOptional", False),
+        fields.text("description", ""),
+    )

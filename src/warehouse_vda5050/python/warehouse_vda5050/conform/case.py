@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A case: one sentence of the specification, and the function that tries it on a vehicle."""
+"""A case: one sentence of the specification, and the function that tries it on a vehicle, or on a
+master."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
 
-if TYPE_CHECKING:
-    from warehouse_vda5050.conform.probe import Probe
-
-Trial = Callable[["Probe"], None]
+Trial = Callable[[Any], None]  # its argument is a Probe, or a Stage where a master is tried
+SomeTrial = TypeVar("SomeTrial", bound=Trial)
 EVERY = ("2.0.0", "2.1.0", "3.0.0")
 
 
@@ -55,11 +54,11 @@ class Chapter:
         strict: bool = False,
         audit: bool = False,
         versions: tuple[str, ...] = EVERY,
-    ) -> Callable[[Trial], Trial]:
+    ) -> Callable[[SomeTrial], SomeTrial]:
         """Returns a decorator that makes a function the trial of a case; its docstring is the
         sentence."""
 
-        def add(trial: Trial) -> Trial:
+        def add(trial: SomeTrial) -> SomeTrial:
             id, sentence = f"{self.name}.{name}", " ".join((trial.__doc__ or "").split())
             needs = edges, tuple(actions), strict, audit, versions
             self.cases.append(Case(id, section, sentence, trial, *needs))

@@ -17,22 +17,23 @@ from warehouse_vda5050.conform import ground
 from warehouse_vda5050.conform.broker import Broker, UnreachableError
 from warehouse_vda5050.conform.case import Case
 from warehouse_vda5050.conform.cases import cases_of
+from warehouse_vda5050.conform.master import command as master
+from warehouse_vda5050.conform.master.cases import cases_of as master_cases_of
 from warehouse_vda5050.conform.probe import Probe
 from warehouse_vda5050.conform.proxy import Proxy
 from warehouse_vda5050.conform.report import write
-from warehouse_vda5050.conform.report.score import Run, lines
-from warehouse_vda5050.conform.runner import NoVehicleError, Result, Runner, begin
+from warehouse_vda5050.conform.report.score import NOT_TRIED, Run, exit_code, line_of, lines
+from warehouse_vda5050.conform.runner import NoVehicleError, Runner, begin
 from warehouse_vda5050.conform.settings import Settings
-from warehouse_vda5050.conform.verdict import Verdict
 from warehouse_vda5050.mqtt.settings import BrokerSettings, read_settings
 from warehouse_vda5050.topics import Identity, TopicError, Topics, prefix_of
 
 DESCRIPTION = """Plays the master towards a vehicle of any maker, over MQTT, and judges what it
 does by the specification VDA 5050. The vehicle drives: at most --edges edges, straight ahead of
 where it stands, or along --nodes, there and back. Keep that way free, and a hand on the emergency
-stop. It ends with 0 if all that was tried conforms, 1 if something differs, 2 if it could not be
-tried. Ctrl-C cancels the order under way, and writes the report so far."""
-CONFORMS, DIFFERS, NOT_TRIED = 0, 1, 2
+stop. With --master it plays vehicles towards a master of any maker, which has to give them orders,
+and judges what it sends. It ends with 0 if all that was tried conforms, 1 if something differs, 2
+if it could not be tried. Ctrl-C cancels the order under way, and writes the report so far."""
 
 
 def arguments() -> argparse.ArgumentParser:
@@ -40,7 +41,10 @@ def arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="conform", description=DESCRIPTION)
     add = parser.add_argument
     add("--broker", default="localhost:1883", help="HOST:PORT of the MQTT broker")
-    add("--vehicle", metavar="MANUFACTURER/SERIAL", help="which vehicle")
+    who = parser.add_mutually_exclusive_group()
+    who.add_argument("--vehicle", metavar="MANUFACTURER/SERIAL", help="which vehicle to try")
+    who.add_argument("--master", action="store_true", help="try the master that drives --play")
+    master.add_arguments(parser)
     add("--version", default="2.1", help="of VDA 5050: 2.0, 2.1 or 3.0")
     add("--prefix", default="", help="of topics; empty: uagv/v2 or vda5050/v3")
     add("--strict", action="store_true", help="try recommendations as well")
@@ -80,7 +84,8 @@ def main() -> None:
     options = parser.parse_args()
     try:
         version = _version(options.version)
-        cases = _chosen(cases_of(version, options.strict), options.only)
+        known = (master_cases_of if options.master else cases_of)(version, options.strict)
+        cases = _chosen(known, options.only)
         if options.list:
             print("\n".join(f"{c.id:28} {c.section:9} {c.sentence}" for c in cases))
             return
@@ -110,8 +115,10 @@ def _chosen(cases: list[Case], only: list[str]) -> list[Case]:
 
 def _try(options: argparse.Namespace, version: str, cases: list[Case]) -> int:
     """Tries the cases and writes the report. Returns the exit code."""
+    if options.master:
+        return master.try_master(options, version, cases)
     if not options.vehicle or not options.out:
-        raise ValueError("--vehicle and --out are missing")
+        raise ValueError("--vehicle, or --master, and --out are missing")
     who = _vehicle(options.vehicle)
     options.out.mkdir(parents=True, exist_ok=True)
     broker = read_settings(options.broker, options.tls, options.user, options.password_file)
@@ -181,7 +188,7 @@ def _tried(options: argparse.Namespace, probe: Probe, cases: list[Case]) -> int:
     begin(probe, ground_for(probe.settings, options.nodes))
     former = signal.signal(signal.SIGINT, lambda *_: setattr(probe, "interrupted", True))
     for count, result in enumerate(runner.run(cases), 1):
-        print(_line(count, len(cases), result), flush=True)
+        print(line_of(count, len(cases), result), flush=True)
     signal.signal(signal.SIGINT, former)
     series = (probe.sheet.get("typeSpecification") or {}).get("seriesName", "")
     run = Run(
@@ -196,11 +203,4 @@ def _tried(options: argparse.Namespace, probe: Probe, cases: list[Case]) -> int:
     )
     write(options.out, run, probe.log)
     print("\n".join(["", *lines(run), f"report: {options.out / 'report.html'}"]), flush=True)
-    if run.whole.counts[Verdict.DIFFERS]:
-        return DIFFERS
-    return NOT_TRIED if probe.interrupted or not run.whole.tried else CONFORMS
-
-
-def _line(count: int, total: int, result: Result) -> str:
-    reason = f": {result.reason}" if result.reason else ""
-    return f"{count:3}/{total} {result.verdict.value:12} {result.case.id}{reason}"
+    return exit_code(run)

@@ -14,122 +14,133 @@ Check = Callable[[Any], bool]
 Form = dict[str, Any]  # a name to a check, a form, or a list of one form; "name?" may be missing
 
 
-def _text(value: Any) -> bool:
+def text(value: Any) -> bool:
+    """Returns whether a value is a string."""
     return isinstance(value, str)
 
 
-def _flag(value: Any) -> bool:
+def flag(value: Any) -> bool:
+    """Returns whether a value is true or false."""
     return isinstance(value, bool)
 
 
-def _number(value: Any) -> bool:
+def number(value: Any) -> bool:
+    """Returns whether a value is a finite number."""
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return is_number and math.isfinite(value)
 
 
-def _natural(value: Any) -> bool:
-    return _number(value) and value == int(value) and 0 <= value < 1 << 32
+def natural(value: Any) -> bool:
+    """Returns whether a value is an unsigned number of 32 bits."""
+    return number(value) and value == int(value) and 0 <= value < 1 << 32
 
 
-def _any(_value: Any) -> bool:
+def anything(_value: Any) -> bool:
+    """Returns True."""
     return True
 
 
-def _list(value: Any) -> bool:
+def array(value: Any) -> bool:
+    """Returns whether a value is a list."""
     return isinstance(value, list)
 
 
-def _of(*words: str) -> Check:
+def word_of(*words: str) -> Check:
+    """Returns a check for some words."""
+
     def check(value: Any) -> bool:
         return value in words
 
-    check.__name__ = f"_one of {', '.join(words)}"
+    check.__name__ = f"one of {', '.join(words)}"
     return check
 
 
 HEADER: Form = {
-    "headerId": _natural,
-    "timestamp": _text,
-    "version": _text,
-    "manufacturer": _text,
-    "serialNumber": _text,
+    "headerId": natural,
+    "timestamp": text,
+    "version": text,
+    "manufacturer": text,
+    "serialNumber": text,
 }
-POSITION: Form = {"x": _number, "y": _number, "theta?": _number, "mapId": _text}
+POSITION: Form = {"x": number, "y": number, "theta?": number, "mapId": text}
 POSE: Form = {
-    "x": _number,
-    "y": _number,
-    "theta": _number,
-    "mapId": _text,
-    "positionInitialized": _flag,
+    "x": number,
+    "y": number,
+    "theta": number,
+    "mapId": text,
+    "positionInitialized": flag,
 }
-VELOCITY: Form = {"vx?": _number, "vy?": _number, "omega?": _number}
+VELOCITY: Form = {"vx?": number, "vy?": number, "omega?": number}
 STATUS = ("WAITING", "INITIALIZING", "RUNNING", "PAUSED", "FINISHED", "FAILED")
 MODES = ("AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN")
-REFERENCE: Form = {"referenceKey": _text, "referenceValue": _text}
+REFERENCE: Form = {"referenceKey": text, "referenceValue": text}
 ERROR: Form = {
-    "errorType": _text,
-    "errorLevel": _of("WARNING", "FATAL"),
-    "errorDescription?": _text,
+    "errorType": text,
+    "errorLevel": word_of("WARNING", "FATAL"),
+    "errorDescription?": text,
     "errorReferences?": [REFERENCE],
 }
 STATE: Form = {
     **HEADER,
-    "orderId": _text,
-    "orderUpdateId": _natural,
-    "lastNodeId": _text,
-    "lastNodeSequenceId": _natural,
+    "orderId": text,
+    "orderUpdateId": natural,
+    "lastNodeId": text,
+    "lastNodeSequenceId": natural,
     "nodeStates": [
-        {"nodeId": _text, "sequenceId": _natural, "released": _flag, "nodePosition?": POSITION}
+        {"nodeId": text, "sequenceId": natural, "released": flag, "nodePosition?": POSITION}
     ],
-    "edgeStates": [{"edgeId": _text, "sequenceId": _natural, "released": _flag}],
-    "driving": _flag,
-    "paused?": _flag,
-    "newBaseRequest?": _flag,
-    "distanceSinceLastNode?": _number,
+    "edgeStates": [{"edgeId": text, "sequenceId": natural, "released": flag}],
+    "driving": flag,
+    "paused?": flag,
+    "newBaseRequest?": flag,
+    "distanceSinceLastNode?": number,
     "agvPosition?": POSE,
     "velocity?": VELOCITY,
-    "loads?": [{"loadId?": _text, "loadType?": _text}],
+    "loads?": [{"loadId?": text, "loadType?": text}],
     "actionStates": [
-        {"actionId": _text, "actionType?": _text, "actionStatus": _of(*STATUS)},
+        {"actionId": text, "actionType?": text, "actionStatus": word_of(*STATUS)},
     ],
-    "batteryState": {"batteryCharge": _number, "charging": _flag},
-    "operatingMode": _of(*MODES),
+    "batteryState": {"batteryCharge": number, "charging": flag},
+    "operatingMode": word_of(*MODES),
     "errors": [ERROR],
-    "information?": _list,
-    "safetyState": {"eStop": _of("AUTOACK", "MANUAL", "REMOTE", "NONE"), "fieldViolation": _flag},
+    "information?": array,
+    "safetyState": {
+        "eStop": word_of("AUTOACK", "MANUAL", "REMOTE", "NONE"),
+        "fieldViolation": flag,
+    },
 }
 FACTSHEET: Form = {
     **HEADER,
     "typeSpecification": {
-        "seriesName": _text,
-        "agvKinematic": _text,
-        "agvClass": _text,
-        "maxLoadMass": _number,
-        "localizationTypes": _list,
-        "navigationTypes": _list,
+        "seriesName": text,
+        "agvKinematic": text,
+        "agvClass": text,
+        "maxLoadMass": number,
+        "localizationTypes": array,
+        "navigationTypes": array,
     },
     "physicalParameters": {
-        "speedMin": _number,
-        "speedMax": _number,
-        "accelerationMax": _number,
-        "decelerationMax": _number,
-        "heightMax": _number,
-        "width": _number,
-        "length": _number,
+        "speedMin": number,
+        "speedMax": number,
+        "accelerationMax": number,
+        "decelerationMax": number,
+        "heightMax": number,
+        "width": number,
+        "length": number,
     },
-    "protocolLimits": _any,
+    "protocolLimits": anything,
     "protocolFeatures": {
-        "optionalParameters": [{"parameter": _text, "support": _text}],
-        "agvActions": [{"actionType": _text, "actionScopes": _list}],
+        "optionalParameters": [{"parameter": text, "support": text}],
+        "agvActions": [{"actionType": text, "actionScopes": array}],
     },
-    "agvGeometry": _any,
-    "loadSpecification": _any,
+    "agvGeometry": anything,
+    "loadSpecification": anything,
 }
 FORMS: dict[Kind, Form] = {
     Kind.STATE: STATE,
     Kind.CONNECTION: {
         **HEADER,
-        "connectionState": _of("ONLINE", "OFFLINE", "CONNECTIONBROKEN"),
+        "connectionState": word_of("ONLINE", "OFFLINE", "CONNECTIONBROKEN"),
     },
     Kind.VISUALIZATION: {**HEADER, "agvPosition?": POSE, "velocity?": VELOCITY},
     Kind.FACTSHEET: FACTSHEET,
@@ -140,7 +151,12 @@ def faults(kind: Kind, value: dict[str, Any] | None) -> list[str]:
     """Returns what is wrong with a message, a line each."""
     if value is None:
         return ["it is no JSON object"]
-    return [*_faults(FORMS[kind], value, "")]
+    return faults_of(FORMS[kind], value)
+
+
+def faults_of(form: Form, value: Any) -> list[str]:
+    """Returns in what a value differs from a form, a line each."""
+    return [*_faults(form, value, "")]
 
 
 def _faults(form: Any, value: Any, path: str) -> Iterator[str]:
@@ -149,7 +165,7 @@ def _faults(form: Any, value: Any, path: str) -> Iterator[str]:
     elif isinstance(form, dict):
         yield from _faults_of_object(form, value, path)
     elif not form(value):
-        yield f"{path} is {value!r:.60}; {form.__name__[1:]} was expected"
+        yield f"{path} is {value!r:.60}; {form.__name__} was expected"
 
 
 def _faults_of_list(form: Form, value: Any, path: str) -> Iterator[str]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,8 @@ from warehouse_vda5050.topics import Kind
 @dataclass(frozen=True)
 class Entry:
     """A message. time: since the run began [s]. value: with the names of 2.1.0, None if it is no
-    JSON object. sent: by us, to the vehicle. qos and retained: as the broker delivered it."""
+    JSON object. sent: by us. qos and retained: as the broker delivered it. Where we play vehicles:
+    which one it is of, the facts of the scene when it came, and whether the vehicle missed it."""
 
     time: float
     kind: Kind
@@ -24,6 +25,14 @@ class Entry:
     sent: bool = False
     qos: int = 0
     retained: bool = False
+    vehicle: str = ""
+    scene: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    missed: bool = False
+
+    @property
+    def topic(self) -> str:
+        """The kind of message, with its vehicle if there are several."""
+        return f"{self.vehicle}/{self.kind.value}" if self.vehicle else self.kind.value
 
     @property
     def text(self) -> str:
@@ -42,11 +51,11 @@ class Log:
         self.entries.append(entry)
 
     def heard(self, kind: Kind, since: int = 0) -> Iterator[Entry]:
-        """Yields the messages of the vehicle of one kind, from number `since` on."""
+        """Yields the messages of the other side of one kind, from number `since` on."""
         return (e for e in self.entries[since:] if e.kind is kind and not e.sent)
 
     def values(self, kind: Kind, since: int = 0) -> list[dict[str, Any]]:
-        """Returns the readable messages of the vehicle of one kind."""
+        """Returns the readable messages of the other side of one kind."""
         return [e.value for e in self.heard(kind, since) if e.value is not None]
 
     def last(self, kind: Kind) -> dict[str, Any] | None:
@@ -67,7 +76,7 @@ class Log:
             json.dumps(
                 {
                     "time": round(entry.time, 3),
-                    "topic": entry.kind.value,
+                    "topic": entry.topic,
                     "direction": "sent" if entry.sent else "received",
                     "payload": entry.text,
                 }

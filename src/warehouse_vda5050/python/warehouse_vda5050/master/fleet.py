@@ -8,7 +8,13 @@ from warehouse_vda5050.master.commands import Cancel, Command, Stop
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow, shadow_of
-from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
+from warehouse_vda5050.model import (
+    Connection,
+    Factsheet,
+    InstantActions,
+    VehicleOrder,
+    VehicleState,
+)
 from warehouse_vda5050.topics import Identity
 
 ALL = 0  # the number that stands for every robot in a Stop
@@ -39,13 +45,17 @@ class RemoteFleet:
         elif kiva_id in self._vehicles:
             self._vehicles[kiva_id].command(command)
 
-    def take(self, identity: Identity, message: VehicleState | Connection, now: float) -> None:
+    def take(
+        self, identity: Identity, message: VehicleState | Connection | Factsheet, now: float
+    ) -> None:
         """Takes a vehicle's message; drops those of vehicles that are in no file."""
         vehicle = self._by_identity.get(identity)
         if vehicle is None:
             return
         if isinstance(message, VehicleState):
             vehicle.take_state(message, now)
+        elif isinstance(message, Factsheet):
+            vehicle.take_factsheet(message)
         else:
             vehicle.take_connection(message.state, now)
 

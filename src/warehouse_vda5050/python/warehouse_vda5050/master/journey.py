@@ -35,6 +35,7 @@ class Journey:
     actions: tuple[Action, ...] = ()  # at the last point
     lift: Lift | None = None  # that it is made for
     heading: float | None = None  # of a path that is to put the vehicle straight [rad]
+    max_nodes: int = 1000  # of one message; what is beyond comes in the next
 
     def change(self, command: Follow) -> None:
         """Applies a command's releases and plan. Raises RefusedError, with nothing changed."""
@@ -67,6 +68,11 @@ class Journey:
         return self.sent is not None
 
     @property
+    def is_known(self) -> bool:
+        """Whether the vehicle was sent anything of it."""
+        return self.update >= 0
+
+    @property
     def is_whole(self) -> bool:
         """Whether the vehicle has all of the path, and all of it is released."""
         whole = self.released == len(self.points)
@@ -80,6 +86,7 @@ class Journey:
         self.had = (self.sent.base[-1].sequence // 2) + 1
         self.had_update, self.end = update, self.sent.nodes[-1].sequence
         self.sent = None
+        self.is_changed |= self.had < self.released
         return True
 
     def is_cut_short(self, update: int, sequence: int) -> bool:
@@ -100,8 +107,9 @@ class Journey:
             return None
         self.update += 1
         first = max(0, self.had - 1)
-        nodes = tuple(self._node(i, place) for i in range(first, len(self.points)))
-        edges = tuple(self._edge(i, place) for i in range(first, len(self.points) - 1))
+        last = min(len(self.points), first + max(2, self.max_nodes))
+        nodes = tuple(self._node(i, place) for i in range(first, last))
+        edges = tuple(self._edge(i, place) for i in range(first, last - 1))
         self.sent = VehicleOrder(self.order_id, self.update, nodes, edges)
         self.is_changed = False
         return self.sent

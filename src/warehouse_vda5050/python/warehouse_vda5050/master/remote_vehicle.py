@@ -23,6 +23,7 @@ from warehouse_vda5050.model import (
     Action,
     ActionStatus,
     ConnectionState,
+    Factsheet,
     InstantActions,
     Position,
     VehicleOrder,
@@ -101,6 +102,7 @@ class RemoteVehicle:
         self._sent_at, self._times = 0.0, 0
         self._refusals, self._not_before = 0, 0.0  # in a row, and until when nothing is ordered
         self._fatal: frozenset[str] = frozenset()  # of its last state
+        self._sheet: Factsheet | None = None
         self._events: list[Happened] = []
         self.load = 0  # the number of the unit that it carries
         self.path_id = self.reached = 0
@@ -134,6 +136,10 @@ class RemoteVehicle:
         if was_there:
             self._check_place(jumped(before, self.view.pose, now - heard_at))
         self._end_foreign(state)
+
+    def take_factsheet(self, sheet: Factsheet) -> None:
+        """Adapts orders to come to what the vehicle can."""
+        self._sheet = sheet
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Notes whether the vehicle is connected."""
@@ -227,9 +233,22 @@ class RemoteVehicle:
 
     def _action(self, kind: str, unit: int) -> Action:
         values = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
+        if names := self._parameters_of(kind):
+            values = {name: value for name, value in values.items() if name in names}
         parameters = tuple({**values, **self.robot.action_parameters}.items())
         name = f"{self._run}-{self.robot.number}-a{self._count}"
         return Action(kind, name, parameters=parameters)
+
+    def _parameters_of(self, kind: str) -> tuple[str, ...]:
+        """Returns the parameters that the factsheet has for an action at nodes; none if it says
+        nothing of actions. Raises RefusedError if it has others alone."""
+        actions = self._sheet.actions if self._sheet else ()
+        if not actions:
+            return ()
+        fit = [action for action in actions if action.type == kind and "NODE" in action.scopes]
+        if not fit:
+            raise RefusedError(f"its factsheet has no {kind} at nodes")
+        return tuple(name for name, *_ in fit[0].parameters)
 
     def _go_to(self, phase: Phase) -> None:
         """Enters a phase. Raises ValueError where it does not follow."""
@@ -240,6 +259,8 @@ class RemoteVehicle:
     def _begin(self, way: Journey, text: str) -> None:
         self._go_to(Phase.UNDER_WAY)
         self._journey, self._times = way, 0
+        if self._sheet:
+            way.max_nodes = self._sheet.max_nodes
         self.last_end = None
         self._happened(EventKind.ACCEPTED, text, way.lift.shelf_id if way.lift else 0)
 
@@ -258,9 +279,13 @@ class RemoteVehicle:
             )
 
     def _cancel(self) -> None:
-        if self._phase is Phase.UNDER_WAY:
-            self._go_to(Phase.CANCELLING)
-            self._ask_to_cancel()
+        if self._phase is not Phase.UNDER_WAY:
+            return
+        if self._journey and not self._journey.is_known:
+            self._end(EventKind.DONE, "cancelled")  # there is nothing that the vehicle could cancel
+            return
+        self._go_to(Phase.CANCELLING)
+        self._ask_to_cancel()
 
     def _clear(self) -> None:
         """Has the vehicle forget an order that belongs to no command."""
@@ -304,19 +329,27 @@ class RemoteVehicle:
             return None
         if way.awaits_answer:
             return self._again(way, now)
-        if now < self._not_before:
+        if now < max(self._not_before, self._sent_at + self._order_interval):
+            return None
+        if not way.is_known and (why := self.view.why_not):
+            self._end(EventKind.BLOCKED, why)
             return None
         order = way.next_order(self._place)
         if order is not None:
             self._sent_at, self._times = now, 0
         return order
 
+    @property
+    def _order_interval(self) -> float:
+        """The least time between two orders [s]."""
+        return self._sheet.order_interval if self._sheet else 0.0
+
     def _again(self, way: Journey, now: float) -> VehicleOrder | None:
         """Returns the last order once more, if that is due.
 
         An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
         """
-        if now < self._sent_at + RESEND:
+        if now < self._sent_at + max(RESEND, self._order_interval):
             return None
         self._sent_at, self._times = now, self._times + 1
         if self._times % ASKS_AFTER == 0:

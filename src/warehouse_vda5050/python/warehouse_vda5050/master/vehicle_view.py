@@ -106,4 +106,4 @@ class VehicleView:
             return "it does not know where it is"
         if not self.takes_orders:
             return f"its operating mode is {self.state.mode.value}"
-        return ""
+        return next((f"it reports {text}" for text in self.fatal), "")

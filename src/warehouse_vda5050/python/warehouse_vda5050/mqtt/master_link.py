@@ -6,13 +6,21 @@ from dataclasses import replace
 
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.headers import Headers
-from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
+from warehouse_vda5050.model import (
+    Connection,
+    Factsheet,
+    InstantActions,
+    VehicleOrder,
+    VehicleState,
+)
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
 from warehouse_vda5050.topics import Identity, Kind, TopicError, Topics
 from warehouse_vda5050.validation import MessageError
 
-HEARD = (Kind.CONNECTION, Kind.STATE)
+HEARD = (Kind.CONNECTION, Kind.STATE, Kind.FACTSHEET)
+KEPT = (Kind.CONNECTION, Kind.FACTSHEET)  # by brokers, for masters that come later
+FromVehicle = VehicleState | Connection | Factsheet
 
 
 class MasterLink:
@@ -29,7 +37,7 @@ class MasterLink:
         codec: Codec,
         topics: Topics,
         broker: BrokerSettings,
-        take: Callable[[Identity, VehicleState | Connection], None],
+        take: Callable[[Identity, FromVehicle], None],
         write: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self._codec, self._topics, self._take, self._write = codec, topics, take, write
@@ -49,7 +57,7 @@ class MasterLink:
     def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
         try:
             identity, kind = self._topics.parse(topic)
-            if retained and kind is not Kind.CONNECTION:
+            if retained and kind not in KEPT:
                 return  # left by an earlier run: the vehicle may be elsewhere
             message = self._codec.decode(kind, payload).message
         except (MessageError, TopicError) as error:

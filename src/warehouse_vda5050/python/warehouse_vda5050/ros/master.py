@@ -27,7 +27,8 @@ from warehouse_vda5050.master.fleet import RemoteFleet
 from warehouse_vda5050.master.remote_vehicle import Happened, RemoteVehicle
 from warehouse_vda5050.master.robots_file import RemoteRobot
 from warehouse_vda5050.master.shadow import Shadow
-from warehouse_vda5050.model import Connection, InstantActions, VehicleOrder, VehicleState
+from warehouse_vda5050.model import InstantActions, VehicleOrder
+from warehouse_vda5050.mqtt.master_link import FromVehicle
 from warehouse_vda5050.ros.commands import CommandTopics
 from warehouse_vda5050.ros.floor import grid_of, read_map
 from warehouse_vda5050.topics import Identity
@@ -64,7 +65,7 @@ class Master:
         numbers = frozenset(robot.number for robot in self._robots)
         CommandTopics(numbers, self._post_command, self._timeline)
 
-    def take(self, identity: Identity, message: VehicleState | Connection) -> None:
+    def take(self, identity: Identity, message: FromVehicle) -> None:
         """Takes a vehicle's message; called by poll()."""
         if self._fleet is not None:
             self._fleet.take(identity, message, time.monotonic())

@@ -260,6 +260,11 @@ class Vehicle:
         """Lets the next take_state() return a state in any case."""
         self._reporter.request()
 
+    def note_event(self, text: str) -> None:
+        """Keeps what befell the vehicle for its reports, and lets a state be sent."""
+        self.journal.write(text)
+        self.request_state()
+
     def request_factsheet(self) -> None:
         """Lets the next take_factsheet() return the factsheet."""
         self._reporter.request_factsheet()

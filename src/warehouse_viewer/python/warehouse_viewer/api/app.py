@@ -14,7 +14,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.routing import Match
 
 from warehouse_msgs.msg import Event, TransportEvent
-from warehouse_viewer.api import catalogue, description, routes
+from warehouse_viewer.api import catalogue, description, routes, zones_json
 from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.command_log import CommandLog, LogsCommands
@@ -77,7 +77,15 @@ class Viewer:
         simulation = Simulation(ros)
         describe = catalogue.plain_coordinator
         self.stop = EmergencyStop(ros)
-        source = Source(feed, simulation, self.journal, describe, self._explain, self._stopped)
+        source = Source(
+            feed,
+            simulation,
+            self.journal,
+            describe,
+            self._explain,
+            self._stopped,
+            zones_json.zones,
+        )
         model, shift = Model(), ShiftFeed(ros, self.changes)
         self.history = (
             LiveRecording(model, self.journal, LiveFigures(feed, shift).read, history)

@@ -30,6 +30,7 @@ class Situation(NamedTuple):
     commands: Sequence[Mapping[str, Any]]
     coordinator: CoordinatorState | None
     kpis: Kpis | None
+    zones: Sequence[Mapping[str, Any]] = ()
 
 
 def written(about: Situation, wall: str) -> str:
@@ -65,6 +66,10 @@ def _open(about: Situation) -> Iterator[str]:
     for alarm in about.alarms:
         who = f"seen by {alarm['seen_by']}" if alarm["seen_by"] else "seen by no one yet"
         yield f"{alarm['title']}: {alarm['text']}, for {span(about.now - alarm['since'])}; {who}"
+    for zone in about.zones:
+        by = f", by {zone['closed_by']}" if zone["closed_by"] else ""
+        until = "it is opened" if zone["until"] is None else clock(zone["until"])
+        yield f"Zone '{zone['reason']}' is closed until {until}{by}"
     state = about.coordinator
     if state:
         yield from _named("Out of service", state.out_of_service_kiva)

@@ -22,13 +22,22 @@ class TransportBook:
         """Adds what an event says of its transport; returns the transport's entry."""
         number, entry = event.transport_id, entry_of(event)
         with self._lock:
-            # A coordinator counts from 1; after a restart it has no earlier transports.
-            if event.kind == TransportEvent.RECEIVED and number in self._transports:
+            # A coordinator counts from 1; after a restart it has no earlier transports. One whose
+            # unit was put back, and waits, is the same.
+            if event.kind == TransportEvent.RECEIVED and not self._is_known(entry):
                 self._transports.clear()
             self._transports[number] = entry
             while len(self._transports) > self._kept:
                 del self._transports[min(self._transports)]
         return entry
+
+    def _is_known(self, entry: dict[str, Any]) -> bool:
+        """Returns whether a transport that was received is new, or the one of that number."""
+        known = self._transports.get(entry["id"])
+        same = ("storage_unit", "station")
+        return known is None or (
+            known["state"] in UNDER_WAY and all(known[name] == entry[name] for name in same)
+        )
 
     def get(self, number: int) -> dict[str, Any] | None:
         """Returns the transport of that number, or None."""

@@ -64,6 +64,7 @@ class Page:
         self.why = ""  # the robot or station of which it shows why it waits
         self.sent_why: dict[str, Any] | None = None
         self.coordinator = None  # the CoordinatorState that it was sent
+        self.zones = None  # the ClosedZones that it was sent
 
     async def send_json(self, message: Mapping[str, Any]) -> None:
         """Sends a message as compact JSON."""
@@ -253,6 +254,7 @@ class Hub:
             await page.socket.send_bytes(model.encode_update(since))
         await self._send_events(page)
         await self._send_fleet(page)
+        await self._send_zones(page)
         await self._send_extras(page)
         await self._send_why(page)
         if self._status and self._status != page.status:
@@ -276,6 +278,13 @@ class Hub:
         if ways and ways is not page.sent_ways:
             page.sent_ways = ways
             await page.socket.send_bytes(protocol.ways(ways, page.ways))
+
+    async def _send_zones(self, page: Page) -> None:
+        describe = self._source.describe_zones
+        zones = self._feed["zones"] if describe and self._feed.coordinator else None
+        if describe and zones is not page.zones:
+            page.zones = zones
+            await page.send_json({"type": "zones"} | describe(zones))
 
     async def _send_why(self, page: Page) -> None:
         explain = self._source.explain

@@ -103,7 +103,8 @@ class Source:
 
     `describe_coordinator` turns the feed's CoordinatorState into what JSON can say; a feed that
     never has one needs none. `explain` returns why a robot or station waits, or None; `stopped`
-    who holds the fleet by an emergency stop, or None.
+    who holds the fleet by an emergency stop, or None; `describe_zones` turns its ClosedZones into
+    what JSON can say.
     """
 
     feed: Feed
@@ -112,3 +113,4 @@ class Source:
     describe_coordinator: Callable[[Any], dict[str, Any]] | None = None
     explain: Callable[[str], dict[str, Any] | None] | None = None
     stopped: Callable[[], str | None] = lambda: None
+    describe_zones: Callable[[Any], dict[str, Any]] | None = None

@@ -5,7 +5,14 @@ from types import ModuleType
 from typing import Any
 
 from warehouse_client.message_names import MODE, THEN
-from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Tow, Transport
+from warehouse_msgs.srv import (
+    CloseZone,
+    OpenZone,
+    ReleaseTransport,
+    SetRobotMode,
+    Tow,
+    Transport,
+)
 from warehouse_viewer.page.source import RefusedError
 from warehouse_viewer.ros.simulation import is_offered, request
 
@@ -14,6 +21,8 @@ SERVICES = {
     ReleaseTransport: "warehouse/release_transport",
     SetRobotMode: "warehouse/set_robot_mode",
     Tow: "warehouse/tow",
+    CloseZone: "warehouse/close_zone",
+    OpenZone: "warehouse/open_zone",
 }
 NONE_RUNS = "no coordinator runs: start with coordinator:=true"
 _MODES = {name: number for number, name in MODE.items()}
@@ -67,6 +76,27 @@ class Coordination:
     def tow(self, robot: int) -> str:
         """Moves a broken robot to where it is in no robot's way; returns the answer's message."""
         return self._done(self._call(Tow, kiva_id=robot))
+
+    def close_zone(
+        self,
+        corners: tuple[float, float, float, float],
+        duration: float,
+        reason: str,
+        by: str,
+        check: bool,
+    ) -> tuple[int, list[str]]:
+        """Closes a zone, x1 y1 x2 y2 [m], for a duration [s], or checks what that would do. Returns
+        its number, 0 for none, and what waits for it."""
+        fields = dict(zip(("x1", "y1", "x2", "y2"), corners))
+        answer = self._call(
+            CloseZone, **fields, duration=duration, reason=reason, by=by, check=check
+        )
+        self._done(answer)
+        return answer.zone_id, list(answer.waits)
+
+    def open_zone(self, zone: int, by: str) -> str:
+        """Opens a zone; returns the coordinator's message."""
+        return self._done(self._call(OpenZone, zone_id=zone, by=by))
 
     def _call(self, kind: type, **fields: Any) -> Any:
         if not self.runs():

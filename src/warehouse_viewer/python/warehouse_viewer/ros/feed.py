@@ -16,6 +16,7 @@ from tf2_msgs.msg import TFMessage
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_client.message_check import fit, subscribe
 from warehouse_msgs.msg import (
+    ClosedZones,
     CoordinatorPaths,
     CoordinatorState,
     Event,
@@ -35,10 +36,11 @@ TOPICS = {
     "states": ("warehouse/unit_states", numpy_msg(UnitStates)),
     "scenery": ("warehouse/scenery", Scenery),
     "coordinator": ("warehouse/coordinator", CoordinatorState),
+    "zones": ("warehouse/zones", ClosedZones),
     "performance": ("gazebo/performance_metrics", PerformanceMetrics),
 }
 SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
-KEPT = ("fleet", "coordinator")  # always subscribed, because pages show their history
+KEPT = ("fleet", "coordinator", "zones")  # always subscribed, because pages show their history
 LINGER = 10.0  # subscriptions end this long after their last use [s, wall]
 
 
@@ -89,6 +91,11 @@ class Feed:
         behind = (fleet.stamp - state.header.stamp).to_sec()
         is_silent = min(behind, time.monotonic() - self._coordinated) > SILENT
         return None if is_silent and (state.automatic or not state.alarms) else state
+
+    @property
+    def zones(self) -> ClosedZones | None:
+        """The newest ClosedZones; None if no coordinator runs."""
+        return self["zones"] if self.coordinator else None
 
     def subscribe(self, names: Iterable[str] = tuple(TOPICS)) -> None:
         """Subscribes to these TOPICS, and keeps all subscriptions for another LINGER seconds."""

@@ -3,7 +3,9 @@
 
 Pieces per hour: nine tenths of what the open stations can do at most. Orders per hour: as many as
 come in. Late orders: one in fifty at most. Robots available, that is, neither in need of help nor
-commanded by a person nor out of service: nineteen in twenty.
+commanded by a person nor out of service: nineteen in twenty. Pieces and orders are those of the last
+quarter of an hour; a shift that is younger is early: until its first units have come it can't do
+what it will.
 """
 
 from __future__ import annotations
@@ -53,12 +55,15 @@ class Figures:
         """Returns the four figures as JSON; `throughput` a Throughput, `robots` how many
         there are."""
         bound = kpis.item_upper_bound_per_hour
+        early = throughput.end - throughput.begin < RECENT * throughput.interval
         times = [sample.time for sample in self._samples]
         return {
             "pieces": _figure(
-                *_rates(throughput, throughput.items_picked), PIECES_OF_BOUND * bound, bound
+                *_rates(throughput, throughput.items_picked), PIECES_OF_BOUND * bound, bound, early
             ),
-            "orders": _figure(*_rates(throughput, throughput.orders_completed), self._incoming()),
+            "orders": _figure(
+                *_rates(throughput, throughput.orders_completed), self._incoming(), early=early
+            ),
             "late": _figure(
                 kpis.late_orders_fraction, times, [s.late for s in self._samples], MOST_LATE
             ),
@@ -75,9 +80,15 @@ class Figures:
 
 
 def _figure(
-    value: float, times: Sequence[float], values: Sequence[float], target: float, of: float = 0.0
+    value: float,
+    times: Sequence[float],
+    values: Sequence[float],
+    target: float,
+    of: float = 0.0,
+    early: bool = False,
 ) -> dict[str, Any]:
     return {
+        "early": early,
         "value": round(value, 4),
         "target": round(target, 4),
         "of": round(of, 1),

@@ -20,6 +20,7 @@ from warehouse_viewer.watch.figures import Figures
 from warehouse_viewer.watch.reasons import Reasons
 from warehouse_viewer.watch.span_log import SpanLog
 from warehouse_viewer.watch.station_watch import StationWatch
+from warehouse_viewer.watch.zone_log import ZoneLog, held_units
 
 if TYPE_CHECKING:
     from warehouse_msgs.msg import CoordinatorState, FleetState, StationState
@@ -58,6 +59,7 @@ class Monitor:
         self.reasons = Reasons()
         self.stations, self._figures = StationWatch(), Figures()
         self._moments = troubles.Moments()
+        self._zone_log = ZoneLog()
         self._event = journal.last_id
         self._noted: dict[str, Any] = {}
         self._read: dict[str, Any] = {}  # the messages that were taken in last
@@ -110,8 +112,15 @@ class Monitor:
             self._note_spans(fleet, rows)
         starved = self.stations.starved
         self.reasons.update(
-            self.now, fleet, self._feed.coordinator, rows, starved, self._assigned()
+            self.now,
+            fleet,
+            self._feed.coordinator,
+            rows,
+            starved,
+            self._assigned(),
+            held_units(self._feed.zones),
         )
+        self._note_zones()
         self._note_alarms(fleet, rows)
         self._note_figures()
 
@@ -125,6 +134,15 @@ class Monitor:
         if stations:
             names = [station.name for station in stations]
             self.spans.update(self.now, "station", names, self.stations.states(stations))
+
+    def _note_zones(self) -> None:
+        """Adds what has happened to closed zones to the events."""
+        message = self._feed["zones"]
+        if message is None or message is self._read.get("zones"):
+            return
+        self._read["zones"] = message
+        for row in self._zone_log.news(message):
+            self._journal.add(row)
 
     def _note_alarms(self, fleet: FleetState, stations: Collection[Any]) -> None:
         for event in self._journal.since(self._event):

@@ -8,6 +8,7 @@ from bisect import bisect_right
 from collections import defaultdict, deque
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,6 +87,7 @@ class Reasons:
         self._errands: dict[int, tuple[int, str, int]] = {}  # unit, station, order by robot
         self._stations: dict[str, StationState] = {}
         self._starved: Mapping[str, float] = {}
+        self._held: Mapping[int, str] = {}
         self._robots: frozenset[int] = frozenset()
 
     def update(
@@ -96,12 +98,14 @@ class Reasons:
         stations: Iterable[StationState],
         starved: Mapping[str, float],
         assigned: Mapping[int, tuple[int, str]],
+        held: Mapping[int, str] = MappingProxyType({}),
     ) -> None:
         """Updates from the messages at `now` [s]. `starved`: since when stations with orders have
-        had no unit; `assigned`: the unit and the station of each robot with a transport."""
+        had no unit; `assigned`: the unit and the station of each robot with a transport;
+        `held`: why units wait for a closed zone."""
         if now < self._now:
             self._past = {}
-        self._now, self._starved = now, starved
+        self._now, self._starved, self._held = now, starved, held
         self._stations = {station.name: station for station in stations}
         self._take_fleet(fleet)
         self._take_coordinator(coordinator)
@@ -258,7 +262,8 @@ class Reasons:
             robot = next((r for r, errand in self._errands.items() if errand[0] == unit), 0)
         about: dict[str, Any] = {"unit": unit, "order": order}
         if not robot:
-            return Reason(name, f"waits for unit {unit}; no robot has it yet", since, **about)
+            why = self._held.get(unit, "no robot has it yet")
+            return Reason(name, f"waits for unit {unit}; {why}", since, **about)
         own = self.robot(robot)
         text = f"waits for unit {unit} on kiva{robot}"
         if unit not in self._carriers:

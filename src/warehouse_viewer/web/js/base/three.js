@@ -7,7 +7,7 @@ export const {
   DepthTexture, DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, FloatType, Frustum, Group,
   HemisphereLight, InstancedBufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer, InstancedMesh, InterleavedBufferAttribute, LineBasicMaterial, LineSegments, LinearFilter,
   LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
-  OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster,
+  OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster, RepeatWrapping,
   RingBufferGeometry, Scene, ShaderMaterial, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
   Vector3, VertexColors, WebGLRenderTarget, WebGLRenderer,
 } = window.THREE;

@@ -61,7 +61,7 @@ export const EVENTS = {
   [EventKind.LIFTED]: 'lifted', [EventKind.DROPPED]: 'put down', [EventKind.COLLISION]: 'collision', [EventKind.SPAWNED]: 'added',
   [EventKind.DELETED]: 'removed', [EventKind.LOST]: 'lost', [EventKind.FAILED]: 'broken', [EventKind.REPAIRED]: 'repaired',
   [EventKind.TIPPED]: 'tipped', [EventKind.FELL]: 'fell off', [EventKind.PICKED_UP]: 'picked up',
-  ALARM: 'alarm', ALARM_OVER: 'alarm over',
+  ALARM: 'alarm', ALARM_OVER: 'alarm over', ZONE_CLOSED: 'closed', ZONE_OPENED: 'opened', ZONE_ENDED: 'opened',
 };
 /** The state of an order; `at` precedes the name of its station. */
 export const ORDER_STATES = {

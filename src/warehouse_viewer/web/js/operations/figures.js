@@ -30,11 +30,12 @@ const SMALL = [
 const EXACT = 0.02; // of the target: as good as met
 const NEAR = 0.1; // the same: missed by little
 
-/** 'good', 'near' or 'missed', and the word for it; '' where there is no target. */
-export function verdict({ value, target }, most = false) {
+/** 'good', 'near' or 'missed', and the word for it; '' where there is no target, or it is too early to miss it. */
+export function verdict({ value, target, early = false }, most = false) {
   if (!target) return ['', ''];
   const miss = most ? value - target : (target - value) / target;
   if (miss <= (most ? 0 : EXACT)) return ['good', 'on target'];
+  if (early) return ['', 'the shift begins'];
   return miss <= (most ? target : NEAR) ? ['near', most ? 'just above target' : 'just below target'] : ['missed', most ? 'above target' : 'below target'];
 }
 

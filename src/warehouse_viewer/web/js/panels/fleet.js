@@ -43,7 +43,7 @@ export class FleetPanel {
   take(fleet) {
     this.fleet = fleet;
     document.body.classList.toggle('coordinated', this.runs);
-    for (const id of ['fleet-panel', 'fleet-tab', 'ways', 'heat']) $(id).hidden = !fleet;
+    for (const id of ['fleet-panel', 'fleet-tab', 'ways', 'heat', 'zone']) $(id).hidden = !fleet;
     if (!fleet) return;
     $('fleet-facts').replaceChildren(...factsOf(fleet).flatMap(([what, text]) => [
       make('dt', { textContent: what }), make('dd', { textContent: text })]));

@@ -7,7 +7,7 @@ const KEYS = {
   ' ': ['pause', 'pause or resume', 'space'], '.': ['step', 'one step'], z: ['undo', 'undo 5 s'],
   h: ['home', 'see all'], t: ['top', 'from above'], f: ['follow', 'follow the selected'],
   l: ['scan', 'its laser'], p: ['path', 'its path'], r: ['trails', 'trails of all'],
-  w: ['ways', 'routes of the fleet'], m: ['heat', 'heat map'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
+  w: ['ways', 'routes of the fleet'], m: ['heat', 'heat map'], o: ['zone', 'close a zone'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
   n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };

@@ -3,11 +3,23 @@
 
 const PICKER = ['seconds_a_piece', 'pickers'];
 
+const WORDS = {
+  picker: ({ station, ...set }) => [station, ...PICKER.map((key) => set[key]).filter((part) => part !== undefined)],
+  priority: ({ order, to }) => [order, to],
+};
+
+const VALUES = {
+  picker: ([station, ...numbers]) => ({ station, ...Object.fromEntries(numbers.map((number, i) => [PICKER[i] ?? `value ${i + 1}`, plain(number)])) }),
+  priority: (words) => ({ order: words.slice(0, -1).join(' '), to: plain(words.at(-1)) }),
+  policy: ([role, ...name]) => ({ [role]: name.join(' ') }),
+};
+
 /** The lines that say events. */
 export function linesOf(events = []) {
-  return events.map(({ at, for: duration, ...what }) => {
+  return events.flatMap(({ at, for: duration, ...what }) => {
     const [[kind, value]] = Object.entries(what);
-    const words = kind === 'picker' ? [value.station, ...PICKER.map((key) => value[key]).filter((part) => part !== undefined)] : [value];
+    if (kind === 'policy') return Object.entries(value).map(([role, name]) => [at, kind, role, name].join(' '));
+    const words = WORDS[kind]?.(value) ?? [value];
     return [at, kind, ...words, ...(duration === undefined ? [] : ['for', duration])].join(' ');
   });
 }
@@ -16,10 +28,7 @@ export function linesOf(events = []) {
 export function eventsOf(text) {
   return text.split('\n').map((line) => line.trim()).filter(Boolean).map((line) => {
     const [at, kind = '', ...words] = line.split(/\s+/);
-    if (kind === 'picker') {
-      const [station, ...numbers] = words;
-      return { at: plain(at), picker: { station, ...Object.fromEntries(numbers.map((number, i) => [PICKER[i] ?? `value ${i + 1}`, plain(number)])) } };
-    }
+    if (VALUES[kind] && words.length) return { at: plain(at), [kind]: VALUES[kind](words) };
     if (words.at(-2) === 'for') return { at: plain(at), [kind]: words.slice(0, -2).join(' '), for: plain(words.at(-1)) };
     return { at: plain(at), [kind]: words.join(' ') };
   });

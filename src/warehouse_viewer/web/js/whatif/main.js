@@ -9,6 +9,7 @@ import { Card } from './card.js';
 import { Comparison } from './comparison.js';
 import { Designs } from './designs.js';
 import { Form } from './form.js';
+import { FromNow } from './from_now.js';
 import { Intro, named } from './intro.js';
 import { Picks } from './picks.js';
 import { ask, pathOf, queryOf } from './server.js';
@@ -28,6 +29,7 @@ class Page {
     this.form = new Form(about, (...kept) => this.keep(...kept));
     this.intro = new Intro(about, (pairs) => this.attempt(() => this.start(pairs)));
     this.designs = new Designs(this);
+    this.fromNow = new FromNow();
     this.actions = this.makeActions();
     $('folder').textContent = `Kept in ${about.folder}`;
     $('draw-one').hidden = false;

@@ -93,6 +93,66 @@ TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
   }
 }
 
+TEST(Epibt, KeepsOutOfAZoneAndLeavesItWithoutEnteringAgain) {
+  Shift shift(blocks(5, 4, 2), 25, 1);
+  const int width = shift.floor.width(), row = 13;
+  std::vector<Cell> zone;
+  for (int y = row; y < row + 2; ++y) {
+    for (int x = 6; x < 12; ++x) zone.push_back(y * width + x);
+  }
+  const auto isInside = [&](Cell cell) {
+    return std::find(zone.begin(), zone.end(), cell) != zone.end();
+  };
+  // Two robots begin inside, in the middle, with neighbours that are closed on all sides.
+  const auto place = [&](int robot, Cell cell) {
+    const auto& cells = shift.fleet.cell;
+    if (std::find(cells.begin(), cells.end(), cell) == cells.end()) shift.fleet.cell[robot] = cell;
+  };
+  place(0, row * width + 8);
+  place(1, (row + 1) * width + 9);
+  shift.fleet.zone = zone;
+  std::vector<std::uint8_t> was(25);
+  for (int robot = 0; robot < 25; ++robot) was[robot] = isInside(shift.fleet.cell[robot]);
+  ASSERT_GT(std::count(was.begin(), was.end(), 1), 0);
+  for (int tick = 0; tick < 150; ++tick) {
+    for (int robot = 0; robot < 25; ++robot) {  // a goal inside would keep a robot there
+      if (isInside(shift.fleet.goal[robot])) shift.fleet.goal[robot] = kNowhere;
+    }
+    ASSERT_TRUE(shift.run(1)) << "the validator sees none that enters";
+    for (int robot = 0; robot < 25; ++robot) {
+      const bool is = isInside(shift.fleet.cell[robot]);
+      EXPECT_FALSE(is && !was[robot]) << "robot " << robot << " entered in tick " << tick;
+      was[robot] = is;
+    }
+  }
+}
+
+TEST(Epibt, LeavesTheMiddleOfAZoneAndDrivesAroundItFromOutside) {
+  FloorDescription open = drawn(std::vector<std::string>(7, "......."));
+  const Floor floor(open);
+  Fleet fleet;
+  fleet.cell = {3 * 7 + 3, 3 * 7};  // in the middle; beside the zone, with the goal beyond it
+  fleet.heading = {0, 0};
+  fleet.goal = {0, 3 * 7 + 6};
+  for (int y = 1; y < 6; ++y) {
+    for (int x = 1; x < 6; ++x) fleet.zone.push_back(y * 7 + x);
+  }
+  const auto planner = makeEpibt();
+  planner->start(floor, {}, 1);
+  Plan plan;
+  for (int tick = 0; tick < 40; ++tick) {
+    planner->plan(fleet, {}, plan);
+    EXPECT_TRUE(validate(floor, fleet, plan, {}).empty());
+    for (int robot = 0; robot < 2; ++robot) {
+      const GridPose state{fleet.cell[robot], fleet.heading[robot]};
+      const GridPose next = after(floor, state, plan.at(robot, 0));
+      fleet.cell[robot] = next.cell;
+      fleet.heading[robot] = next.heading;
+    }
+  }
+  EXPECT_EQ(fleet.cell, fleet.goal);
+}
+
 /// One-way streets: along the bottom, up the right side, back along the top, down the left side.
 FloorDescription loop() {
   FloorDescription floor = drawn({"....", ".##.", "...."});

@@ -89,6 +89,15 @@ TEST(Validator, SeesWallsStoragePlacesAndClosedCells) {
   EXPECT_EQ(is.violations(), "robot 0 would drive out of (3, 0) where there is no way (tick 0)\n");
 }
 
+TEST(Validator, SeesWhoEntersAZoneAndLetsThoseInsideDriveOut) {
+  PlanCase is;
+  is.robot(0, 0, {F});  // into it
+  is.robot(9, 0, {F});  // within, and the third out of it
+  is.robot(10, 0, {F});
+  is.fleet.zone = {1, 9, 10};
+  EXPECT_EQ(is.violations(), "robot 0 would drive out of (0, 0) where there is no way (tick 0)\n");
+}
+
 TEST(Validator, SeesLoadedRobotsTurnSideBySide) {
   PlanCase is;
   is.robot(0, 0, {P}, true);

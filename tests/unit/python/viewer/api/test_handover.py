@@ -54,3 +54,10 @@ def test_an_emergency_stop_comes_first():
 def test_without_a_shift_it_says_so():
     note = written(situation(kpis=None, coordinator=None, robots=(), stations=()), "")
     assert "- no shift is running" in note
+
+
+def test_closed_zones_are_named():
+    zone = {"reason": "spill", "closed_by": "Ann", "until": None}
+    note = written(situation(zones=[zone, zone | {"closed_by": "", "until": 3720.0}]), "")
+    assert "- Zone 'spill' is closed until it is opened, by Ann\n" in note
+    assert "- Zone 'spill' is closed until 1:02:00\n" in note

@@ -88,6 +88,9 @@ def test_four_figures_have_targets_and_their_last_hour():
     )
     four = figures.as_json(kpis, throughput, 0.9, 20)
     assert (four["pieces"]["value"], four["pieces"]["target"]) == (600, 900)
+    assert four["pieces"]["early"] and four["orders"]["early"] and not four["late"]["early"]
+    throughput.end = 900
+    assert not figures.as_json(kpis, throughput, 0.9, 20)["pieces"]["early"]
     assert len(four["pieces"]["values"]) == 10  # the interval that goes on is none yet
     assert four["orders"]["target"] == pytest.approx(360, abs=1)
     assert (four["late"]["value"], four["late"]["target"]) == (0.01, 0.02)

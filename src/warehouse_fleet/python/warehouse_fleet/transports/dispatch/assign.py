@@ -20,7 +20,7 @@ Matching = Callable[[list[Transport], np.ndarray], Iterable[tuple[Transport, int
 
 class Assignment:
     """Assigns robots to transports, as `match_robots` chooses. `kept` returns (n,) bool: robots
-    that get no work now."""
+    that get no work now; `waits` why a transport can't be done now, empty if it can."""
 
     def __init__(
         self,
@@ -30,9 +30,11 @@ class Assignment:
         journeys: Journeys,
         kept: Callable[[], np.ndarray],
         match_robots: Matching,
+        waits: Callable[[Transport], str],
     ) -> None:
         self._book, self._robots, self._units = book, robots, units
         self._journeys, self._kept, self._match_robots = journeys, kept, match_robots
+        self._waits = waits
 
     def run(self) -> None:
         """Gives open transports to robots without work, a few more than stations have room for."""
@@ -53,7 +55,9 @@ class Assignment:
         for transport in self._book.open:
             station = transport.station
             is_full = station and fetched[station] >= FETCHED
-            if not is_full and self._units.cell_of[transport.shelf] != NOWHERE:
+            if is_full or self._waits(transport):
+                continue
+            if self._units.cell_of[transport.shelf] != NOWHERE:
                 fetched[station] += 1
                 fetchable.append(transport)
         return fetchable

@@ -6,6 +6,7 @@ from collections.abc import Collection
 import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
+from warehouse_fleet.transports.contracts import Roads
 from warehouse_fleet.transports.dispatch.idle import idle_robots
 from warehouse_fleet.transports.distances import Distances
 from warehouse_fleet.transports.transport_book import TransportBook
@@ -25,8 +26,10 @@ class Clearing:
         robots: RobotTable,
         units: UnitMap,
         charging: Collection[int],
+        roads: Roads,
     ) -> None:
         self._aside, self._distances, self._book = aside, distances, book
+        self._roads = roads
         self._robots, self._units, self._charging = robots, units, charging
 
     def run(self) -> None:
@@ -47,7 +50,7 @@ class Clearing:
 
     def _free_places(self) -> np.ndarray:
         """Returns the cells with units beneath which no robot stands, or is to stand."""
-        free = self._units.stands & self._aside
+        free = self._units.stands & self._aside & ~self._roads.is_cut
         for cells in (self._robots.goal, self._robots.cell):
             free[cells[cells != NOWHERE]] = False
         return np.flatnonzero(free)

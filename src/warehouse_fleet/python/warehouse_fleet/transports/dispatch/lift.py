@@ -88,5 +88,8 @@ class LiftWatch:
         cell = int(self._robots.cell[transport.robot])
         self._streets.put_down(transport.shelf, cell, self._book.time)
         self._book.totals.stored += 1
+        if transport.is_put_back:
+            self._completion.put_back(transport)
+            return
         self._book.publish_event(transport, Kind.STORED)
         self._completion.end(transport)

@@ -7,6 +7,7 @@ import numpy as np
 
 from warehouse_fleet.robots.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.transports.completion import Completion
+from warehouse_fleet.transports.contracts import Roads
 from warehouse_fleet.transports.dispatch.idle import idle_robots
 from warehouse_fleet.transports.transport_book import TransportBook
 
@@ -26,7 +27,9 @@ class Parking:
         completion: Completion,
         charging: Collection[int],
         choose_cell: CellChoice,
+        roads: Roads,
     ) -> None:
+        self._roads = roads
         self._aside, self._book, self._robots = aside, book, robots
         self._completion, self._charging, self._choose_cell = completion, charging, choose_cell
 
@@ -46,7 +49,7 @@ class Parking:
 
     def _send(self, robot: int, cell: int | None) -> None:
         robots = self._robots
-        if cell is None or cell in robots.goal:
+        if cell is None or cell in robots.goal or self._roads.is_cut[cell]:
             return
         if cell != robots.cell[robot] and self._aside[cell]:
             robots.send(robot, cell)

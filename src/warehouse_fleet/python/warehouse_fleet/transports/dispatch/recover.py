@@ -94,7 +94,8 @@ class Recovery:
         """Chooses another place for units that can't get to theirs, which is closed."""
         for transport in self._book.assigned():
             is_away = self._robots.cell[transport.robot] != transport.place
-            if transport.step == STORING and transport.place in closed and is_away:
+            is_barred = transport.step == STORING and transport.place in closed and is_away
+            if is_barred and self._storing.has_place():
                 self._storing.store(transport)
 
     def store_abandoned(self) -> None:

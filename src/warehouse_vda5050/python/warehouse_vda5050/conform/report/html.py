@@ -82,4 +82,4 @@ def _messages(result: Result) -> str:
 def _message(entry: Entry) -> str:
     way = "sent" if entry.sent else "received"
     text = entry.text[:CHARACTERS] + (" …" if len(entry.text) > CHARACTERS else "")
-    return f"<pre>{entry.time:9.3f} s {way} {entry.kind.value} {escape(text)}</pre>"
+    return f"<pre>{entry.time:9.3f} s {way} {escape(entry.topic)} {escape(text)}</pre>"

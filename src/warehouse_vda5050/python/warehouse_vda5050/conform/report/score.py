@@ -31,7 +31,8 @@ class Score:
 
 @dataclass(frozen=True)
 class Run:
-    """What was tried, how, and what it came to. seconds: how long it took [s]."""
+    """What was tried, how, and what it came to. vehicle: or the master; seconds: how long it took
+    [s]."""
 
     vehicle: str
     version: str
@@ -55,6 +56,22 @@ class Run:
 
     def _count(self, chapter: str = "") -> Counter[Verdict]:
         return Counter(r.verdict for r in self.results if chapter in ("", r.case.chapter))
+
+
+CONFORMS, DIFFERS, NOT_TRIED = 0, 1, 2
+
+
+def exit_code(run: Run) -> int:
+    """Returns what the program ends with."""
+    if run.whole.counts[Verdict.DIFFERS]:
+        return DIFFERS
+    return NOT_TRIED if run.interrupted or not run.whole.tried else CONFORMS
+
+
+def line_of(count: int, total: int, result: Result) -> str:
+    """Returns the line of one case in the progress of a run."""
+    reason = f": {result.reason}" if result.reason else ""
+    return f"{count:3}/{total} {result.verdict.value:12} {result.case.id}{reason}"
 
 
 def lines(run: Run) -> list[str]:

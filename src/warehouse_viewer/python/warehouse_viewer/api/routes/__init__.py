@@ -16,6 +16,7 @@ from warehouse_viewer.api.routes import (
     stations,
     warehouse,
     watch,
+    zones,
 )
 
 router = APIRouter(prefix="/api/v1")
@@ -32,5 +33,6 @@ for _subject in (
     figures,
     forecasts,
     watch,
+    zones,
 ):
     router.include_router(_subject.router)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: its state, modes of robots, and transports."""
 
+from typing import Any
+
 from fastapi import APIRouter, Body, HTTPException, Path
 
 from warehouse_viewer.api import catalogue
@@ -12,6 +14,7 @@ from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     FleetStop,
     NewFailure,
+    NewFault,
     NewMode,
     NewTransport,
     Transport,
@@ -41,6 +44,17 @@ async def get_vda5050(backend: ApiBackend = BACKEND) -> object:
     return [
         robot for message in backend.feed.vda5050.messages for robot in catalogue.at_broker(message)
     ]
+
+
+@router.post("/vda5050/{number}/faults", response_model=Done, responses=problems(404, *SENT))
+async def begin_fault(
+    body: NewFault, number: int = NUMBER, backend: ApiBackend = BACKEND
+) -> object:
+    """Lets a robot that is a vehicle misbehave, by which an outside master is tried: its states are
+    lost, it jumps, it refuses orders. What the robot does is in the events."""
+    await backend.robot(number)
+    await backend.call(backend.feed.vda5050.begin_fault, number, body.fault, body.seconds)
+    return {"message": f"kiva{number}: {body.fault or 'no fault'}"}
 
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))
@@ -115,7 +129,8 @@ async def get_transports(
 ) -> object:
     """How far each is, the newest first; those since the viewer began."""
     rows = backend.transports.newest_first(state)
-    return {"total": len(rows), "transports": rows[offset : offset + limit]}
+    chosen = [_with_zone(row, backend) for row in rows[offset : offset + limit]]
+    return {"total": len(rows), "transports": chosen}
 
 
 @router.get("/transports/{number}", response_model=Transport, responses=problems(404))
@@ -124,7 +139,14 @@ async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) 
     row = backend.transports.get(number)
     if row is None:
         raise HTTPException(404, f"no transport {number}")
-    return row
+    return _with_zone(row, backend)
+
+
+def _with_zone(row: dict[str, Any], backend: ApiBackend) -> dict[str, Any]:
+    """Returns a transport with the closed zone that it waits for, if it does, as its text."""
+    message = backend.feed.zones
+    held = dict(zip(message.transport_id, message.why)) if message else {}
+    return row | {"text": held[row["id"]]} if row["id"] in held else row
 
 
 @router.post(

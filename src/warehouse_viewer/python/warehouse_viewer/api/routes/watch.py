@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import APIRouter, HTTPException, Path, Query
 from fastapi.responses import Response
 
+from warehouse_viewer.api import zones_json
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.handover import HOUR, Situation, written
 from warehouse_viewer.api.remedies import apply
@@ -129,6 +130,7 @@ async def _situation(backend: ApiBackend, hours: float) -> Situation:
         commands=backend.commands.rows(),
         coordinator=backend.feed.coordinator,
         kpis=shift["kpis"],
+        zones=zones_json.zones(backend.feed.zones)["zones"],
     )
 
 

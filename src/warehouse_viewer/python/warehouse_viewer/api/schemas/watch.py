@@ -112,6 +112,7 @@ class Figure(BaseModel):
 
     value: float
     target: float = Field(description="0: none is known yet")
+    early: bool = Field(description="the shift is younger than what the value is the mean of")
     of: float = Field(description="of which it is a part, such as the upper bound; 0: of nothing")
     times: list[float] = Field(description="of the values [s], simulated")
     values: list[float]

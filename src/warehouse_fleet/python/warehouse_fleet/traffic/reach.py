@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The part of a floor that a fleet still reaches while some of its cells are closed."""
+
+from collections.abc import Set as AbstractSet
+
+import numpy as np
+
+from warehouse_fleet.traffic.station_ways import StationWays
+from warehouse_layout import Floor
+from warehouse_layout.floor.floor_plan import FloorPlan
+
+NOWHERE = -1
+
+
+class Reach:
+    """The reach of a fleet on a FloorPlan while `closed` cells are barred: that of the largest
+    connected part of its streets. `is_cut`, (cells,) bool: closed, or no robot comes there with a
+    unit; `stations`: the names of those to which no unit can be brought and taken away."""
+
+    def __init__(
+        self, plan: FloorPlan, floor: Floor, ways: StationWays, closed: AbstractSet[int]
+    ) -> None:
+        self.is_cut = np.zeros(plan.passable.size, bool)
+        self.stations: frozenset[str] = frozenset()
+        if not closed:
+            return
+        self.is_cut[list(closed)] = True
+        ahead = np.asarray(floor.edges(True))
+        streets = (plan.passable & ~plan.storage & ~plan.parking & ~plan.lane).ravel()
+        self.is_cut |= streets & ~_largest_part(ahead, streets & ~self.is_cut)
+        self._cut_places(plan, ahead)
+        cut = frozenset(np.flatnonzero(self.is_cut).tolist())
+        self.stations = frozenset(s.name for s in plan.stations if ways.are_barred(s.name, cut))
+
+    def _cut_places(self, plan: FloorPlan, ahead: np.ndarray) -> None:
+        """Cuts off the storage places whose exits are all cut off."""
+        places = np.flatnonzero(plan.storage.ravel() & ~self.is_cut)
+        exits = ahead[places]
+        is_open = (exits != NOWHERE) & ~self.is_cut[exits]
+        self.is_cut[places[~is_open.any(1)]] = True
+
+
+def _largest_part(ahead: np.ndarray, streets: np.ndarray) -> np.ndarray:
+    """Returns (cells,) bool: the most `streets` that hang together, whichever way they lead."""
+    part = np.where(streets, np.arange(len(streets)), NOWHERE)
+    begin, heading = np.nonzero((ahead != NOWHERE) & streets[:, None])
+    end = ahead[begin, heading]
+    begin, end = begin[streets[end]], end[streets[end]]
+    while (part[begin] != part[end]).any():
+        least = np.minimum(part[begin], part[end])
+        np.minimum.at(part, begin, least)
+        np.minimum.at(part, end, least)
+        part[streets] = part[part[streets]]  # jumps to the head of the chain, which halves it
+    sizes = np.bincount(part[streets], minlength=1)
+    return streets & (part == sizes.argmax())
