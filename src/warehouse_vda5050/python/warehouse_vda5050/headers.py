@@ -40,6 +40,11 @@ class Headers:
         self._last = 0.0
         self._lock = threading.Lock()
 
+    def last(self, kind: Kind) -> int:
+        """Returns the headerId of the last message of a kind, 0 before the first."""
+        with self._lock:
+            return max(0, self._counts[kind] - 1) % UINT32
+
     def next(self, kind: Kind) -> Header:
         """Returns the header of the next message of a kind."""
         with self._lock:

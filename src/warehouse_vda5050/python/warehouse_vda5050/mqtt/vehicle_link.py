@@ -81,7 +81,8 @@ class VehicleLink:
             self._send(Kind.STATE, state)
         visualization = self.vehicle.take_visualization(now)
         if visualization:
-            self._send(Kind.VISUALIZATION, visualization)
+            shown = replace(visualization, state_id=self._headers.last(Kind.STATE))
+            self._send(Kind.VISUALIZATION, shown)
         factsheet = self.vehicle.take_factsheet()
         if factsheet:
             self._send(Kind.FACTSHEET, factsheet)

@@ -305,7 +305,8 @@ class Vehicle:
         if order is None or order.cancelled or self.phase is Phase.CANCELLING:
             return self.complaints.all(self.report, ())
         fault = "" if self.is_free else self.wheels.fault
-        return self.complaints.all(self.report, of_order(order, fault, self.actions.failed))
+        failed = (*self.actions.failed, *self.actions.retriable)
+        return self.complaints.all(self.report, of_order(order, fault, failed))
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is due: at first, and on request."""
