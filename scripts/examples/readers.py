@@ -62,6 +62,8 @@ def read_yaml(example: Example) -> None:
     reader = next((read for mark, read in READERS.items() if mark in document), None)
     if reader is None and all(isinstance(key, int) for key in document):
         reader = _robots
+    if reader is None and isinstance(document, list):
+        reader = _faults
     if reader is None:
         raise ValueError(f"no reader is known for the keys {', '.join(map(str, document))}")
     with tempfile.TemporaryDirectory() as folder:
@@ -116,6 +118,12 @@ def _layers(file):
 
 def _robots(file):
     from warehouse_vda5050.master.robots_file import read
+
+    read(file)
+
+
+def _faults(file):
+    from warehouse_vda5050.faults.script import read
 
     read(file)
 

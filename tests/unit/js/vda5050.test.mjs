@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { factsOf, vda5050Of } from '../../../src/warehouse_viewer/web/js/panels/vda5050.js';
+import { factsOf, isVehicle, vda5050Of } from '../../../src/warehouse_viewer/web/js/panels/vda5050.js';
 
 const ROBOT = { id: 7, driven_by: 'OUTSIDE_MASTER', manufacturer: 'kiva', serial: '7', broker: 'host:1883',
   connection: 'ONLINE', driven: true, order: 'fetch', errors: ['orderError: off the floor'] };
@@ -16,6 +16,11 @@ test('a robot at a broker has its master, connection, order and errors', () => {
     ['order', 'fetch'],
     ['error', 'orderError: off the floor'],
   ]);
+});
+
+test('faults on demand are among its facts', () => {
+  const faulty = { ...ROBOT, errors: [], faults: ['lost', 'error:WARNING'] };
+  assert.deepEqual(factsOf(faulty).slice(-2), [['fault', 'lost'], ['fault', 'error:WARNING']]);
 });
 
 test('without an order it says so', () => {
@@ -37,6 +42,7 @@ test('the server is asked now and then; robots at no broker have no facts', asyn
   assert.deepEqual(vda5050Of(7, 0), []);
   await new Promise(setImmediate);
   assert.equal(vda5050Of(7, 10).length, 4);
+  assert.deepEqual([isVehicle(7), isVehicle(8)], [true, false]);
   assert.deepEqual(vda5050Of(8, 20), []);
   assert.equal(asked, 1);
   vda5050Of(7, 5000);

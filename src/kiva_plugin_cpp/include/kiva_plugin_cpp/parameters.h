@@ -48,6 +48,9 @@ class Parameters {
   /// Returns `count` finite numbers at `key`, separated by blanks, or `fallback`.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback) const;
 
+  /// Accepts `section` and all keys below it, whatever they are.
+  void ignore(const std::string& section) const;
+
   /// Returns the keys that were not read, except `robotNamespace`, which every plugin gets.
   std::vector<std::string> unread() const;
   /// Throws DescriptionError, with a list of the known keys, if there is an unread one.

@@ -195,6 +195,23 @@ struct PeopleRealism {
   static void fields(Self& /*s*/, Field /*field*/) {}
 };
 
+/// Motion of robots as it was measured, in place of what their models say.
+struct MotionRealism {
+  bool enabled = false;
+  double speed = 0;              ///< [m/s]; here and below 0: the model's own.
+  double acceleration = 0;       ///< And deceleration [m/s²].
+  double quarter_turn_time = 0;  ///< Time of a turn by 90°, from rest to rest [s].
+  double lift_time = 0;          ///< Time for the whole stroke [s].
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("speed", s.speed, 0, 10);
+    field("acceleration", s.acceleration, 0, 100);
+    field("quarter_turn_time", s.quarter_turn_time, 0, 1000);
+    field("lift_time", s.lift_time, 0, 1000);
+  }
+};
+
 struct Realism {
   LocalisationRealism localisation;
   LaserRealism lasers;
@@ -205,6 +222,7 @@ struct Realism {
   EnergyRealism energy;
   FailureRealism failures;
   PeopleRealism people;
+  MotionRealism motion;
 };
 
 /// Calls call(name, section) for each section of a Realism.
@@ -219,11 +237,13 @@ void forEachSection(R& realism, Call call) {
   call("energy", realism.energy);
   call("failures", realism.failures);
   call("people", realism.people);
+  call("motion", realism.motion);
 }
 
 /// Reads `prefix` + `section/name` for every number. A section is on if any of its numbers is
 /// there, or if the section itself is `true`; `false` switches it off. Other numbers keep their
-/// defaults. Throws DescriptionError for a text that is not a number, and a number out of range.
+/// defaults. The section `service` is of people at stations, whom shifts simulate: it is ignored.
+/// Throws DescriptionError for a text that is not a number, and a number out of range.
 /// Unknown keys are left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 

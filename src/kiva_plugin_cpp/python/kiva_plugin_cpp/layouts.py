@@ -52,6 +52,8 @@ def laid_out(
         raise ValueError("world: a layout names its own, as `building`")
     file = named if isinstance(named, LayoutFile) else layout_choice.chosen(named)
     layout_choice.check(file, robots)
+    if file.measured and options.get("realism") is None:
+        options = options | {"realism": file.beside_file(file.measured)}
     laid = placement.place(file, options.get("seed", SEED), robots)
     with tempfile.TemporaryDirectory() as made:
         yield file, laid, options | {"world": layout_world.world_of(file, made)}

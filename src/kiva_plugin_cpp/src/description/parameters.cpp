@@ -103,6 +103,12 @@ std::vector<double> Parameters::numbers(const std::string& key,
                          "', expected " + std::to_string(fallback.size()) + " numbers");
 }
 
+void Parameters::ignore(const std::string& section) const {
+  for (const auto& [key, text] : values_) {
+    if (key == section || key.rfind(section + "/", 0) == 0) read_.insert(key);
+  }
+}
+
 std::vector<std::string> Parameters::unread() const {
   std::vector<std::string> out;
   for (const auto& [key, text] : values_) {

@@ -37,6 +37,7 @@ Realism readRealism(const Parameters& parameters, const std::string& prefix) {
       section.enabled = parameters.flag(key, is_given);
     }
   });
+  parameters.ignore(prefix + "service");
   return out;
 }
 

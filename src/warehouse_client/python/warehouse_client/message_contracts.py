@@ -86,9 +86,11 @@ _WAREHOUSE = {
         ),
         kinds={"doing": _DOING},
     ),
-    # Robots behind a broker have their events from the node that drives them.
+    # Robots behind a broker have events from the nodes of VDA 5050, too.
     "Event": Contract(
-        source=_WORLD, beside=frozenset({"vda5050_master"}), kinds={"kind": message_names.EVENT}
+        source=_WORLD,
+        beside=frozenset({"vda5050_master", "vda5050_vehicles"}),
+        kinds={"kind": message_names.EVENT},
     ),
     "FleetFollow": Contract(
         tables=("kiva_id path_id first points released", "x y"), totals={"x": ("points",)}
@@ -161,7 +163,7 @@ _WAREHOUSE = {
     "TransportEvent": Contract(source=_FLEET, kinds={"kind": message_names.TRANSPORT}),
     "UnitStates": Contract(source=_WORLD, tables=("carrier pose:7", "loose_item loose_pose:7")),
     "Vda5050": Contract(
-        tables=("kiva_id manufacturer serial connection order errors driven",),
+        tables=("kiva_id manufacturer serial connection order errors driven faults",),
         kinds={
             "direction": {Vda5050.VEHICLE: "VEHICLE", Vda5050.MASTER: "MASTER"},
             "connection": {

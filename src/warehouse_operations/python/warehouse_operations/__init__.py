@@ -23,6 +23,7 @@ Rooms, from the lowest; a module imports from its own room and from lower ones:
     sizing    numbers of robots and stations for a wish or a day, with costs
     design    layouts that a search finds
     forecast  what comes of a shift that runs, by many runs ahead
+    calibrate  what recordings say of robots and stations
     ros       the nodes
 """
 

@@ -57,6 +57,7 @@ def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
         message.order.append(order.id if order and not vehicle.is_free else "")
         message.errors.append(_text(vehicle.errors()))
         message.driven.append(vehicle.is_taken)
+        message.faults.append(link.faults.active.names)
     return message
 
 
@@ -76,6 +77,7 @@ def masters_message(vehicles: Iterable[RemoteVehicle], broker: str, now: float) 
         message.order.append(vehicle.order_id)
         message.errors.append(_text(view.state.errors if view.state else ()))
         message.driven.append(not vehicle.is_idle)
+        message.faults.append("")
     return message
 
 

@@ -29,7 +29,8 @@ class Report:
     moving: it drives or turns. refusal: why its last command was refused or broke off, '' if it was
     not; it holds until the next command. blocked: something is in its way. heard: its radio reaches
     us; otherwise all other fields are of its last report. silent: why nothing is heard of it
-    although its radio works, such as a program that ended; '' if it is heard.
+    although its radio works, such as a program that ended; '' if it is heard. declines: why it
+    takes no orders and updates now, '' if it does.
     """
 
     x: float
@@ -52,6 +53,7 @@ class Report:
     mode: OperatingMode = OperatingMode.AUTOMATIC
     errors: tuple[Error, ...] = ()  # what is broken
     silent: str = ""
+    declines: str = ""
 
     @property
     def answers(self) -> bool:

@@ -31,6 +31,7 @@ class ErrorType(StrEnum):
     LASER = "laserError"
     BATTERY = "batteryEmpty"
     WHEELS = "wheelSlip"
+    DEMANDED = "faultOnDemand"  # of a vehicle whose master is tried
     SILENT = "robotSilent"  # nothing is heard of the robot although its radio works
 
 

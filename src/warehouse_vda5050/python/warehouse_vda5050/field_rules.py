@@ -103,7 +103,7 @@ ACTION = (
     Rule("actionDescriptor", Use.SHOWN, ""),
     Rule("blockingType", Use.DRIVEN, "lifting and charging hold the robot in any case"),
     Rule("actionParameters", Use.CHECKED, "those of the factsheet; others are refused"),
-    Rule("retriable", Use.REFUSED, "3.0.0: a failed action is not tried again; false is let pass"),
+    Rule("retriable", Use.DRIVEN, "3.0.0: if it fails it waits for retry or skipRetry"),
 )
 INSTANT_ACTIONS = (
     Rule("actions", Use.DRIVEN, "at most 20 a message; instantActions means the same"),

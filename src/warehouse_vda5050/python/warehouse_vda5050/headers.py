@@ -19,6 +19,11 @@ def iso(seconds: float) -> str:
     return moment.strftime("%Y-%m-%dT%H:%M:%S.") + f"{moment.microsecond // 1000:03d}Z"
 
 
+def shifted(timestamp: str, seconds: float) -> str:
+    """Returns a time of iso(), some seconds later."""
+    return iso(datetime.fromisoformat(timestamp).timestamp() + seconds)
+
+
 class Headers:
     """Makes the headers of one vehicle's messages, whichever side sends them.
 
@@ -34,6 +39,11 @@ class Headers:
         self._counts: Counter[Kind] = Counter()
         self._last = 0.0
         self._lock = threading.Lock()
+
+    def last(self, kind: Kind) -> int:
+        """Returns the headerId of the last message of a kind, 0 before the first."""
+        with self._lock:
+            return max(0, self._counts[kind] - 1) % UINT32
 
     def next(self, kind: Kind) -> Header:
         """Returns the header of the next message of a kind."""

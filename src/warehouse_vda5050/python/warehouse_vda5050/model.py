@@ -32,6 +32,7 @@ class ActionStatus(StrEnum):
     INITIALIZING = "INITIALIZING"
     RUNNING = "RUNNING"
     PAUSED = "PAUSED"
+    RETRIABLE = "RETRIABLE"  # it failed, and waits for retry or skipRetry; 3.0 alone has it
     FINISHED = "FINISHED"
     FAILED = "FAILED"
 
@@ -257,11 +258,13 @@ class Connection:
 
 @dataclass(frozen=True)
 class Visualization:
-    """Position and speed alone, for pictures."""
+    """Position and speed alone, for pictures. state_id: headerId of the state before it; 3.0 alone
+    has it."""
 
     position: AgvPosition | None = None
     velocity: Velocity | None = None
     header: Header = Header()
+    state_id: int = 0
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,13 @@
 
 import random
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from warehouse_vda5050.codec import Codec
+from warehouse_vda5050.faults.kinds import FaultError, FaultRequest
+from warehouse_vda5050.faults.vehicle_faults import VehicleFaults
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.model import Factsheet
 from warehouse_vda5050.mqtt.loop import MqttLoop
@@ -31,13 +34,19 @@ class SiteSettings:
 
 
 class Vehicles:
-    """The vehicles of one warehouse by their robots' numbers."""
+    """The vehicles of one warehouse by their robots' numbers. happened(kiva_id, text, begins) is
+    called when a fault on demand begins or ends."""
 
-    def __init__(self, world: World, settings: SiteSettings) -> None:
+    def __init__(
+        self,
+        world: World,
+        settings: SiteSettings,
+        happened: Callable[[int, str, bool], None] = lambda _id, _text, _begins: None,
+    ) -> None:
         self.loop = MqttLoop()
         self.links: dict[int, VehicleLink] = {}
         self._drivers: dict[int, SimulatedDriver] = {}
-        self._world, self._settings = world, settings
+        self._world, self._settings, self._happened = world, settings, happened
         self._grid: Grid | None = None
         # No path has the number of one of an earlier run.
         self._first_path = random.randrange(1, 1 << 31)
@@ -75,11 +84,25 @@ class Vehicles:
                 if is_new or not link.rests(now):
                     link.tick(now)
 
+    def begin_fault(self, kiva_id: int, request: FaultRequest) -> None:
+        """Lets a vehicle misbehave, or ends that. Raises FaultError."""
+        self.check(kiva_id)
+        self.links[kiva_id].faults.active.begin(request, time.monotonic())
+
+    def check(self, kiva_id: int) -> None:
+        """Raises FaultError unless the robot is a vehicle."""
+        numbers = sorted([*self.links])
+        if kiva_id not in numbers:
+            more = f" and {len(numbers) - 10} more" if len(numbers) > 10 else ""
+            names = ", ".join(f"kiva{number}" for number in numbers[:10])
+            raise FaultError(f"kiva{kiva_id} is no vehicle; vehicles are {names or 'none'}{more}")
+
     def _add(self, kiva_id: int, grid: Grid) -> None:
         settings = self._settings
         driver = SimulatedDriver(kiva_id, self._world, Factsheet(description="simulated robot"))
+        faults = VehicleFaults(driver, lambda text, begins: self._note(kiva_id, text, begins))
         vehicle = Vehicle(
-            driver,
+            faults.driver,
             grid,
             VehicleSettings(
                 moving=settings.moving,
@@ -91,9 +114,15 @@ class Vehicles:
             ),
         )
         identity = Identity(settings.manufacturer, str(kiva_id))
-        link = VehicleLink(vehicle, identity, settings.codec, settings.topics, settings.broker)
+        link = VehicleLink(
+            vehicle, identity, settings.codec, settings.topics, settings.broker, faults
+        )
         self._drivers[kiva_id], self.links[kiva_id] = driver, link
         self.loop.add(link.link)
+
+    def _note(self, kiva_id: int, text: str, begins: bool) -> None:
+        self.links[kiva_id].vehicle.note_event(text)
+        self._happened(kiva_id, text, begins)
 
     def _remove(self, kiva_id: int) -> None:
         self.links.pop(kiva_id).close()

@@ -7,6 +7,7 @@ import rospy
 
 from warehouse_vda5050.arguments import BrokerArguments, home, own_broker, read_arguments
 from warehouse_vda5050.broker_topic import BrokerTopic, vehicles_message
+from warehouse_vda5050.ros.fault_desk import FaultDesk, read_script
 from warehouse_vda5050.vehicles import SiteSettings, Vehicles
 from warehouse_vda5050.world_link import WorldLink
 
@@ -20,6 +21,7 @@ class VehiclesNode:
         arguments: BrokerArguments = read_arguments(rospy.get_param)
         self._stack = contextlib.ExitStack()
         self._stopping = False
+        script = read_script(str(rospy.get_param("~faults", "")))
         broker, self._address = own_broker(arguments, self._stack)
         settings = SiteSettings(
             str(rospy.get_param("~manufacturer", "kiva")),
@@ -32,7 +34,8 @@ class VehiclesNode:
         )
         rospy.loginfo(f"vehicles of VDA 5050 {arguments.codec.version} at {self._address}")
         self._world = WorldLink()
-        self._vehicles = Vehicles(self._world, settings)
+        self._vehicles = Vehicles(self._world, settings, self._world.happened)
+        self._faults = FaultDesk(self._vehicles, script)
         self._topic = BrokerTopic()
 
     def stop(self, *_: object) -> None:
@@ -52,4 +55,5 @@ class VehiclesNode:
         world = self._world
         if world.read_floor() and world.grid:
             self._vehicles.set_grid(world.grid)
+        self._faults.update()
         self._vehicles.update(world.sightings(), world.take_refusals(), world.silence)

@@ -60,6 +60,7 @@ class WorldLink:
         }
         self._taken: dict[str, int] = rospy.get_param("~taken", {})  # by an earlier run
         self._mode = rospy.ServiceProxy(SET_MODE, SetRobotMode)
+        self._events = rospy.Publisher("warehouse/events", Event, queue_size=1000)
         follow = rospy.Subscriber
         follow("warehouse/events", Event, self._on_event, queue_size=10000)
         follow("warehouse/people", People, self._on_people, queue_size=1)
@@ -198,6 +199,13 @@ class WorldLink:
         except (rospy.ServiceException, rospy.ROSException, OSError):
             return ""  # it ends just now
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
+
+    def happened(self, kiva_id: int, text: str, begins: bool) -> None:
+        """Publishes the beginning or the end of a fault on demand on /warehouse/events."""
+        message = Event(kind=Event.FAILED if begins else Event.REPAIRED, model=f"kiva{kiva_id}")
+        message.header.stamp, message.text = rospy.Time.now(), text
+        with contextlib.suppress(rospy.ROSException):
+            self._events.publish(message)
 
     def note_taken(self, kiva_id: int, before: int | None) -> None:
         """Keeps as a parameter of this node, which outlives it, what mode a robot had before it was

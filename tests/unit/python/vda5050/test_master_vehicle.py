@@ -8,6 +8,7 @@ import pytest
 
 from warehouse_layout.message_enums import FailureKind, Status
 from warehouse_layout.message_enums import State as Does
+from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.errors import Error, ErrorLevel
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.master.commands import Cancel, Follow, Lift, Other, Stop
@@ -20,15 +21,17 @@ from warehouse_vda5050.model import (
     ActionStatus,
     AgvPosition,
     ConnectionState,
+    Factsheet,
     Header,
     InstantActions,
     Load,
     NodeState,
     OperatingMode,
+    SupportedAction,
     VehicleOrder,
     VehicleState,
 )
-from warehouse_vda5050.topics import Identity
+from warehouse_vda5050.topics import Identity, Kind
 
 GRID = Grid(-5, -5, 1.0, 20, 20)
 ROBOT = RemoteRobot(21, Identity("acme", "7"), action_parameters={"stationType": "floor-1"})
@@ -521,3 +524,90 @@ def _event_kinds():
     from warehouse_layout.message_enums import EventKind as Kinds  # noqa: PLC0415
 
     return Kinds
+
+
+# --- factsheets
+
+
+def test_an_order_has_no_more_nodes_than_the_factsheet_allows_and_the_rest_comes_next():
+    bench = Bench()
+    bench.vehicle.take_factsheet(Factsheet(max_nodes=3))
+    bench.vehicle.command(Follow(1, 0, WAY, 4))
+    first = bench.order()
+    assert [node.sequence for node in first.nodes] == [0, 2, 4]
+    bench.take(first)
+    second = bench.order()
+    assert [node.sequence for node in second.nodes] == [4, 6]
+    assert all(node.released for node in (*first.nodes, *second.nodes))
+    bench.take(second, at=6)
+    assert bench.vehicle.is_idle and bench.events()[-1][0] == "DONE"
+
+
+def test_a_factsheet_that_comes_under_way_holds_for_the_updates():
+    bench = Bench()
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    first = bench.order()
+    assert len(first.nodes) == 4
+    bench.take(first)
+    bench.vehicle.take_factsheet(Factsheet(max_nodes=2))
+    bench.vehicle.command(Follow(1, 0, (), 3))
+    assert [node.sequence for node in bench.order().nodes] == [2, 4]
+
+
+def test_orders_keep_the_interval_of_the_factsheet():
+    bench = Bench()
+    bench.now = 100.0
+    bench.vehicle.take_factsheet(Factsheet(order_interval=5.0))
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    bench.take(bench.order())
+    bench.vehicle.command(Follow(1, 0, (), 3))
+    assert not bench.sent(4.9)
+    assert bench.order(0.2).update == 1
+
+
+def test_a_lift_that_the_factsheet_lacks_is_refused_and_unknown_parameters_are_left_out():
+    bench = Bench(RemoteRobot(21, Identity("acme", "7")))
+    drop = SupportedAction("drop", ("NODE",))
+    bench.vehicle.take_factsheet(Factsheet(actions=(drop,)))
+    bench.vehicle.command(Lift(True, 7))
+    assert bench.events()[-1] == ("REFUSED", "its factsheet has no pick at nodes")
+    parameters = (("loadId", "STRING", True, ""),)
+    picks = SupportedAction("pick", ("NODE",), parameters=parameters)
+    bench.vehicle.take_factsheet(Factsheet(actions=(picks, drop)))
+    bench.vehicle.command(Lift(True, 7))
+    (action,) = bench.order().nodes[0].actions
+    assert action.parameters == (("loadId", "storage_unit7"),)
+
+
+def test_a_factsheet_without_limits_limits_nothing():
+    bench = Bench()
+    sheet = codec_for().decode(Kind.FACTSHEET, b"{}").message
+    bench.vehicle.take_factsheet(sheet)
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    assert len(bench.order().nodes) == 4
+
+
+# --- what it was never sent
+
+
+def test_a_path_that_the_vehicle_was_never_sent_is_cancelled_without_a_cancel_order():
+    bench = Bench()
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    bench.vehicle.command(Cancel())
+    assert bench.vehicle.is_idle and bench.events()[-1] == ("DONE", "cancelled")
+    assert not bench.sent(10.0)
+
+
+def test_a_path_for_a_vehicle_that_went_manual_before_ends_with_the_reason():
+    bench = Bench()
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    bench.tell(mode=OperatingMode.MANUAL)
+    assert not bench.sent()
+    assert bench.events()[-1] == ("BLOCKED", "its operating mode is MANUAL")
+
+
+def test_a_vehicle_with_a_fatal_error_is_sent_nothing():
+    bench = Bench()
+    bench.tell(errors=(Error("motorError", ErrorLevel.FATAL, "no torque"),))
+    bench.vehicle.command(Follow(1, 0, WAY, 2))
+    assert bench.events()[-1] == ("REFUSED", "it reports motorError: no torque")

@@ -3,6 +3,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 from grid_robot import Bench, is_over, order, pick, row
@@ -10,7 +11,7 @@ from test_fields import sent
 
 from warehouse_vda5050.codec import codec_for
 from warehouse_vda5050.errors import Predefined, former_type, precise_type
-from warehouse_vda5050.model import Action, OperatingMode
+from warehouse_vda5050.model import Action, ActionStatus, OperatingMode
 from warehouse_vda5050.topics import Kind
 
 CODEC = codec_for("3.0.0")
@@ -144,13 +145,56 @@ def test_the_mobile_robot_shall_not_ignore_the_field(edge, place, is_taken):
     assert (sent(Bench(), "3.0.0", edge, place).order_id == "o") is is_taken
 
 
-def test_a_retriable_action_is_refused():
+def with_retriable_pick(bench, cells):
+    """Sends an order whose pick, of a unit that is not there, may be retried."""
+    action = replace(pick(), retriable=True)
+    assert bench.order("o", cells, actions={1: [action]})
+    return bench.until(lambda s: [a for a in s.actions if a.status is ActionStatus.RETRIABLE])
+
+
+def status_of(state, id):
+    return next(a.status.value for a in state.actions if a.id == id)
+
+
+def test_an_action_that_failed_and_is_retriable_is_done_by_a_retry_and_the_order_goes_on():
+    """6.2.3.1, retry; 6.6.9."""
     bench = Bench()
-    value = CODEC.to_json(order("o", row(0, 1), actions={1: [pick()]}))
-    for retriable in (True, False):
-        value["nodes"][1]["actions"][0]["retriable"] = retriable
-        message, unknown = CODEC.decode(Kind.ORDER, json.dumps(value).encode())
-        assert bench.vehicle.on_order(message, bench.now, unknown) is not retriable
+    state = with_retriable_pick(bench, row(0, 2))
+    assert state.nodes and not state.driving
+    assert "may be retried" in state.errors[-1].description
+    bench.robot.units["7"] = bench.robot.cell
+    state = bench.instant("retry", actionId="p1")
+    assert status_of(state, "i1") == "FINISHED"
+    state = bench.until(is_over)
+    assert status_of(state, "p1") == "FINISHED" and state.last_node == "c2_0" and not state.errors
+
+
+def test_an_action_that_failed_and_is_skipped_has_failed():
+    """6.2.3.1, skipRetry."""
+    bench = Bench()
+    with_retriable_pick(bench, row(0, 1))
+    state = bench.instant("skipRetry", actionId="p1")
+    assert status_of(state, "p1") == "FAILED" and is_over(bench.tick())
+    assert status_of(bench.instant("retry", "i2", actionId="p1"), "i2") == "FAILED"
+
+
+def test_a_cancelled_order_leaves_nothing_to_be_retried():
+    """6.6.9, Table 12."""
+    bench = Bench()
+    with_retriable_pick(bench, row(0, 2))
+    state = bench.instant("cancelOrder")
+    assert status_of(state, "p1") == "FAILED"
+    assert is_over(bench.until(is_over))
+
+
+def test_versions_without_retriable_call_it_running():
+    bench = Bench()
+    state = with_retriable_pick(bench, row(0, 1))
+    words = {
+        version: codec_for(version).to_json(state)["actionStates"][0]["actionStatus"]
+        for version in ("2.1.0", "3.0.0")
+    }
+    assert words == {"2.1.0": "RUNNING", "3.0.0": "RETRIABLE"}
 
 
 def test_order_update_id_shall_start_at_0_for_a_new_order():

@@ -595,7 +595,7 @@ void describe(A& a, FloorPatch& p) {
 
 template <class A>
 void describe(A& a, Realism& r) {
-  DESCRIBED(Realism, 9);
+  DESCRIBED(Realism, 10);
   forEachSection(r, [&a](const char*, auto& section) {
     a(section.enabled);
     section.fields(section, limited(a));

@@ -157,6 +157,19 @@ void restartSteering(TaskView& world, int robot, const PlanarPose& counted) {
   setStatus(world, robot, Status::kBusy, State::kSteered);
 }
 
+/// Sets the motion that was measured, as far as it was.
+void setMotion(const WorldSettings& settings, Robot* robot) {
+  const MotionRealism& real = settings.realism.motion;
+  const auto set = [](double measured, double* value) {
+    if (measured > 0) *value = measured;
+  };
+  if (!real.enabled) return;
+  set(real.speed, &robot->drive.speed);
+  set(real.acceleration, &robot->drive.acceleration);
+  set(real.quarter_turn_time, &robot->drive.quarter_turn_time);
+  set(real.lift_time, &robot->lift.time);
+}
+
 /// Varies motors and tyres a little from the values in the file, by which plans are made.
 void setSpread(const WorldSettings& settings, Robot* robot) {
   constexpr double kMost = 3;  // limit in standard deviations
@@ -191,10 +204,11 @@ void Robots::add(ModelView& world, Model& model) const {
   model.geometries.push_back({-1, centre, box, -1});
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
+  adoptRealism(world, world.fleet, world.settings, *model.description);
+  setMotion(world.settings, &robot);
   setRays(world.scans, &robot);
   world.fleet.fastest = std::max(world.fleet.fastest, robot.drive.speed);
   world.floor.cover_due = true;
-  adoptRealism(world, world.fleet, world.settings, *model.description);
   setSpread(world.settings, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (world.fleet.localises) calibrate(world, model.index);

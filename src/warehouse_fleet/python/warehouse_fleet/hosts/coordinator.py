@@ -18,6 +18,7 @@ from warehouse_fleet.hosts.event_publisher import EventPublisher
 from warehouse_fleet.hosts.random_transports import RandomTransports
 from warehouse_fleet.hosts.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_fleet.hosts.zone_keeper import ZoneKeeper
+from warehouse_fleet.robots.kinematics import Kinematics
 from warehouse_fleet.robots.robot_table import reports_of
 from warehouse_layout import FloorError
 from warehouse_layout.floor import plan_reader
@@ -238,6 +239,7 @@ class CoordinatorNode:
         self.controller = FleetController(
             plan,
             self._ids,
+            _measured(),
             seed=self._seed,
             planner=self._planner,
             last=self.events.ledger.last,
@@ -289,3 +291,9 @@ class CoordinatorNode:
         state = CoordinatorState(alarms=[text])
         state.header.stamp = rospy.Time.now()
         self._state.publish(state)
+
+
+def _measured() -> Kinematics:
+    """Returns the motion of the robots, as far as the realism of the world has it."""
+    motion = rospy.get_param("gazebo/realism/motion", None)
+    return Kinematics().measured(motion if isinstance(motion, dict) else {})

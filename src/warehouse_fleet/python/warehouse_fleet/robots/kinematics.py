@@ -2,10 +2,19 @@
 """Limits of a robot's motion, and closed forms for how long motions take."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+# The names of what was measured in the section `motion` of a realism.
+MOTION = {
+    "speed": "speed",
+    "acceleration": "acceleration",
+    "quarter_turn_time": "quarter_turn",
+    "lift_time": "lift",
+}
 
 
 @dataclass(frozen=True)
@@ -21,6 +30,12 @@ class Kinematics:
     def start_stop(self) -> float:
         """The time that a start and a stop add to driving at top speed [s]."""
         return self.speed / self.acceleration
+
+    def measured(self, motion: Mapping[str, float]) -> "Kinematics":
+        """Returns the Kinematics with what was measured, by the names of a realism; 0: it was
+        not."""
+        values = {MOTION[key]: motion[key] for key in MOTION if motion.get(key, 0) > 0}
+        return replace(self, **values)
 
     def run(self, distance: ArrayLike) -> NDArray[np.float64]:
         """Returns the time of straight runs from rest to rest [s], in the shape of `distance` [m],

@@ -60,6 +60,7 @@ class LayoutFile:
     stock: str = ""  # CSV file with columns sku,quantity,storage_unit; instead of items
     skus: str = ""  # CSV file of the SKUs in stock, see sku_master: what pieces weigh
     policies: Mapping[str, Any] = field(default_factory=dict)
+    measured: str = ""  # realism file whose motion and pace of stations are the site's
     building: str = ""  # world file of the hall around it
     at: tuple[float, float] | None = None  # centre of cell (0, 0) in `world` [m]; None: centred
     path: str = ""  # from which it was read

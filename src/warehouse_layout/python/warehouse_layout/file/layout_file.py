@@ -112,6 +112,7 @@ def text_of(file: LayoutFile) -> str:
     out += [f"items: {_stock(file)}" if file.stock else f"items: {file.items}"]
     if file.policies:
         out += [yaml.safe_dump({"policies": dict(file.policies)}, sort_keys=False).rstrip()]
+    out += [f"measured: {_flow(file.measured)}"] if file.measured else []
     return "\n".join(out) + "\n"
 
 

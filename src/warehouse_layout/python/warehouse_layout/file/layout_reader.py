@@ -31,6 +31,7 @@ _KEYS = (
     "items",
     "stock",
     "policies",
+    "measured",
     "building",
     "at",
 )
@@ -62,6 +63,7 @@ class LayoutReader:
             items=self._items(top),
             **self._stock(top),
             policies=self._policies(top.get("policies")),
+            measured=self._text_of(top.get("measured"), "measured", ""),
             building=self._text_of(top.get("building"), "building", ""),
             at=self._at(top.get("at")),
             path=self._path,

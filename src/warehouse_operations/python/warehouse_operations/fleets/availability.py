@@ -136,7 +136,12 @@ def read(realism: str) -> Availability:
     "": full availability. Raises RealismError."""
     if not realism:
         return Availability()
-    return of_content(read_yaml(_path(realism), RealismError), realism)
+    return of_content(content_of(realism), realism)
+
+
+def content_of(realism: str) -> Any:
+    """Returns the sections of a realism by its name or file. Raises RealismError."""
+    return read_yaml(_path(realism), RealismError)
 
 
 def of_content(data: Any, realism: str = "realism") -> Availability:

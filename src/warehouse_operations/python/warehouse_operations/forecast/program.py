@@ -13,7 +13,7 @@ import numpy as np
 from warehouse_layout.file.layout_file import LayoutFileError
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import placement
-from warehouse_operations.fleets import availability
+from warehouse_operations.fleets import availability, measured
 from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.forecast import comparison, of_database
 from warehouse_operations.forecast.ahead import Outcome, Task
@@ -64,6 +64,7 @@ def prepare(args: argparse.Namespace, asked: Request) -> Prepared:
     at = _time(args.at)
     then = moment.read(args.database, at)
     site = _site(then, args.layout, args.robots or None)
+    site = measured.read(args.realism).at(site)
     remembered = of_database.remember(then, site, args.database, args.orders or None)
     shift, fork = remembered.shift, remembered.fork
     tasks = tasks_of(asked, site, shift, fork, availability.read(args.realism))

@@ -20,9 +20,11 @@ from warehouse_layout.file import layout_file
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.floor.served_part import served_part
 from warehouse_msgs import msg
+from warehouse_operations.fleets import measured
 from warehouse_operations.fleets.availability import Availability, RealismError, of_content
 from warehouse_operations.fleets.fleet_now import FleetNow
 from warehouse_operations.fleets.floor_heat import SLICES, FloorHeat
+from warehouse_operations.fleets.measured import Measured
 from warehouse_operations.policies import Policies
 from warehouse_operations.ros import operation_messages
 from warehouse_operations.ros.fleet_log import FleetLog
@@ -120,6 +122,15 @@ class OperationsNode:
         except RealismError:
             return Availability()
 
+    def _measured(self) -> Measured:
+        """What the realism of the world says of motion and service; nothing where it is invalid,
+        which the world says."""
+        try:
+            return measured.of_content(rospy.get_param("gazebo/realism", None) or {})
+        except RealismError as error:
+            rospy.logwarn(f"motion and service stay as they are: {error}")
+            return Measured()
+
     @property
     def elsewhere(self) -> tuple[str, ...]:
         """Roles of policies that the coordinator has."""
@@ -149,6 +160,7 @@ class OperationsNode:
         self._site = self._read_site()
         if file:
             self._site = layout_site.of_file(self._site, file)
+        self._site = self._measured().at(self._site)
         self._policies = self._own_policies
         if file:
             self._policies = layout_site.merged(file, self._own_policies)

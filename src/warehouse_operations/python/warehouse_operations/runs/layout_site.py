@@ -5,9 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from warehouse_layout.file.layout_file import LayoutFile, StationEntry
+from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, StationEntry
 from warehouse_layout.file.request import LIMITS
 from warehouse_layout.place.placement import stock_of, weights_of
+from warehouse_operations.fleets import measured
+from warehouse_operations.fleets.availability import RealismError
+from warehouse_operations.fleets.measured import Measured
 from warehouse_operations.policies import Policies, PolicyError, beside
 from warehouse_operations.stock.settings import Settings
 from warehouse_operations.stock.site import Site, Stock
@@ -17,8 +20,10 @@ def of_file(site: Site, file: LayoutFile) -> Site:
     """Returns the Site of a warehouse that was built of a layout file, with the file's stock and
     settings.
 
-    Raises LayoutFileError for a stock file, or a file of SKUs, that is wrong.
+    What the file says of a station goes before what its measured file does. Raises LayoutFileError
+    for a stock file, a file of SKUs or a measured file that is wrong.
     """
+    site = _measured(file).at(site)
     # Units may be gone by now: bins whose items are missing are left out.
     rows = stock_of(file, LIMITS["shelves"])
     # The items are numbered by the rows of the stock.
@@ -26,10 +31,29 @@ def of_file(site: Site, file: LayoutFile) -> Site:
     return replace(
         site,
         name=site.name or file.title,
-        settings=replace(site.settings, by_station=settings_of(file).by_station),
+        settings=replace(site.settings, by_station=_merged(site, settings_of(file))),
         stock=stock,
         weights=weights_of(file),
     )
+
+
+def _measured(file: LayoutFile) -> Measured:
+    """Returns what the measured file of a layout says. Raises LayoutFileError."""
+    if not file.measured:
+        return Measured()
+    try:
+        return measured.read(str(file.beside_file(file.measured)))
+    except RealismError as error:
+        raise LayoutFileError(f"{file.path or file.title}: measured: {error}") from error
+
+
+def _merged(site: Site, own: Settings) -> dict[str, dict[str, Any]]:
+    """Returns the settings of each station: those of a file over those of a site."""
+    names = {**site.settings.by_station, **own.by_station}
+    return {
+        name: {**site.settings.by_station.get(name, {}), **own.by_station.get(name, {})}
+        for name in names
+    }
 
 
 def settings_of(file: LayoutFile) -> Settings:

@@ -14,7 +14,7 @@ from warehouse_layout.file.layout_file import LayoutFile, LayoutFileError, text_
 from warehouse_layout.file.request import items_for
 from warehouse_layout.generate import layout_choice
 from warehouse_layout.place import file_check, placement
-from warehouse_operations.fleets import availability
+from warehouse_operations.fleets import availability, measured
 from warehouse_operations.fleets.availability import RealismError
 from warehouse_operations.fleets.building import world_of
 from warehouse_operations.policies import Policies, PolicyError
@@ -227,6 +227,7 @@ def _open_operations(description: Description, database: str | None = None) -> O
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
+    site = measured.read(description.realism).at(site)
     check_stations(description, site)
     if description.planner and not description.physics:
         raise PlannerError("planner: ideal robots pass through each other; physics was expected")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from warehouse_layout.file.layout_file import LayoutFile
 from warehouse_layout.place import placement
-from warehouse_operations.fleets import availability
+from warehouse_operations.fleets import availability, measured
 from warehouse_operations.runs import layout_site
 from warehouse_operations.runs.operations import Operations
 from warehouse_operations.stock.site import Site
@@ -35,7 +35,7 @@ def open_shift(
         site = Site.of_world(world, file.title)
     else:
         site = Site.of_layout(placement.place(file, seed, robots), file.title)
-    site = layout_site.of_file(site, file)
+    site = measured.read(realism).at(layout_site.of_file(site, file))
     ops = Operations(
         world,
         site=site,

@@ -79,7 +79,7 @@ def read(url: Any, at: float | None = None) -> Moment:
         raise DatabaseError(f"{shown(url)}: there is no such file")
     try:
         with engine.connect() as connection:
-            _check_version(connection, url)
+            check_version(connection, url)
             return _moment(connection, url, at)
     except SQLAlchemyError as error:
         raise DatabaseError(f"{shown(url)}: {reason(error)}") from error
@@ -87,7 +87,8 @@ def read(url: Any, at: float | None = None) -> Moment:
         engine.dispose()
 
 
-def _check_version(connection: Connection, url: Any) -> None:
+def check_version(connection: Connection, url: Any) -> None:
+    """Raises DatabaseError for a database without a warehouse, or of another version."""
     try:
         version = connection.execute(select(schema.schema_version.c.version)).scalar()
     except SQLAlchemyError as error:

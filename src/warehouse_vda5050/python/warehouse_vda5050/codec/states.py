@@ -72,7 +72,7 @@ def _node_state_json(node: NodeState) -> dict[str, Any]:
 
 def _action_state_json(action: ActionState) -> dict[str, Any]:
     status = action.status
-    if status is ActionStatus.PAUSED:
+    if status in (ActionStatus.PAUSED, ActionStatus.RETRIABLE):
         status = ActionStatus.RUNNING
     return {
         "actionId": action.id,
@@ -225,4 +225,5 @@ def read_connection(fields: Fields, header: Header) -> Connection:
 def read_visualization(fields: Fields, header: Header) -> Visualization:
     """Returns a visualization. Raises MessageError."""
     position = _read_agv_position(fields.object("agvPosition"))
-    return Visualization(position, _read_velocity(fields.object("velocity")), header)
+    velocity = _read_velocity(fields.object("velocity"))
+    return Visualization(position, velocity, header, fields.natural("referenceStateHeaderId", 0))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """VDA 5050 3.0.0: other names than 2.1.0, and more specific error types.
 
-Names are those of the schemas published with the specification. Zones, corridors, shared paths and
-retriable actions are refused (field_rules).
+Names are those of the schemas published with the specification. Zones, corridors and shared paths
+are refused (field_rules).
 """
 
 import re
@@ -11,7 +11,7 @@ from typing import Any
 
 from warehouse_vda5050.codec.v2 import CodecV2
 from warehouse_vda5050.errors import LEVELS, Error, former_type, precise_type
-from warehouse_vda5050.model import ActionState, Factsheet, Message, VehicleState
+from warehouse_vda5050.model import ActionState, Factsheet, Message, VehicleState, Visualization
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation.fields import Fields
 
@@ -70,6 +70,7 @@ NAMES: dict[Kind, dict[str, str]] = {
 }
 # Values of enumerations, by the name of their field in 2.1.0.
 VALUES: dict[str, dict[str, str]] = {
+    "actionType": {"initPosition": "initializePosition"},
     "connectionState": {"CONNECTIONBROKEN": "CONNECTION_BROKEN"},
     "operatingMode": {"TEACHIN": "TEACH_IN"},
     "agvKinematic": {"DIFF": "DIFFERENTIAL", "OMNI": "OMNIDIRECTIONAL"},
@@ -112,6 +113,8 @@ class CodecV3(CodecV2):
             _part_actions(value, message.actions)
             for row, error in zip(value["errors"], message.errors):
                 _write_error(row, error)
+        if isinstance(message, Visualization):
+            value["referenceStateHeaderId"] = message.state_id
         if isinstance(message, Factsheet):
             action_rows = value["protocolFeatures"]["mobileRobotActions"]
             for row, action in zip(action_rows, message.actions):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The connection of conform to an MQTT broker."""
+"""The connection of a program to an MQTT broker."""
 
 import time
 from typing import Any
@@ -18,16 +18,18 @@ class UnreachableError(RuntimeError):
 
 
 class Broker(Wire):
-    """One client of a broker. proxy: what the vehicle is connected by, if it can be cut. Raises
-    UnreachableError."""
+    """One client of a broker, named `name`. proxy: what the vehicle is connected by, if it can be
+    cut. Raises UnreachableError."""
 
-    def __init__(self, settings: BrokerSettings, proxy: Proxy | None = None) -> None:
+    def __init__(
+        self, settings: BrokerSettings, proxy: Proxy | None = None, name: str = "conform"
+    ) -> None:
         self._settings, self._proxy = settings, proxy
         self.cuts = proxy is not None
         self.take = lambda _message: None
         self._topics: list[str] = []
         self._fault = "the broker does not answer"
-        self._client = make_client(f"conform-{time.time_ns()}", settings)
+        self._client = make_client(f"{name}-{time.time_ns()}", settings)
         self._client.on_connect = self._connected
         self._client.on_message = self._arrived
         try:

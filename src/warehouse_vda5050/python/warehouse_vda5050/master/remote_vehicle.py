@@ -138,8 +138,10 @@ class RemoteVehicle:
         self._end_foreign(state)
 
     def take_factsheet(self, sheet: Factsheet) -> None:
-        """Adapts orders to come to what the vehicle can."""
+        """Adapts what is to come to what the vehicle can, the rest of an order as well."""
         self._sheet = sheet
+        if self._journey:
+            self._journey.max_nodes = sheet.max_nodes
 
     def take_connection(self, state: ConnectionState, now: float) -> None:
         """Notes whether the vehicle is connected."""

@@ -57,6 +57,11 @@ class OwnBroker:
             self._process.wait()
             self._process = None
 
+    @property
+    def pid(self) -> int:
+        """The number of its process, 0 while it is stopped."""
+        return self._process.pid if self._process else 0
+
     def close(self) -> None:
         """Ends it and removes its files."""
         self.stop()

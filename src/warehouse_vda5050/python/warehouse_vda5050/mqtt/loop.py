@@ -57,13 +57,22 @@ class Link:
         self._next_attempt = 0.0
         self._wait = BACK_OFF[0]
         self._asked_at = 0.0
+        self._unanswered: list[Any] = []  # since the connection was made
 
     def publish(self, message: Outgoing) -> bool:
         """Sends a message. Returns False if there is no connection."""
         if not self.connected:
             return False
-        self._client.publish(message.topic, message.payload, message.qos, message.retain)
+        info = self._client.publish(message.topic, message.payload, message.qos, message.retain)
+        if message.qos and not info.rc:
+            self._unanswered = [i for i in self._unanswered if not i.is_published()] + [info]
         return True
+
+    @property
+    def is_answered(self) -> bool:
+        """Whether the broker has confirmed all messages that it has to. To close a connection
+        before that resets it, and the broker may lose what it has not read."""
+        return all(info.is_published() for info in self._unanswered)
 
     def cut(self) -> None:
         """Ends the connection as a lost radio does, until restore()."""
@@ -156,7 +165,7 @@ class Link:
         client, self._client = self._client, None
         if client is not None:
             client.on_disconnect = client.on_message = client.on_connect = None
-        self.connected, self.fault = False, fault
+        self.connected, self.fault, self._unanswered = False, fault, []
         self._next_attempt = time.monotonic() + self._wait * random.uniform(0.5, 1.0)
         self._wait = min(2 * self._wait, BACK_OFF[1])
 

@@ -2,11 +2,13 @@
 """A vehicle at a broker: its own connection with its will, its messages in and out."""
 
 import math
+from collections import Counter
 from dataclasses import replace
 from typing import Any
 
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.errors import ErrorType
+from warehouse_vda5050.faults.vehicle_faults import VehicleFaults
 from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import Connection, ConnectionState, Message
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
@@ -21,7 +23,8 @@ REST = 1.0  # at most between two ticks of a vehicle that rests [s]
 class VehicleLink:
     """Carries messages between one Vehicle and its broker.
 
-    `link` is to be added to an MqttLoop; tick() is called between its poll()s.
+    `link` is to be added to an MqttLoop; tick() is called between its poll()s. `faults` are those
+    whose driver the vehicle has.
     """
 
     def __init__(
@@ -31,12 +34,15 @@ class VehicleLink:
         codec: Codec,
         topics: Topics,
         broker: BrokerSettings,
+        faults: VehicleFaults | None = None,
     ) -> None:
         self.vehicle, self.identity = vehicle, identity
+        self.faults = faults or VehicleFaults(vehicle.driver, lambda _text, _begins: None)
         self._codec, self._topics = codec, topics
         self._headers = Headers(identity, codec.version)
         self._online = self._connection(ConnectionState.ONLINE)
         self._now = -math.inf
+        self.sent_counts: Counter[Kind] = Counter()  # without connections
         self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
         subscriptions = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
@@ -47,11 +53,12 @@ class VehicleLink:
     def rests(self, now: float) -> bool:
         """Whether a tick would change nothing, as long as the robot reports the same."""
         is_due = now >= min(self._now + REST, self.vehicle.next_state)
-        return not (self._called or self.vehicle.is_taken or is_due)
+        return not (self._called or self.vehicle.is_taken or is_due or self.faults.is_busy)
 
     def tick(self, now: float) -> None:
         """Updates the vehicle, and sends its messages. now: any clock [s]."""
         self._now, self._called = now, False
+        self.faults.tick(now)
         self.vehicle.update(now)
         report = self.vehicle.report
         if report is not None and not report.answers:
@@ -74,20 +81,25 @@ class VehicleLink:
             self._send(Kind.STATE, state)
         visualization = self.vehicle.take_visualization(now)
         if visualization:
-            self._send(Kind.VISUALIZATION, visualization)
+            shown = replace(visualization, state_id=self._headers.last(Kind.STATE))
+            self._send(Kind.VISUALIZATION, shown)
         factsheet = self.vehicle.take_factsheet()
         if factsheet:
             self._send(Kind.FACTSHEET, factsheet)
+        for message in self.faults.wire.late(now):
+            self.link.publish(message)
 
     def close(self) -> None:
         """Says OFFLINE and disconnects."""
         self.link.close(self._connection(ConnectionState.OFFLINE))
 
     def _send(self, kind: Kind, message: Any) -> None:
-        self.link.publish(self._outgoing(kind, message))
+        for outgoing in self.faults.wire.outgoing(kind, self._outgoing(kind, message), self._now):
+            self.sent_counts[kind] += self.link.publish(outgoing)
 
     def _outgoing(self, kind: Kind, message: Message) -> Outgoing:
-        message = replace(message, header=self._headers.next(kind))
+        header = self.faults.wire.stamped(self._headers.next(kind))
+        message = replace(message, header=header)
         payload = self._codec.encode(message)
         return Outgoing(self._topics.of(self.identity, kind), payload, kind.qos, kind.retained)
 
@@ -108,6 +120,8 @@ class VehicleLink:
     def _on_message(self, topic: str, payload: bytes, retained: bool) -> None:
         if not payload:
             return  # what the broker kept for a topic is removed this way
+        if not self.faults.wire.hears:
+            return
         self._called = True
         try:
             _, kind = self._topics.parse(topic)

@@ -50,9 +50,6 @@ def _check(
     if action.type not in known:
         names = ", ".join(sorted(known))
         _refuse(f"action {action.type!r} is unknown; one of {names} expected", refer)
-    if action.retriable:
-        text = f"action {action.id[:60]!r}: retriable is true; a failed action is not tried again"
-        _refuse(text, (*refer, ("field", "retriable")), Predefined.UNSUPPORTED_PARAMETER)
     allowed = [key for key, *_ in known[action.type].parameters]
     for name, value in action.parameters:
         why = _fault(name, value, allowed, sheet)
@@ -101,9 +98,6 @@ def _reference(action: Action) -> Reference:
     return "actionId", action.id[:100]
 
 
-def _refuse(
-    text: str,
-    refer: tuple[Reference, ...],
-    precise: Predefined = Predefined.INVALID_ORDER_ACTION,
-) -> None:
+def _refuse(text: str, refer: tuple[Reference, ...]) -> None:
+    precise = Predefined.INVALID_ORDER_ACTION
     raise MessageError(text, ErrorType.ORDER.value, refer, precise)

@@ -55,6 +55,17 @@ ACTIONS = (
         ("mapId", "STRING", False, "that of the floor"),
         ("lastNodeId", "STRING", True, "any; the position says which"),
     ),
+    _instant(
+        "retry",
+        "begins an action again that is RETRIABLE",
+        ("actionId", "STRING", False, "of that action"),
+    ),
+    _instant(
+        "skipRetry",
+        "ends an action that is RETRIABLE: FAILED",
+        ("actionId", "STRING", False, "of that action"),
+    ),
+    _instant("clearInstantActions", "forgets the states of instant actions that are over"),
     _instant("stateRequest", "sends a state"),
     _instant("factsheetRequest", "sends this factsheet"),
     _instant(

@@ -79,8 +79,23 @@ class ActionQueue:
         self._end(action_id, ActionStatus.FINISHED, result)
 
     def fail(self, action_id: str, reason: str) -> None:
-        """Ends an action that could not be carried out."""
+        """Ends an action that could not be carried out; one that may be retried waits for that."""
+        if any(action.id == action_id and action.retriable for action in self.running):
+            self._set(action_id, ActionStatus.RETRIABLE, reason)
+        else:
+            self.give_up(action_id, reason)
+
+    def give_up(self, action_id: str, reason: str) -> None:
+        """Ends an action for good that was not carried out."""
         self._end(action_id, ActionStatus.FAILED, reason)
+
+    def retry(self, action_id: str) -> Action | None:
+        """Returns an action that waits for a retry, and is RUNNING from here on; None if it does
+        not."""
+        if action_id not in {state.id for state in self.retriable}:
+            return None
+        self._set(action_id, ActionStatus.RUNNING)
+        return next(action for action in self.running if action.id == action_id)
 
     def fail_waiting(self, reason: str) -> None:
         """Ends all actions that have not begun."""
@@ -115,6 +130,11 @@ class ActionQueue:
     def failed(self) -> list[ActionState]:
         """The actions that could not be carried out."""
         return [s for s in self._states.values() if s.status is ActionStatus.FAILED]
+
+    @property
+    def retriable(self) -> list[ActionState]:
+        """The actions that failed, and wait for a retry or its omission."""
+        return [s for s in self._states.values() if s.status is ActionStatus.RETRIABLE]
 
     def states(self, paused: bool) -> tuple[ActionState, ...]:
         """Returns the states of all; running ones of a paused robot are PAUSED."""

@@ -9,13 +9,14 @@ from dataclasses import replace
 
 from warehouse_vda5050.driver import Report
 from warehouse_vda5050.errors import Error, ErrorLevel, ErrorType, Predefined
-from warehouse_vda5050.model import ActionState, VehicleOrder
+from warehouse_vda5050.model import ActionState, ActionStatus, VehicleOrder
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.vehicle.journal import Journal
 from warehouse_vda5050.vehicle.progress import OrderProgress
 
 KEPT = 10
 HINT = "cancelOrder, then a new order"
+RETRY_HINT = "retry, skipRetry or cancelOrder"
 
 
 class Complaints:
@@ -70,6 +71,8 @@ def _action_fault(order: OrderProgress, state: ActionState) -> Error:
     text = f"{state.type} failed{'' if order.is_driven else _STAYS}: {state.result}"
     refer = (*references(order), ("actionId", state.id[:100]))
     hint = "" if order.is_driven else HINT
+    if state.status is ActionStatus.RETRIABLE:
+        text, hint = f"{state.type} failed, and may be retried: {state.result}", RETRY_HINT
     return Error(ErrorType.ORDER_ACTION.value, ErrorLevel.WARNING, text, hint, refer)
 
 

@@ -83,7 +83,21 @@ class Hands:
     def give_up(self) -> None:
         """Ends what need not come to its end: all but a lift."""
         for action in [a for a in self.actions.running if a is not self._lift]:
-            self.actions.fail(action.id, "the order was cancelled")
+            self.actions.give_up(action.id, "the order was cancelled")
+
+    def retry(self, action_id: str, report: Report, now: float) -> bool:
+        """Begins an action again that failed and waits for that. Returns whether it did."""
+        action = self.actions.retry(action_id)
+        if action:
+            self.begin(action, report, now)
+        return action is not None
+
+    def skip(self, action_id: str) -> bool:
+        """Ends an action that failed and waits for a retry. Returns whether it did."""
+        waiting = [state for state in self.actions.retriable if state.id == action_id]
+        for state in waiting:
+            self.actions.give_up(state.id, state.result)
+        return bool(waiting)
 
 
 def unit_of(action: Action) -> str:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from warehouse_vda5050.driver import Driver
+from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorType
 from warehouse_vda5050.model import MAP_ID, Action, ActionState, ActionStatus
 from warehouse_vda5050.topics import Kind
@@ -31,6 +31,8 @@ class Commanded(Protocol):
     driver: Driver
     hands: Hands
     journal: Journal
+    instant: InstantDesk
+    report: Report | None
     order: OrderProgress | None  # under way, or the last one
 
     def begin_cancel(self, now: float) -> bool:
@@ -68,8 +70,8 @@ class InstantDesk:
 
     def begin(self, action: Action, now: float) -> None:
         """Begins an action, unless it is known."""
-        known = self._states.get(action.id)
-        if known and not (known.status.is_over and now - self._begun[action.id] > COPY):
+        known, begun = self._states.get(action.id), self._begun.get(action.id, -math.inf)
+        if (known and not known.status.is_over) or now - begun <= COPY:
             return
         self._trim(now)
         self._begun[action.id] = now
@@ -84,6 +86,11 @@ class InstantDesk:
         else:
             over = result is not RUNS
             self._set(action, ActionStatus.FINISHED if over else ActionStatus.RUNNING, result or "")
+
+    def clear(self) -> None:
+        """Forgets the states of actions that are over; late copies of them are known all the
+        same."""
+        self._states = {id: s for id, s in self._states.items() if not s.status.is_over}
 
     def end(self, type: str) -> None:
         """Ends all running actions of a type."""
@@ -101,6 +108,9 @@ class InstantDesk:
         self._states[action.id] = state
 
     def _trim(self, now: float) -> None:
+        for id in [id for id, at in self._begun.items() if now - at > COPY]:
+            if id not in self._states:
+                del self._begun[id]
         crowded = len(self._states) >= MOST
         over = [
             id
@@ -170,6 +180,23 @@ def _request_factsheet(vehicle: Commanded, action: Action, now: float) -> str | 
     return ""
 
 
+def _retry(vehicle: Commanded, action: Action, now: float) -> str | None:
+    meant, report = str(action.parameter("actionId") or ""), vehicle.report
+    known = report is not None and vehicle.hands.retry(meant, report, now)
+    return _refuse_if("" if known else f"action {meant[:60]!r} does not wait for a retry")
+
+
+def _skip_retry(vehicle: Commanded, action: Action, now: float) -> str | None:
+    meant = str(action.parameter("actionId") or "")
+    known = vehicle.hands.skip(meant)
+    return _refuse_if("" if known else f"action {meant[:60]!r} does not wait for a retry")
+
+
+def _clear(vehicle: Commanded, action: Action, now: float) -> str | None:
+    vehicle.instant.clear()
+    return ""
+
+
 def _report_log(vehicle: Commanded, action: Action, now: float) -> str | None:
     try:
         return vehicle.journal.store(str(action.parameter("reason", "")))
@@ -205,5 +232,8 @@ ACTIONS: dict[str, Begin] = {
     "stateRequest": _request_state,
     "factsheetRequest": _request_factsheet,
     "logReport": _report_log,
+    "clearInstantActions": _clear,
+    "retry": _retry,
+    "skipRetry": _skip_retry,
     "trigger": _trigger,
 }

@@ -153,6 +153,8 @@ def _check_robot(order: VehicleOrder, now: Situation) -> Report:
         _refuse(order, "the robot does not know where it is", precise=away)
     if report.mode not in TAKING_ORDERS:
         _refuse(order, f"the operating mode is {report.mode.value}", precise=away)
+    if report.declines:
+        _refuse(order, report.declines, precise=away)
     if now.phase is Phase.CANCELLING and now.order and order.id == now.order.id:
         following = Predefined.ORDER_UPDATE_FOLLOWING_CANCEL
         _refuse(order, "the order is being cancelled", ErrorType.ORDER_UPDATE, following)

@@ -260,6 +260,11 @@ class Vehicle:
         """Lets the next take_state() return a state in any case."""
         self._reporter.request()
 
+    def note_event(self, text: str) -> None:
+        """Keeps what befell the vehicle for its reports, and lets a state be sent."""
+        self.journal.write(text)
+        self.request_state()
+
     def request_factsheet(self) -> None:
         """Lets the next take_factsheet() return the factsheet."""
         self._reporter.request_factsheet()
@@ -300,7 +305,8 @@ class Vehicle:
         if order is None or order.cancelled or self.phase is Phase.CANCELLING:
             return self.complaints.all(self.report, ())
         fault = "" if self.is_free else self.wheels.fault
-        return self.complaints.all(self.report, of_order(order, fault, self.actions.failed))
+        failed = (*self.actions.failed, *self.actions.retriable)
+        return self.complaints.all(self.report, of_order(order, fault, failed))
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is due: at first, and on request."""

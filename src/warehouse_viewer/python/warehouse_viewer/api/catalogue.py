@@ -102,6 +102,7 @@ def at_broker(message: Vda5050) -> list[Vda5050Robot]:
             driven=message.driven[i],
             order=message.order[i],
             errors=message.errors[i].splitlines(),
+            faults=message.faults[i].split(", ") if message.faults[i] else [],
         )
         for i, number in enumerate(message.kiva_id)
     ]

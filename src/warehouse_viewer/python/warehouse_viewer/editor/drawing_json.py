@@ -21,6 +21,7 @@ def of_file(file: LayoutFile) -> dict[str, Any]:
         "stock": file.stock,
         "skus": file.skus,
         "policies": dict(file.policies),
+        "measured": file.measured,
         "building": file.building,
         "at": file.at,
     }

@@ -17,7 +17,7 @@ export class Drawing {
     Object.assign(this, { left: 0, bottom: 0, width: 0, height: 0, cells: new Uint8Array(0) });
     Object.assign(this, { name: '', spacing: 1, stations: [], units: 0.85, isShare: true });
     // robots, units: a count, or a list of cells. items: null is four a storage unit.
-    Object.assign(this, { robots: 0, items: null, stock: '', skus: '', policies: {}, building: '', at: null });
+    Object.assign(this, { robots: 0, items: null, stock: '', skus: '', policies: {}, measured: '', building: '', at: null });
     this.owners = null;
   }
 

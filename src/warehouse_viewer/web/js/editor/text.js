@@ -33,6 +33,7 @@ export function jsonOf(drawing) {
     stock: drawing.stock,
     skus: drawing.skus,
     policies: drawing.policies,
+    measured: drawing.measured,
     building: drawing.building,
     at: drawing.at && [drawing.at[0] + left * drawing.spacing, drawing.at[1] + bottom * drawing.spacing],
   };
@@ -48,8 +49,8 @@ export function drawingOf(json) {
   json.floor.forEach((line, i) => {
     for (let x = 0; x < width; x++) out.cells[(height - 1 - i) * width + x] = line.charCodeAt(x);
   });
-  const { name, spacing, stock, skus = '', policies, building } = json;
-  Object.assign(out, { name, spacing, stock, skus, policies, building, isShare: json.is_share });
+  const { name, spacing, stock, skus = '', policies, measured = '', building } = json;
+  Object.assign(out, { name, spacing, stock, skus, policies, measured, building, isShare: json.is_share });
   out.stations = json.stations.map((s) => ({ ...s, service: moved(s.service), queue: places(s.queue), exit: places(s.exit) }));
   out.units = places(json.storage_units);
   out.robots = places(json.robots);
@@ -75,6 +76,7 @@ export function textOf(drawing) {
   lines.push(`storage_units: ${unitsOf(json)}`, `robots: ${flow(json.robots)}`);
   lines.push(json.stock ? `items: {stock: ${flow(json.stock)}${json.skus ? `, skus: ${flow(json.skus)}` : ''}}` : `items: ${json.items}`);
   if (Object.keys(json.policies).length) lines.push(`policies: ${flow(json.policies)}`);
+  if (json.measured) lines.push(`measured: ${flow(json.measured)}`);
   return { text: `${lines.join('\n')}\n`, origin: json.origin };
 }
 

@@ -10,6 +10,7 @@ import { ROOT } from '../base/root.js';
 import { Choice, waitsOf } from '../base/station.js';
 import { lasting } from '../base/time.js';
 import { NEEDS_HELP, shownName, STATION_STATES } from '../base/words.js';
+import { Faults } from './faults.js';
 
 export { knownPerson };
 export { vda5050Of } from './vda5050.js';
@@ -37,7 +38,8 @@ export class Care {
     this.repair = make('button', { className: 'edged', textContent: 'Repair', title: 'Repairs all that is broken in it', click: () => this.mend('repair') });
     this.tow = make('button', { className: 'edged', textContent: 'Tow', title: 'Moves it, with its load, to where it is in no way', click: () => this.mend('tow') });
     this.acts = make('div', { className: 'care-acts' }, this.repair, this.tow, this.gate, this.screen);
-    $('care').replaceChildren(this.text, this.errand, this.modes, this.acts);
+    this.faults = new Faults((fault, seconds) => this.misbehave(fault, seconds));
+    $('care').replaceChildren(this.text, this.errand, this.modes, this.acts, this.faults.element);
   }
 
   get name() {
@@ -124,13 +126,23 @@ export class Care {
     const mode = index >= 0 && fleet.modeOf(world.scene.robots[index]);
     this.repair.hidden = !needs;
     this.tow.hidden = !needs && mode !== RobotMode.OUT_OF_SERVICE;
+    this.faults.show(index >= 0 ? world.scene.robots[index] : null);
     enable(this.repair, isBroken ? '' : 'nothing is broken in it');
     enable(this.tow, fleet.runs ? '' : 'no coordinator runs');
   }
 
+  get id() {
+    return Number(this.name.match(/\d+$/)[0]);
+  }
+
   mend(what) {
-    const id = Number(this.name.match(/\d+$/)[0]);
+    const { id } = this;
     this.details.attempt(() => post(`/robots/${id}/${what}`, { by: knownPerson() }));
+  }
+
+  misbehave(fault, seconds) {
+    const { id } = this;
+    this.details.attempt(() => post(`/vda5050/${id}/faults`, { fault, seconds, by: knownPerson() }));
   }
 
   // --- a station

@@ -17,8 +17,12 @@ export function factsOf(robot) {
   ];
   if (robot.order) out.push(['order', robot.order]);
   for (const error of robot.errors) out.push(['error', error]);
+  for (const fault of robot.faults ?? []) out.push(['fault', fault]);
   return out;
 }
+
+/** Whether a robot is a vehicle that an outside master may drive, so that faults can be asked for. */
+export const isVehicle = (id) => robots.get(id)?.driven_by === 'OUTSIDE_MASTER';
 
 const robots = new Map();
 let asked = -Infinity;

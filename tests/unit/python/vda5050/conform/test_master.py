@@ -12,11 +12,11 @@ from paper_master import runner_for
 from warehouse_vda5050.conform.case import Case
 from warehouse_vda5050.conform.master.cases import CASES, cases_of
 from warehouse_vda5050.conform.master.command import roles_of
-from warehouse_vda5050.conform.master.formula_robot import FormulaRobot
 from warehouse_vda5050.conform.master.open_floor import NOWHERE, OpenFloor
 from warehouse_vda5050.conform.report import write
 from warehouse_vda5050.conform.report.score import Run, exit_code
 from warehouse_vda5050.conform.verdict import Verdict
+from warehouse_vda5050.formula_driver import FormulaRobot
 from warehouse_vda5050.grid import GridError
 from warehouse_vda5050.model import Node, Position
 from warehouse_vda5050.topics import Kind

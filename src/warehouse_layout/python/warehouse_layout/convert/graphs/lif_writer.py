@@ -147,6 +147,7 @@ def _lost(file: LayoutFile) -> list[str]:
         "storage units": file.storage_units,
         "items": file.items or file.stock,
         "policies": file.policies,
+        "measured": file.measured,
         "building": file.building,
     }
     names = [name for name, there in held.items() if there]

@@ -177,6 +177,7 @@ def _lost(file: LayoutFile) -> list[str]:
             ("storage units", file.storage_units),
             ("items", file.items or file.stock),
             ("policies", file.policies),
+            ("measured", file.measured),
             ("building", file.building),
         )
         if there

@@ -3,7 +3,7 @@
 
 stage          what a case has in its hands: vehicles, all messages, waiting for the master
 actor          a vehicle on that stage: our own vehicle core with its own connection and will
-formula_robot  the robot of it, which drives by a formula; `open_floor` has nodes anywhere
+open_floor     nodes anywhere, for its robot, which drives by a formula (`formula_driver`)
 channel        how its messages travel: plainly, twice, late, swapped or not at all
 facts          what holds of a vehicle, and since when: each order is judged by that
 orders         orders in their context: what the vehicle had of them before

@@ -11,12 +11,12 @@ from typing import Any
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.conform.master.channel import Channel, Travel
 from warehouse_vda5050.conform.master.facts import Fact, Facts, Scene, value_of
-from warehouse_vda5050.conform.master.formula_robot import LIFT_TIME, FormulaRobot
 from warehouse_vda5050.conform.master.open_floor import OpenFloor
 from warehouse_vda5050.conform.master.played import PlayedLink, PlayedVehicle
 from warehouse_vda5050.conform.master.wire import StageWire
 from warehouse_vda5050.conform.names import of_wire
 from warehouse_vda5050.errors import ErrorLevel
+from warehouse_vda5050.formula_driver import LIFT_TIME, FormulaRobot
 from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import Battery, ConnectionState, VehicleState
 from warehouse_vda5050.mqtt.loop import Outgoing

@@ -10,10 +10,10 @@ from typing import Any
 
 from warehouse_vda5050.codec import Codec
 from warehouse_vda5050.conform.master.channel import Channel
-from warehouse_vda5050.conform.master.formula_robot import FormulaRobot
 from warehouse_vda5050.conform.master.open_floor import OpenFloor
 from warehouse_vda5050.conform.names import of_wire, to_wire
 from warehouse_vda5050.errors import Error
+from warehouse_vda5050.formula_driver import FormulaRobot
 from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import (
     MAP_ID,

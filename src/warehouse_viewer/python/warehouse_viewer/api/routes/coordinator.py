@@ -14,6 +14,7 @@ from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     FleetStop,
     NewFailure,
+    NewFault,
     NewMode,
     NewTransport,
     Transport,
@@ -43,6 +44,17 @@ async def get_vda5050(backend: ApiBackend = BACKEND) -> object:
     return [
         robot for message in backend.feed.vda5050.messages for robot in catalogue.at_broker(message)
     ]
+
+
+@router.post("/vda5050/{number}/faults", response_model=Done, responses=problems(404, *SENT))
+async def begin_fault(
+    body: NewFault, number: int = NUMBER, backend: ApiBackend = BACKEND
+) -> object:
+    """Lets a robot that is a vehicle misbehave, by which an outside master is tried: its states are
+    lost, it jumps, it refuses orders. What the robot does is in the events."""
+    await backend.robot(number)
+    await backend.call(backend.feed.vda5050.begin_fault, number, body.fault, body.seconds)
+    return {"message": f"kiva{number}: {body.fault or 'no fault'}"}
 
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))

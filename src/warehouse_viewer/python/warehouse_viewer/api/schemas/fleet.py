@@ -15,6 +15,22 @@ else:
     Duration = number(0, 1e9)  # [s]
 
 Failure = Literal["MOTOR", "LIFT_STUCK", "LASER_BLIND", "RADIO_LOST", "WHEEL_SLIPS"]
+Fault = Literal[
+    "",
+    "silent",
+    "lost",
+    "doubled",
+    "reordered",
+    "jump",
+    "refuse",
+    "slow",
+    "battery",
+    "heading",
+    "error",
+    "error:WARNING",
+    "error:FATAL",
+    "clock",
+]
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
     "RECEIVED", "ASSIGNED", "LIFTED", "ARRIVED", "RELEASED", "STORED", "FAILED", "CANCELLED"
@@ -97,6 +113,17 @@ class Vda5050Robot(BaseModel):
     driven: bool = Field(description="whether an order has the robot, or had it just now")
     order: str = Field(description="id of the order under way, or empty")
     errors: list[str]
+    faults: list[str] = Field(description="faults on demand that it has")
+
+
+class NewFault(Body):
+    """Lets a vehicle misbehave, as its master sees it."""
+
+    by: Person = ""
+    fault: Fault = Field(
+        description="empty: all faults end. error is error:FATAL, with which the robot stands"
+    )
+    seconds: Duration = Field(0.0, description="until it ends [s], wall clock; 0: until ended")
 
 
 class TransportNumber(BaseModel):

@@ -336,5 +336,21 @@ TEST(Reports, GoOnFromACheckpoint) {
   EXPECT_EQ(other.stateHash(), w.world.stateHash());
 }
 
+// --- motion
+
+TEST(MeasuredMotion, IsThatOfRobotsAsFarAsItWasMeasured) {
+  Floorplan plan = planWith([](Realism& real) { real.motion = {true, 0.8, 0.5, 0, 4}; });
+  Warehouse w(plan);
+  w.spawn("kiva", "kiva1", 0, 0);
+  w.movx(1, 8);
+  w.run(1);
+  EXPECT_NEAR(w.speed(1), 0.5, 0.002);
+  w.run(4);
+  EXPECT_NEAR(w.speed(1), 0.8, 0.002);
+  const Robot& robot = w.world.fleet().robots[0];
+  EXPECT_EQ(robot.lift.time, 4);
+  EXPECT_EQ(robot.drive.quarter_turn_time, 0.625);
+}
+
 }  // namespace
 }  // namespace kiva::test
