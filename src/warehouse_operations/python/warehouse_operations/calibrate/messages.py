@@ -29,6 +29,7 @@ from warehouse_operations.calibrate.recording import (
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 LINE = 'a JSON object with "time", "topic" and "payload" was expected'
+BINARY = "payload_base64"  # of a payload that is no text
 KINDS = ("state", "visualization")
 # What an error says of the failures of robots; others that are fatal are OTHER, unless they are of
 # orders, or of a battery that will be charged.
@@ -60,8 +61,14 @@ def read(path: Path, look: Look = lambda *_: None) -> Recording:
         for number, line in enumerate(lines, 1):
             if not line.strip():
                 continue
-            where, count = f"{path}:{number}", count + 1
-            topic, value, time = _message(line, where)
+            where = f"{path}:{number}"
+            try:
+                topic, value, time = _message(line, where)
+            except CalibrationError:
+                if count and not line.endswith("\n"):
+                    break  # the recorder was killed within it
+                raise
+            count += 1
             kinds.add(topic.rpartition("/")[2])
             reader.take(topic, value, time, where)
             if number % OFTEN == 0:
@@ -111,7 +118,8 @@ def _message(line: str, where: str) -> tuple[str, dict[str, Any] | None, float]:
     which a log of what went wrong may hold."""
     try:
         entry = json.loads(line)
-        topic, payload, time = str(entry["topic"]), entry["payload"], float(entry["time"])
+        topic, time = str(entry["topic"]), float(entry["time"])
+        payload = "" if BINARY in entry else entry["payload"]
     except (ValueError, KeyError, TypeError) as error:
         raise CalibrationError(f"{where}: {line.strip()[:60]!r}; {LINE}") from error
     if isinstance(payload, str):

@@ -132,6 +132,14 @@ def test_a_log_of_vehicles_says_their_motion(tmp_path, step):
     assert "# per_robot_hour: too little to say: 0 failures in 0.7 robot hours, 1 were" in text
 
 
+def test_a_log_that_was_cut_off_and_has_what_is_no_text_is_read(tmp_path):
+    path = tmp_path / "log.jsonl"
+    binary = json.dumps({"time": 1.7e9, "topic": "uagv/v2/acme/1/state", "payload_base64": "/w=="})
+    lines = [binary, *log_of(0.5)]
+    path.write_text("\n".join(lines) + "\n" + lines[-1][:30])
+    check_motion(numbers([path], tmp_path)[0]["motion"])
+
+
 def test_a_compressed_log_is_the_same(tmp_path):
     zstandard = pytest.importorskip("zstandard")
     path = tmp_path / "log.jsonl.zst"
