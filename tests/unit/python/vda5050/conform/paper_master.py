@@ -190,6 +190,9 @@ class Coordinator:
                 self._step(vehicle, self._trips[vehicle.robot.number], shadow, now)
 
     def _step(self, vehicle, trip, shadow, now):
+        if trip.resume_at is not None and now >= trip.resume_at:
+            trip.resume_at = None
+            vehicle.command(Stop(False))
         if not vehicle.is_idle:
             self._go_on(vehicle, trip, now)
         elif now >= trip.not_before and not shadow.failures and vehicle.view.takes_orders:
@@ -198,7 +201,7 @@ class Coordinator:
 
     def _begin(self, vehicle, trip, shadow, now):
         trip.count += 1
-        trip.cancel_at = trip.resume_at = None
+        trip.cancel_at = None
         if trip.count % 2 == 0 and (vehicle.load or shadow.charge > ENOUGH):
             vehicle.command(Lift(not vehicle.load, 7))
             return
@@ -219,9 +222,6 @@ class Coordinator:
         if trip.cancel_at is not None and now >= trip.cancel_at:
             trip.cancel_at = None
             vehicle.command(Cancel())
-        if trip.resume_at is not None and now >= trip.resume_at:
-            trip.resume_at = None
-            vehicle.command(Stop(False))
         if vehicle.lifts or vehicle.path_id != trip.path_id:
             return
         released = min(len(trip.points), vehicle.reached + AHEAD - 1)
