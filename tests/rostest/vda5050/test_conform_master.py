@@ -30,8 +30,14 @@ TRIED = (
     *("states.stale", "horizon.base_request", "horizon.no_horizon_left"),
     *("connection", "limits", "actions", "instant", "order", "update", "messages"),
 )
-# What a warehouse at work does not come to by itself: no person cancels and pauses.
-NOT_SEEN = {"instant.cancel_then_new", "instant.cancel_with_order", "instant.pause_ends"}
+# What a warehouse at work does not come to by itself: no person cancels and pauses; and for a while
+# no pick, once the vehicles have said that they can't lift.
+NOT_SEEN = {
+    "actions.failed_pick",
+    "instant.cancel_then_new",
+    "instant.cancel_with_order",
+    "instant.pause_ends",
+}
 
 
 def started(*command):
