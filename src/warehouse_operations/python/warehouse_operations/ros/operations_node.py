@@ -56,7 +56,8 @@ class OperationsNode:
     """Runs a shift and serves it.
 
     database: a URL, or the path of an SQLite file. orders: see open_shift. forecast_every: see
-    ForecastService [s]. Raises what open_shift raises, and rospy.ROSInterruptException where ROS shuts down meanwhile.
+    ForecastService [s]. Raises what open_shift raises, and rospy.ROSInterruptException where ROS
+    shuts down meanwhile.
     """
 
     def __init__(

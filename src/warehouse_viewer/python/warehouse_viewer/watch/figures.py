@@ -3,9 +3,9 @@
 
 Pieces per hour: nine tenths of what the open stations can do at most. Orders per hour: as many as
 come in. Late orders: one in fifty at most. Robots available, that is, neither in need of help nor
-commanded by a person nor out of service: nineteen in twenty. Pieces and orders are those of the last
-quarter of an hour; a shift that is younger is early: until its first units have come it can't do
-what it will.
+commanded by a person nor out of service: nineteen in twenty. Pieces and orders are those of the
+last quarter of an hour; a shift that is younger is early: until its first units have come it can't
+do what it will.
 """
 
 from __future__ import annotations
