@@ -596,8 +596,7 @@ class Phone(PageTest):
         self.page.tap(*self.page.pixel(*place("kiva3")[:2], 0.3))
         self.page.until("page.selected === 'kiva3'")
         self.page.until("document.getElementById('details-panel').classList.contains('open')")
-        self.page.tap_on("close")
-        self.page.until("page.selected === null")
+        self.page.tap_until("close", "page.selected === null")
 
     def test_everything_is_as_large_as_a_finger_and_has_a_name(self):
         self.page.read("page.select('kiva1')")
