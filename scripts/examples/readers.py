@@ -63,7 +63,7 @@ def read_yaml(example: Example) -> None:
     if reader is None and all(isinstance(key, int) for key in document):
         reader = _robots
     if reader is None and isinstance(document, list):
-        reader = _faults
+        reader = _faults if "fault" in document[0] else _events
     if reader is None:
         raise ValueError(f"no reader is known for the keys {', '.join(map(str, document))}")
     with tempfile.TemporaryDirectory() as folder:
@@ -126,6 +126,12 @@ def _faults(file):
     from warehouse_vda5050.faults.script import read
 
     read(file)
+
+
+def _events(file):
+    from warehouse_operations.runs import event_file
+
+    event_file.read(file)
 
 
 def _planner(file):

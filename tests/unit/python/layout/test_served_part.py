@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from warehouse_fleet.robots.robot_table import RobotTable
+from warehouse_fleet.traffic.closed_zones import ClosedZones
 from warehouse_fleet.transports.transports import Transports
 from warehouse_layout import FloorError
 from warehouse_layout.floor.floor_plan import PICK, FloorPlan, Station
@@ -81,6 +82,7 @@ class Parked:
     def __init__(self, plan):
         self.plan, self.time = plan, 0.0
         self.robots = RobotTable([])
+        self.zones = ClosedZones(plan, plan.floor(), lambda cells: None)
 
     def set_units(self, cells):
         pass
