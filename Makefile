@@ -57,6 +57,7 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/world/time_jumps.test; \
 	rostest rostest/vda5050/calibrate/calibrate.test; \
+	rostest rostest/vda5050/conform_master/conform_master.test; \
 	BURST=all rostest rostest/nodes/malformed.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_mutations.py; \
 	../scripts/learning_packages && RWARE_STEPS=$${RWARE_STEPS:-50000} RWARE_IDS=all ../.venv/bin/python -m pytest -q -p no:cacheprovider learning/test_rware.py -k "registered or checkers"; \

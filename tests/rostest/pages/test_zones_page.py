@@ -96,7 +96,7 @@ class ZonesPage(PageTest):
         self.assertEqual(status, 201, answer)
         number = answer["transport_id"]
         why = "unit 1 stands in the closed zone 'spill'"
-        wait_until(lambda: ask(f"/transports/{number}")[1]["text"] == why, why)
+        wait_until(lambda: ask(f"/transports/{number}")[1].get("text") == why, why)
         self.page.driver.find_element("css selector", "#zone-list button").click()
         wait_until(lambda: not zones(), "the zone is open")
         self.page.until(f"!{SHOWN} && !document.querySelector('#zone-list li')")

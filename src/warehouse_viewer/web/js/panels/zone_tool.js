@@ -19,7 +19,7 @@ const FORM = `<header><h2 id="zone-title">Close a zone</h2><button type="button"
     <label>y <input id="zone-y${i + 1}" type="number" step="any" required aria-label="y of ${which} corner [m]"></label></fieldset>`).join('')}</div>
   <label>For <select id="zone-duration">${DURATIONS.map(([s, text]) => `<option value="${s}">${text}</option>`).join('')}</select></label>
   <label>Why <input id="zone-reason" maxlength="60" required placeholder="spill" autocomplete="off"></label>
-  <ul id="zone-waits" class="zone-waits" role="status" aria-live="polite"></ul>
+  <ul id="zone-waits" class="zone-waits" aria-live="polite"></ul>
   <button id="zone-yes" class="strong wide">Close the zone</button>
   <p id="zone-answer" class="answer" role="alert" data-kind="refused" hidden></p>
 </form>
