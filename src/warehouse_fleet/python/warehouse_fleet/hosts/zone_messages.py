@@ -14,7 +14,7 @@ from warehouse_msgs.msg import ClosedZones as ClosedZonesMessage
 
 
 def zones_message(controller: FleetController) -> ClosedZonesMessage:
-    """Returns the closed zones, who is inside, and which transports wait; without events."""
+    """Returns the closed zones, the robots inside, and the transports that wait; without events."""
     message = ClosedZonesMessage()
     message.header.stamp = rospy.Time.from_sec(controller.traffic.time)
     message.zones = [_zone_message(controller, zone) for zone in controller.traffic.zones]

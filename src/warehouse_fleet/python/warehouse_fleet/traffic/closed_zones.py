@@ -153,7 +153,7 @@ class ClosedZones:
         self._update()
 
     def open(self, zone_id: int) -> ClosedZone:
-        """Opens a zone, and returns it. Raises ValueError if there is none of that number."""
+        """Opens a zone, and returns it. Raises ValueError if no zone has that number."""
         if zone_id not in self._zones:
             raise ValueError(f"there is no closed zone {zone_id}")
         zone = self._zones.pop(zone_id)

@@ -17,7 +17,7 @@ HEAD = """\
 # Measured by calibrate: realism:=FILE, --realism FILE, or measured: FILE in a layout.
 # Behind each number: its 95 % interval, and of how many samples it is."""
 DIGITS = 5
-NEGLIGIBLE = 0.005  # share of the time of a piece below which its deviation is none
+NEGLIGIBLE = 0.005  # a deviation below this share of the time of a piece counts as 0
 SIMPLE = re.compile(r"[A-Za-z0-9_]+")
 
 

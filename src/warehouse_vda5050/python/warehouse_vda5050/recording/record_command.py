@@ -30,7 +30,7 @@ def arguments() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("--prefix", default=PREFIXES[2], help="of topics (uagv/v2)")
     add("--out", type=Path, required=True, metavar="F.jsonl.zst", help="a new file")
-    add("--seconds", type=float, default=0.0, help="end by itself after so long; 0: by Ctrl-C")
+    add("--seconds", type=float, default=0.0, help="end after this many seconds; 0: at Ctrl-C")
     return parser
 
 

@@ -9,7 +9,7 @@ from enum import Enum, auto
 from warehouse_vda5050.mqtt.loop import Outgoing
 
 LATE, STALE = 1.0, 3.0  # how much later a state comes, and a copy of it [s]
-LOST = 3  # of so many states one arrives
+LOST = 3  # of this many states, all but one are lost
 
 
 class Travel(Enum):

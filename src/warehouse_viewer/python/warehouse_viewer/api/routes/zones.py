@@ -19,7 +19,7 @@ BY = Header("", max_length=200, description="name of the person, percent-encoded
 
 @router.get("/zones", response_model=ClosedZones, responses=problems())
 async def get_zones(backend: ApiBackend = BACKEND) -> object:
-    """The zones that are closed, who is inside, and what waits for them."""
+    """The closed zones, the robots inside, and the transports that wait for them."""
     backend.feed.subscribe(("zones", "coordinator"))
     return zones_json.zones(backend.feed.zones)
 

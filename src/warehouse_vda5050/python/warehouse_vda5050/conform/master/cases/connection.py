@@ -25,7 +25,7 @@ def offline(stage: Stage) -> None:
 
 @case("broken", "6.14")
 def broken(stage: Stage) -> None:
-    """A vehicle whose CONNECTIONBROKEN the broker has told is sent no new order."""
+    """Once the broker has published CONNECTIONBROKEN for a vehicle, it is sent no new order."""
     actor = stage.idle()
     actor.cut()
     stage.no_orders(actor, "came after CONNECTIONBROKEN")

@@ -32,7 +32,7 @@ USUAL = ("theta",)
 
 
 def _limit(stage: Stage, entry: Entry, part: str, name: str) -> int:
-    """Returns a limit of the factsheet; 0: there is none, or the master can't know it yet."""
+    """Returns a limit of the factsheet; 0: it has none, or the master can't know it yet."""
     sheet = value_of(entry.scene, "sheet") or {}
     if held_for(entry.scene, "sheet", entry.time) < stage.settings.reaction:
         return 0
