@@ -157,6 +157,11 @@ struct PathPoint {
   double x = 0, y = 0;
 };
 
+/// A velocity on the floor, in world.
+struct PlanarTwist {
+  double vx = 0, vy = 0, yaw_rate = 0;  ///< [m/s, rad/s]
+};
+
 /// A robot's report; fields as in Fleet.
 struct RobotReport {
   double x = 0, y = 0, yaw = 0;         ///< Pose in world [m, rad].
@@ -170,7 +175,7 @@ struct RobotReport {
 
 /// The report of a robot that is elsewhere, whose shadow stands in the world.
 struct ShadowReport {
-  RobotReport report;         ///< The velocities are not used.
+  RobotReport report;         ///< The shadow stands; its velocities are published with its pose.
   std::uint8_t failures = 0;  ///< Set of failures, as Fleet::failures.
   float charge = 1;           ///< Charge of the battery, as Fleet::charge.
 };

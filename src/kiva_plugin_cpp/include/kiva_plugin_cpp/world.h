@@ -422,6 +422,9 @@ class World {
   /// another robot carries the unit, or if a number is not finite.
   void shadow(int kiva_id, const ShadowReport& report);
   bool isShadow(int kiva_id) const;
+  /// Returns the reported velocity of a robot that is a shadow, given by its index; nothing for
+  /// other robots.
+  std::optional<PlanarTwist> shadowTwist(int robot) const;
 
   /// Gives access to the private state, for tests and parts of the world; see src/core/state.
   friend WorldState& insideOf(World& world);

@@ -104,6 +104,13 @@ void World::shadow(int kiva_id, const ShadowReport& report) {
 
 bool World::isShadow(int kiva_id) const { return state_->shadows.has(kiva_id); }
 
+std::optional<PlanarTwist> World::shadowTwist(int robot) const {
+  const auto& twists = state_->shadows.twists;
+  const auto at = twists.find(state_->fleet.robots[robot].id);
+  if (at == twists.end()) return std::nullopt;
+  return at->second;
+}
+
 void World::walk(const std::string& person, const Walk& walk) {
   kiva::walk(state_->view, state_->people, person, walk);
 }

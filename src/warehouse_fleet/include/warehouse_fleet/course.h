@@ -90,6 +90,10 @@ struct Course {
 
   double still_since = 0, blocked_since = -1;
   double moved = 0;  ///< when it last moved or had nothing ahead [s]
+  double posed = 0;  ///< when its pose was reported first [s]
+  /// Time for which the reports repeat one pose while it moves: a robot that is elsewhere reports
+  /// less often than the fleet's reports come [s].
+  double pose_gap = 0;
   Journey journey;
   int run = 0, run_heading = 0;  ///< cells driven straight on, and their heading
 

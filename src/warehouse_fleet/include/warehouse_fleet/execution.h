@@ -155,6 +155,7 @@ class Execution {
   void vacate(int robot);
   void withdraw(int robot);
   void measure(int robot, double elapsed, const Report& before);
+  void measureGap(int robot, const Report& before);
   bool waitsAsPlanned(int robot) const;
   void endRun(Course& course) const;
 

@@ -30,6 +30,7 @@ from warehouse_vda5050.model import (
     SupportedAction,
     VehicleOrder,
     VehicleState,
+    Velocity,
 )
 from warehouse_vda5050.topics import Identity, Kind
 
@@ -611,3 +612,40 @@ def test_a_vehicle_with_a_fatal_error_is_sent_nothing():
     bench.tell(errors=(Error("motorError", ErrorLevel.FATAL, "no torque"),))
     bench.vehicle.command(Follow(1, 0, WAY, 2))
     assert bench.events()[-1] == ("REFUSED", "it reports motorError: no torque")
+
+
+def twist(bench):
+    shadow = bench.shadow
+    return pytest.approx((shadow.vx, shadow.vy, shadow.yaw_rate))
+
+
+def test_the_shadow_has_the_reported_velocity():
+    frame = Frame(0, 0, math.pi / 2)
+    bench = Bench(replace(ROBOT, frame=frame))
+    moving = AgvPosition(0, 0, math.pi / 2)
+    bench.tell(driving=True, position=moving, velocity=Velocity(1.5, 0.1, 0.2))
+    assert twist(bench) == (-1.5, -0.1, 0.2)
+    bench.now += 5.0  # nothing has come since long
+    assert twist(bench) == (0, 0, 0)
+
+
+def test_the_shadow_has_the_velocity_of_successive_positions():
+    bench = Bench()
+    for x in (0.0, 0.75, 1.5):
+        bench.now += 0.5
+        bench.tell(driving=True, position=AgvPosition(x, 0, 0))
+    assert twist(bench) == (1.5, 0, 0)
+    bench.tell(order_update=1)  # at once: the time between says nothing
+    assert twist(bench) == (1.5, 0, 0)
+    bench.now += 0.5
+    bench.tell(position=AgvPosition(15.0, 0, 0))
+    assert twist(bench) == (0, 0, 0), "it was carried"
+    bench.tell(driving=False)
+    assert twist(bench) == (0, 0, 0)
+
+
+def test_a_vehicle_that_comes_back_stands():
+    bench = Bench()
+    bench.tell(driving=True, velocity=Velocity(1.5))
+    bench.vehicle.take_connection(ConnectionState.ONLINE, bench.now)
+    assert twist(bench) == (0, 0, 0)

@@ -41,6 +41,9 @@ void checkReport(const ShadowReport& shadow) {
   if (!(std::isfinite(report.x) && std::isfinite(report.y) && std::isfinite(report.yaw))) {
     fail("the pose of a shadow must be finite");
   }
+  if (!(std::isfinite(report.vx) && std::isfinite(report.vy) && std::isfinite(report.yaw_rate))) {
+    fail("the velocity of a shadow must be finite");
+  }
   if (!(shadow.charge >= 0 && shadow.charge <= 1)) fail("the charge of a shadow must be 0 to 1");
   const auto end = static_cast<EventKind>(report.last_end);
   if (report.last_end != 0 && end != EventKind::kDone && end != EventKind::kBlocked) {
@@ -101,11 +104,12 @@ void moveShadow(ModelView& world, Shadows& shadows, int kiva_id, const ShadowRep
   if (!shadows.has(kiva_id) || !isThere(world.fleet, robot, shadow.report)) {
     place(world, robot, shadow.report);
   }
-  shadows.kiva_ids.insert(kiva_id);
+  const RobotReport& report = shadow.report;
+  shadows.twists[kiva_id] = {report.vx, report.vy, report.yaw_rate};
   exchangeLoad(world, robot, unit);
   takeReport(world, robot, shadow);
 }
 
-void endShadow(Shadows& shadows, int kiva_id) { shadows.kiva_ids.erase(kiva_id); }
+void endShadow(Shadows& shadows, int kiva_id) { shadows.twists.erase(kiva_id); }
 
 }  // namespace kiva

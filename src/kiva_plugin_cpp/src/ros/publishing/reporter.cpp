@@ -41,8 +41,10 @@ RobotPose poseOf(const kiva::World& world, int i) {
   RobotPose out;
   out.kiva_id = f.robots[i].id;
   out.base = world.basePose(i);
-  out.twist.linear = out.base.Rot().RotateVectorReverse({f.vx[i], f.vy[i], 0});
-  out.twist.angular = {0, 0, f.yaw_rate[i]};
+  const kiva::PlanarTwist moves{f.vx[i], f.vy[i], f.yaw_rate[i]};
+  const kiva::PlanarTwist twist = world.shadowTwist(i).value_or(moves);
+  out.twist.linear = out.base.Rot().RotateVectorReverse({twist.vx, twist.vy, 0});
+  out.twist.angular = {0, 0, twist.yaw_rate};
   for (int wheel = 0; wheel < 2; ++wheel) out.wheel_angle[wheel] = f.wheel_angle[wheel][i];
   out.tower = f.tower[i];
   if (!world.isSteered(i)) return out;

@@ -54,6 +54,12 @@ void overwrite(const kiva::RobotReport& last, int i, warehouse_msgs::FleetState*
   out->last_end[i] = last.last_end;
 }
 
+void overwrite(const kiva::PlanarTwist& twist, int i, warehouse_msgs::FleetState* out) {
+  out->vx[i] = twist.vx;
+  out->vy[i] = twist.vy;
+  out->yaw_rate[i] = twist.yaw_rate;
+}
+
 void addFallen(const kiva::World& world, warehouse_msgs::WarehouseObjects* out) {
   const auto index = [](const std::vector<std::string>& names, const std::string& name) {
     return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -167,6 +173,7 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
     out.state.push_back(static_cast<std::uint8_t>(f.state[i]));
     out.shelf_id.push_back(shelfOf(world, i));
     if (const auto last = world.lastHeard(i)) overwrite(*last, i, &out);
+    if (const auto twist = world.shadowTwist(i)) overwrite(*twist, i, &out);
   }
   return out;
 }

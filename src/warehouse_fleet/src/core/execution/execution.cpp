@@ -17,6 +17,8 @@ constexpr double kSettled = 1;     // time after which no message is on its way 
 constexpr double kBlockedFor = 1;  // time after which a robot is sent another way [s]
 constexpr double kNoWay = 0.001;   // distance between two reports up to which a robot stands [m]
 constexpr double kStalledFor = 5;  // time after which a robot counts as broken [s]
+constexpr double kLongestGap = 2;  // largest time between two poses that is reckoned with [s]
+constexpr double kGapKept = 0.9;   // share of an earlier gap that a shorter one leaves
 
 }  // namespace
 
@@ -51,6 +53,7 @@ void Execution::update(double time, std::vector<Report> reports) {
     follow(robot);
     if (course.isMember()) keepAround(robot);
     measure(robot, elapsed, before[robot]);
+    measureGap(robot, before[robot]);
   }
   for (int robot = 0; robot < robots; ++robot) {
     if (courses_[robot].isMember()) continue;
@@ -227,7 +230,7 @@ void Execution::measure(int robot, double elapsed, const Report& before) {
   const bool is_still =
       speedOf(robot) < kStandstill && reports_[robot].state != RobotState::kRotating;
   if (!course.travels || !is_still) course.still_since = now_;
-  // Reports of a robot that is elsewhere have no speed: positions must do.
+  // A robot that is elsewhere may report no speed: positions must do.
   const double way = std::hypot(reports_[robot].x - before.x, reports_[robot].y - before.y);
   if (!is_still || way > kNoWay || course.reached == course.points()) course.moved = now_;
   if (!course.travels) return;
@@ -235,6 +238,18 @@ void Execution::measure(int robot, double elapsed, const Report& before) {
   if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;
   course.journey.planned += elapsed;
   endRun(course);
+}
+
+void Execution::measureGap(int robot, const Report& before) {
+  Course& course = courses_[robot];
+  const Report& now = reports_[robot];
+  const bool is_same = now.x == before.x && now.y == before.y && now.yaw == before.yaw;
+  if (is_same && speedOf(robot) >= kStandstill) {
+    course.pose_gap = std::clamp(now_ - course.posed, course.pose_gap, kLongestGap);
+    return;
+  }
+  course.posed = now_;
+  if (!is_same) course.pose_gap *= kGapKept;
 }
 
 /// Returns whether a robot stands because the plan makes it wait, or behind a robot that stands.

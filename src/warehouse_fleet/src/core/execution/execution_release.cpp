@@ -87,7 +87,7 @@ bool Execution::mayHave(int robot, Cell cell) {
 
 /// Returns whether a robot would have to brake before the next release.
 bool Execution::needs(int robot) const {
-  const double latency = motion_.latency;
+  const double latency = motion_.latency + courses_[robot].pose_gap;
   const double soon = std::min(motion_.speed, speedOf(robot) + motion_.acceleration * latency);
   const double way = soon * latency + soon * soon / (2 * motion_.acceleration);
   return toGo(robot) < way;

@@ -8,6 +8,7 @@ from warehouse_fleet.robots.failures import EMPTY, OUT_OF_ORDER
 from warehouse_layout.message_enums import EventKind as Ended
 from warehouse_layout.message_enums import FailureKind, State, Status
 from warehouse_vda5050.master.remote_vehicle import EventKind, RemoteVehicle
+from warehouse_vda5050.master.speedometer import REST
 
 # What breaks, by words in the types that makers give their errors.
 WORDS = (
@@ -21,12 +22,15 @@ LAST_END = {None: 0, EventKind.DONE: int(Ended.DONE), EventKind.BLOCKED: int(End
 
 @dataclass(frozen=True)
 class Shadow:
-    """The state of one robot, as in warehouse_msgs/FleetState [m, rad]."""
+    """The state of one robot, as in warehouse_msgs/FleetState [m, rad, m/s, rad/s]."""
 
     kiva_id: int
     x: float
     y: float
     yaw: float
+    vx: float
+    vy: float
+    yaw_rate: float
     status: int
     state: int
     shelf_id: int
@@ -45,11 +49,13 @@ def shadow_of(vehicle: RemoteVehicle, now: float) -> Shadow | None:
         return None
     x, y, yaw = view.pose
     status, state = _status(vehicle)
+    twist = view.speedometer.read(now) if view.hears else REST
     return Shadow(
         vehicle.robot.number,
         x,
         y,
         yaw,
+        *twist,
         status,
         state,
         vehicle.load,

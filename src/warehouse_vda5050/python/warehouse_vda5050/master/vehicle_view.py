@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from warehouse_vda5050.errors import ErrorLevel
 from warehouse_vda5050.master.frame import Frame, Pose
+from warehouse_vda5050.master.speedometer import Speedometer
 from warehouse_vda5050.model import ConnectionState, OperatingMode, VehicleState
 
 SILENT = 45.0  # [s] without a state: vehicles send one at least each 30 s
@@ -21,6 +22,7 @@ class VehicleView:
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
     reports_loads: bool = False
+    speedometer: Speedometer = field(default_factory=Speedometer, repr=False)
     _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
     def take_state(self, state: VehicleState, now: float) -> bool:
@@ -38,6 +40,7 @@ class VehicleView:
         if state.position:
             at = state.position
             self.pose = self.frame.to_world(at.x, at.y, at.theta)
+            self.speedometer.take(state, self.pose, now)
         return True
 
     def take_connection(self, connection: ConnectionState, now: float) -> None:
@@ -45,6 +48,7 @@ class VehicleView:
         another clock and count from 0."""
         if connection == ConnectionState.ONLINE:
             self._stamp, self.heard_at = ("", 0), now
+            self.speedometer.forget()
         self.connection = connection
 
     @property

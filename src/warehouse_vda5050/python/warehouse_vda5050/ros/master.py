@@ -54,6 +54,7 @@ class Master:
         self._warehouse = warehouse
         self._fleet: RemoteFleet | None = None
         self._next_shadows = 0.0
+        self._has_news = False  # since the shadows were published
         self._scenery: Scenery | None = None  # that the floor's cells were read with
         self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
         self._spawned: set[int] = set()
@@ -69,6 +70,7 @@ class Master:
         """Takes a vehicle's message; called by poll()."""
         if self._fleet is not None:
             self._fleet.take(identity, message, time.monotonic())
+            self._has_news = True
 
     def run(self, send: Send, poll: Callable[[float], None]) -> None:
         """Serves until ROS shuts down."""
@@ -82,6 +84,8 @@ class Master:
                 self._next_shadows = time.monotonic() + PERIOD
                 self._follow_floor(fleet)
                 self._show(fleet)
+            elif self._has_news:  # what is released to a vehicle waits for where it is
+                self._publish_shadows(fleet)
             self._publish_events(fleet.take_events())
             self._at_broker.update(lambda: self._message(fleet))
         self._show_silence(fleet)
@@ -124,14 +128,18 @@ class Master:
         return masters_message(fleet.vehicles, self._broker, time.monotonic())
 
     def _show(self, fleet: RemoteFleet) -> None:
-        shadows = fleet.shadows(time.monotonic())
-        for shadow in shadows:
+        for shadow in fleet.shadows(time.monotonic()):
             self._ensure_there(shadow)
+        self._publish_shadows(fleet)
+        for vehicle in fleet.vehicles:
+            self._follow_mode(vehicle)
+
+    def _publish_shadows(self, fleet: RemoteFleet) -> None:
+        self._has_news = False
+        shadows = fleet.shadows(time.monotonic())
         there = [shadow for shadow in shadows if shadow.kiva_id in self._spawned]
         if there:
             self._shadows.publish(message_of(there))
-        for vehicle in fleet.vehicles:
-            self._follow_mode(vehicle)
 
     def _show_silence(self, fleet: RemoteFleet) -> None:
         """Leaves the shadows as obstacles: the robots are still where they were seen last."""

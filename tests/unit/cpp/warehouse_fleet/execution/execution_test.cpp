@@ -549,6 +549,34 @@ TEST_F(ExecutionTest, OneThatIsSeenElsewhereAgainAndAgainMoves) {
   EXPECT_TRUE(execution_.isStalled(robot));
 }
 
+/// The reports of a vehicle that tells its pose only as it comes to a cell's middle.
+TEST_F(ExecutionTest, OneThatIsSeenOnlyInTheMiddleOfEachCellNeverStopsOnTheWay) {
+  const int robot = add(0, 1);
+  observe();
+  plan({straight(8)});
+  std::uint32_t shown = 0;
+  for (int ticks = 0; robots_[robot].x < 8 && ticks < 200; ++ticks) {
+    const SimulatedRobot& r = robots_[robot];
+    Report& report = reports_[robot];
+    const bool is_news = !r.is_active || shown != r.reached;
+    const Report before = report;
+    observe();
+    if (!is_news) {
+      report.x = before.x;
+      report.y = before.y;
+    }
+    report.vx = r.is_active ? kSpeed : 0;
+    shown = static_cast<std::uint32_t>(r.reached);
+    execution_.update(now_, reports_);
+    for (const Message& message : release()) deliver(message);
+    const double x = r.x;
+    drive(robots_[robot]);
+    now_ += kTick;
+    if (x > 0) EXPECT_GT(r.x, x) << now_;
+  }
+  EXPECT_EQ(robots_[robot].x, 8);
+}
+
 TEST_F(ExecutionTest, OneThatIsTakenAwayKeepsItsPathUntilThatIsOver) {
   const int robot = add(1, 1);
   observe();

@@ -20,6 +20,9 @@ kiva::ShadowReport reportOf(const warehouse_msgs::FleetState& m, std::size_t i) 
   out.report.x = m.x.at(i);
   out.report.y = m.y.at(i);
   out.report.yaw = m.yaw.at(i);
+  out.report.vx = at(m.vx, i, 0.0);
+  out.report.vy = at(m.vy, i, 0.0);
+  out.report.yaw_rate = at(m.yaw_rate, i, 0.0);
   out.report.status = static_cast<kiva::Status>(at(m.status, i, 0));
   out.report.state = static_cast<kiva::State>(at(m.state, i, 0));
   out.report.shelf_id = at(m.shelf_id, i, 0);

@@ -9,9 +9,9 @@
 
 namespace kiva_ros {
 
-/// Subscribes to `/warehouse/shadows`: poses and states of robots that are elsewhere. Each such
-/// robot here becomes a shadow. The last message takes effect at the beginning of a step, after
-/// that of `inputs`, so that a recording knows the step.
+/// Subscribes to `/warehouse/shadows`: poses, velocities and states of robots that are elsewhere.
+/// Each such robot here becomes a shadow. The last message takes effect at the beginning of a step,
+/// after that of `inputs`, so that a recording knows the step.
 class ShadowTopic : public StepHook {
  public:
   ShadowTopic(ros::NodeHandle& root, PluginInputs& inputs);

@@ -59,6 +59,21 @@ TEST_F(Shadows, TellsWhatItIsTold) {
   EXPECT_EQ(f.charge[i], 0.5f);
 }
 
+TEST_F(Shadows, TellsItsVelocityAndStandsUntilTheNextReport) {
+  EXPECT_FALSE(w.world.shadowTwist(w.world.fleet().find(2)));
+  ShadowReport report = at(0, 5);
+  report.report.vx = 1.5;
+  report.report.yaw_rate = 0.2;
+  w.world.shadow(2, report);
+  w.run(1);
+  const auto twist = w.world.shadowTwist(w.world.fleet().find(2));
+  ASSERT_TRUE(twist);
+  EXPECT_EQ(twist->vx, 1.5);
+  EXPECT_EQ(twist->vy, 0);
+  EXPECT_EQ(twist->yaw_rate, 0.2);
+  EXPECT_EQ(w.x(2), 0);
+}
+
 TEST_F(Shadows, RefusesWhatNoRobotCanReport) {
   const double nan = std::nan("");
   EXPECT_THROW(w.world.shadow(2, at(nan, 5)), std::invalid_argument);
@@ -68,6 +83,9 @@ TEST_F(Shadows, RefusesWhatNoRobotCanReport) {
     report.charge = charge;
     EXPECT_THROW(w.world.shadow(2, report), std::invalid_argument);
   }
+  report = at(0, 5);
+  report.report.vy = nan;
+  EXPECT_THROW(w.world.shadow(2, report), std::invalid_argument);
   report = at(0, 5);
   report.report.last_end = 255;
   EXPECT_THROW(w.world.shadow(2, report), std::invalid_argument);
