@@ -17,6 +17,7 @@ KINDS = {  # that shrink, by suffix
     ".css": "text/css",
     ".html": "text/html",
     ".js": "text/javascript",
+    ".json": "application/json",
     ".svg": "image/svg+xml",
 }
 MOST_PACKED = 300  # files that are kept compressed
