@@ -13,6 +13,8 @@ from editor_page import PATIENCE, browser, editor
 from paths import ROOT
 from whatif.test_whatif_page import server as whatif
 
+from warehouse_viewer.server.static_files import without_comments
+
 REPLAY = ROOT / "src/warehouse_viewer/nodes/replay"
 RECORDING = ROOT / "src/warehouse_viewer/web/recordings/at_work.kiva"
 SCRIPT = str(ROOT / "scripts/pages/texts")
@@ -76,6 +78,20 @@ def test_a_text_that_is_not_looked_up_is_noticed(texts, monkeypatch):
         "js/a.js: 'lost for ever' is in no tr or plural",
     ]
     assert [key for key, _, is_marked in texts.strings(code) if is_marked] == ["All is {1}", "well"]
+
+
+def text_of(string):
+    return string[0]
+
+
+def test_what_browsers_get_of_a_module_lacks_nothing_but_comments(texts):
+    module = b"// SPDX-License-Identifier: Apache-2.0\n// a\nf();\n/** b\n *  c */\ng(); // d\n"
+    assert without_comments(module).split(b"\n")[1:] == [b"", b"f();", b"", b"", b"g(); // d", b""]
+    assert without_comments(b"// Licence of others\n// a\n") == b"// Licence of others\n// a\n"
+    for _, code in texts.modules():
+        bare = without_comments(code.encode()).decode()
+        assert list(map(text_of, texts.strings(bare))) == list(map(text_of, texts.strings(code)))
+        assert bare.count("\n") == code.count("\n")
 
 
 def test_a_language_says_what_it_lacks(texts, tmp_path):
