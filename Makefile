@@ -45,7 +45,7 @@ vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch 
 # their tests are skipped, and say so.
 test: deps  ## build and run every test; make test ARGS="-L unit" only those
 	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; scripts/assistant tests || true; }"
-	@scripts/test -j$(JOBS) $(ARGS)
+	@scripts/test -j$$((2 * $(JOBS))) $(ARGS)
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \

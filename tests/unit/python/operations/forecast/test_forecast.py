@@ -121,6 +121,38 @@ def test_transports_under_way_arrive(shift):
     assert numbers and not numbers & {transport.number for transport in copy.fleet.book}
 
 
+@pytest.mark.parametrize("physics", [False, True], ids=["ideal", "simulated"])
+def test_a_unit_on_a_broken_robot_is_stored_and_then_fetched(physics):
+    with opened(physics) as ops:
+        ops.run(minutes=2)
+        ops.run(minutes=2, progress=lambda _: bool(carrying(ops)))
+        unit, kiva_id = carrying(ops)[0]
+        if physics:
+            ops.fleet.fail(kiva_id, 3600)
+        else:
+            trips = ops.fleet.trips
+            trips._break_down(next(r for r in trips.robots if r.kiva_id == kiva_id), 3600)
+        ops.run(seconds=60)
+        assert unit not in ops.fleet.transports.book.of_unit  # its robot lost it
+        asked = ops.fleet.transports.submit(unit, "pick1")
+        assert asked.accepted == physics  # ideal robots are asked when they have stored it
+        task = a_task(ops)
+        assert task.fork.fleet.carried[unit] == kiva_id
+        copy = ahead.Ahead(task, 0)
+        copy.step_until(ops.time + 900)
+        if physics:
+            assert copy.fleet.book.get(asked.transport_id).step == Step.WAITING
+        else:
+            assert unit in copy.fleet.cell_of_unit
+
+
+def carrying(ops):
+    """Returns (unit, robot) of all units on their way to a station."""
+    steps = [t for t in ops.fleet.transports.book if t.step == Step.BRINGING]
+    ids = [r.kiva_id for r in ops.fleet.trips.robots] if ops.ideal else ops.fleet.robots.kiva_ids
+    return [(transport.shelf, int(ids[transport.robot])) for transport in steps]
+
+
 def test_an_ideal_fork_takes_each_motion_up_where_it_was():
     with opened(size="medium") as ops:
         ops.run(minutes=MINUTES)
