@@ -61,7 +61,9 @@ class Request:
             if event.at > since_begin + 60 * self.minutes:
                 raise ForecastError(f"'{line}' comes after the {self.minutes:g} minutes")
             events.append(event)
-        return tuple(sorted(events, key=lambda event: event.at))
+        events.sort(key=lambda event: event.at)
+        _check_robots(events, len(names.robots))
+        return tuple(events)
 
 
 def tasks_of(
@@ -83,6 +85,15 @@ def tasks_of(
     times, more = times_of(fork, request.minutes), availability or Availability()
     sets: Sequence[tuple[Event, ...]] = [(), events] if events else [()]
     return [Task(site, fork, times, each, more, request.seed) for each in sets]
+
+
+def _check_robots(events: Sequence[Event], count: int) -> None:
+    """Raises ForecastError where more robots are taken away than there are then."""
+    for event in events:
+        if event.kind == "robots":
+            if count + event.value < 0:
+                raise ForecastError(f"robots is {event.value:+d}; there are {count} then")
+            count += event.value
 
 
 def names_of(site: Site, shift: Shift) -> Names:

@@ -195,6 +195,8 @@ def test_robots_are_added_and_taken_away(shift):
         (Request(changes=("+0 fail robot 999",)), "fail is robot 999; there are 1 to"),
         (Request(changes=("+0 priority gone 9",)), "priority is of gone; no such order is open"),
         (Request(changes=("+0 policy storage far",)), "policy storage: there is no 'far'"),
+        (Request(changes=("+0 robots -500",)), "robots is -500; there are"),
+        (Request(changes=("+5m robots -9", "+0 robots +1")), "robots is -9; there are"),
         (Request(10, changes=("+20m close pick1",)), "comes after the 10 minutes"),
         (Request(changes=("0 close pick1",)), "is over; +0 is now"),
         (Request(1441), "minutes is 1441; above 0, up to 1440 (a day), was expected"),
