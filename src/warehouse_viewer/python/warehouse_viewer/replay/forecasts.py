@@ -122,8 +122,8 @@ class RecordedForecasts:
             for index, outcome in runs.outcomes():
                 outcomes[index].append(outcome)
         except RunsError as error:
-            result = {"made_at": tasks[0].fork.time, "minutes": asked.minutes, "runs": 0}
-            result |= {"changes": list(asked.changes), "text": f"no forecast: {error}"}
+            result: dict[str, Any] = {"made_at": tasks[0].fork.time, "minutes": asked.minutes}
+            result |= {"runs": 0, "changes": asked.changes, "text": f"no forecast: {error}"}
         else:
             ordered = [sorted(each, key=lambda outcome: outcome.number) for each in outcomes]
             forecast = forecast_of(
