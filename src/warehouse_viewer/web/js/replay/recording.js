@@ -4,6 +4,7 @@
 
 import { reasonOf } from '../base/request.js';
 import { at } from '../base/root.js';
+import { tr } from '../language/texts.js';
 import { read } from './chunk.js';
 
 const KEPT = 12; // chunks
@@ -89,5 +90,5 @@ function until({ updates, texts }, end) {
 async function body(answer, kind) {
   if (answer.ok) return answer[kind]();
   const reply = await answer.json().catch(() => ({}));
-  throw new Error(reasonOf(reply.detail) ?? `the server failed: ${answer.status}`);
+  throw new Error(reasonOf(reply.detail) ?? tr`the server failed: ${answer.status}`);
 }
