@@ -118,15 +118,6 @@ def _check_robots(events: Sequence[Event], count: int) -> None:
             count += event.value
 
 
-def _check_robots(events: Sequence[Event], count: int) -> None:
-    """Raises ForecastError where more robots are taken away than there are then."""
-    for event in events:
-        if event.kind == "robots":
-            if count + event.value < 0:
-                raise ForecastError(f"robots is {event.value:+d}; there are {count} then")
-            count += event.value
-
-
 def names_of(site: Site, shift: Shift) -> Names:
     """Returns what changes may name."""
     stations = [station.name for station in shift.stations]
