@@ -45,7 +45,7 @@ vda5050: build  ## a broker, robots as vehicles, and masters that let one fetch 
 # their tests are skipped, and say so.
 test: deps  ## build and run every test; make test ARGS="-L unit" only those
 	@scripts/beside "$(MAKE) build-tests JOBS=$(JOBS)" "scripts/lint && { scripts/learning_packages || true; scripts/axe || true; scripts/assistant tests || true; }"
-	@scripts/test -j$(JOBS) $(ARGS)
+	@scripts/test -j$$((2 * $(JOBS))) $(ARGS)
 
 test-long: build-tests  ## fleets at work, seed after seed, with and without faults, and all pages; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
@@ -53,7 +53,7 @@ test-long: build-tests  ## fleets at work, seed after seed, with and without fau
 	OVERLAPS=2000 ../devel/lib/warehouse_tests/overlap_test --gtest_brief=1; \
 	OBSTACLES=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_obstacles.py; \
 	VDA5050_HISTORIES=10000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/test_histories.py unit/python/vda5050/test_both_sides.py unit/python/vda5050/test_jumps.py; \
-	MUTANTS=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/conform/test_mutants.py unit/python/vda5050/conform/test_master_mutants.py; \
+	MUTANTS=all /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/vda5050/conform/test_mutants.py unit/python/vda5050/conform/test_zone_mutants.py unit/python/vda5050/conform/test_master_mutants.py; \
 	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/runs/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/world/time_jumps.test; \
 	rostest rostest/vda5050/calibrate/calibrate.test; \

@@ -15,12 +15,18 @@ INTRODUCTION = (
 def written() -> str:
     """Returns the page of fields."""
     from warehouse_vda5050 import field_rules
-    from warehouse_vda5050.vehicle.abilities import ACTIONS
+    from warehouse_vda5050.vehicle.abilities import ACTIONS, ZONE_ACTIONS
 
     sections = [section(place, rules) for place, rules in field_rules.TABLE.items()]
     names = [code(name) for name in field_rules.NOT_TOLD]
     left_out = f"## Left out of a state\n\n{', '.join(names)}"
-    return page("VDA 5050, field by field", INTRODUCTION, *sections, actions(ACTIONS), left_out)
+    return page(
+        "VDA 5050, field by field",
+        INTRODUCTION,
+        *sections,
+        actions((*ACTIONS, *ZONE_ACTIONS)),
+        left_out,
+    )
 
 
 def section(place, rules) -> str:
@@ -45,8 +51,9 @@ def actions(known) -> str:
 
 ABOUT_CASES = (
     "`rosrun warehouse_vda5050 conform` [tries a vehicle](../how-to/vda5050-conformance.md) by"
-    " these cases. Sections are those of 2.1.0, of 3.0.0 in `version_3`. Edges: how many the"
-    " vehicle drives at least. Cases marked strict are recommendations, tried with `--strict`."
+    " these cases. Sections are those of 2.1.0, of 3.0.0 in `version_3` and `zones`. Edges: how"
+    " many the vehicle drives at least. Cases marked strict are recommendations, tried with"
+    " `--strict`."
 )
 
 

@@ -25,6 +25,7 @@ class ErrorType(StrEnum):
     ORDER_ACTION = "orderActionError"  # an action of an order failed
     INSTANT_ACTION = "instantActionError"  # an instant action cannot be carried out
     UNKNOWN_FIELD = "unknownField"  # reported, and otherwise ignored
+    ZONE = "zoneError"  # of a zone in which the robot is, or loses its release
     LOST = "localizationError"
     MOTOR = "motorError"
     LIFT = "liftError"

@@ -12,6 +12,7 @@ from enum import StrEnum
 from typing import Any
 
 from warehouse_vda5050.errors import Error
+from warehouse_vda5050.zones.zone import Response, Zone, ZoneRequest, ZoneSetState
 
 MAP_ID = "warehouse"  # the one map that robots of this project know
 
@@ -156,6 +157,24 @@ class InstantActions:
 
 
 @dataclass(frozen=True)
+class ZoneSet:
+    """Zones of one map under an id that stands for them for ever; 3.0 alone has it."""
+
+    id: str
+    map_id: str
+    zones: tuple[Zone, ...]
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
+class Responses:
+    """A master's answers to requests of a vehicle; 3.0 alone has it."""
+
+    responses: tuple[Response, ...]
+    header: Header = Header()
+
+
+@dataclass(frozen=True)
 class NodeState:
     """A node that the vehicle has not passed yet."""
 
@@ -245,6 +264,8 @@ class VehicleState:
     field_violation: bool = False
     maps: tuple[str, ...] = ()
     distance_since_last_node: float | None = None  # [m]
+    zone_sets: tuple[ZoneSetState, ...] = ()  # 3.0 alone has this and what follows
+    zone_requests: tuple[ZoneRequest, ...] = ()
     header: Header = Header()
 
 
@@ -314,7 +335,10 @@ class Factsheet:
     state_interval: float = 30.0
     order_interval: float = 0.0  # least time between two orders [s]
     versions: tuple[tuple[str, str], ...] = ()
+    zone_types: tuple[str, ...] = ()  # that it keeps to; 3.0 alone has it
+    max_zones: int = 0  # of one zone set
     header: Header = field(default_factory=Header)
 
 
-Message = VehicleOrder | InstantActions | VehicleState | Connection | Visualization | Factsheet
+ToVehicle = VehicleOrder | InstantActions | ZoneSet | Responses
+Message = ToVehicle | VehicleState | Connection | Visualization | Factsheet

@@ -18,6 +18,8 @@ class Kind(StrEnum):
 
     ORDER = "order"
     INSTANT_ACTIONS = "instantActions"
+    ZONE_SET = "zoneSet"  # 3.0 alone has this one and the next
+    RESPONSES = "responses"
     STATE = "state"
     VISUALIZATION = "visualization"
     CONNECTION = "connection"
@@ -35,6 +37,7 @@ class Kind(StrEnum):
 
 
 TO_VEHICLE = (Kind.ORDER, Kind.INSTANT_ACTIONS)
+ABOUT_ZONES = (Kind.ZONE_SET, Kind.RESPONSES)
 FROM_VEHICLE = (Kind.STATE, Kind.CONNECTION, Kind.FACTSHEET, Kind.VISUALIZATION)
 
 
@@ -77,6 +80,11 @@ class Topics:
         if rest == topic or len(parts) != 3 or parts[2] not in {kind.value for kind in Kind}:
             raise TopicError(f"{topic!r} is not {self.prefix}/<manufacturer>/<serial>/<kind>")
         return Identity(parts[0], parts[1]), Kind(parts[2])
+
+
+def heard_by_vehicle(version: str) -> tuple[Kind, ...]:
+    """Returns what a vehicle of a version subscribes to."""
+    return (*TO_VEHICLE, *ABOUT_ZONES) if version.startswith("3") else TO_VEHICLE
 
 
 def prefix_of(version: str) -> str:

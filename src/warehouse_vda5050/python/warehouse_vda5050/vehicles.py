@@ -109,6 +109,7 @@ class Vehicles:
                 visualization=settings.visualization,
                 first_path=self._first_path,
                 begins_at_zero=settings.codec.version.startswith("3"),
+                zones=settings.codec.version.startswith("3"),
                 logs=settings.logs,
                 name=f"{settings.manufacturer}-{kiva_id}",
             ),

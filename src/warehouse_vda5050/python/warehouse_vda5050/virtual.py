@@ -67,6 +67,7 @@ class VirtualFleet:
                 moving=settings.moving,
                 visualization=settings.visualization,
                 begins_at_zero=settings.codec.version.startswith("3"),
+                zones=settings.codec.version.startswith("3"),
                 name=f"{settings.manufacturer}-{number}",
             ),
         )

@@ -69,7 +69,8 @@ class FleetNow:
     """A fleet at a time [s].
 
     robots: by id. units: the cell of each unit that is not carried, by id. events: of transports,
-    to be taken yet. closed: stations that get no units.
+    to be taken yet. closed: stations that get no units. carried: the id of the robot on which a
+    unit is, of those that no transport carries at least: their robots lost it.
     """
 
     time: float
@@ -78,6 +79,7 @@ class FleetNow:
     transports: Sequence[TransportNow] = ()
     events: Sequence[TransportEvent] = ()
     closed: Sequence[str] = field(default_factory=tuple)
+    carried: Mapping[int, int] = field(default_factory=dict)
 
 
 def of_world_fleet(fleet: "WorldFleet") -> FleetNow:
@@ -88,6 +90,8 @@ def of_world_fleet(fleet: "WorldFleet") -> FleetNow:
     broken = (table.broken | table.lifts_not | table.lost).tolist()
     robots = {kiva_id: RobotNow(*row) for kiva_id, *row in zip(ids, *columns, broken)}
     units = {unit: int(cell) for unit, cell in transports.cell_of_unit.items() if cell >= 0}
+    states = fleet.world.storage_units
+    carriers = zip(states["shelf_id"].tolist(), states["kiva_id"].tolist())
     return FleetNow(
         fleet.time,
         robots,
@@ -95,6 +99,7 @@ def of_world_fleet(fleet: "WorldFleet") -> FleetNow:
         [_transport(transport, ids, transport.place) for transport in transports.book],
         transports.book.pending_events,
         [name for name, is_open in transports.is_open.items() if not is_open],
+        {unit: kiva_id for unit, kiva_id in carriers if kiva_id},
     )
 
 
@@ -103,8 +108,12 @@ def of_ideal_fleet(fleet: "IdealFleet") -> FleetNow:
     trips = fleet.trips
     ids = [robot.kiva_id for robot in trips.robots]
     charge = trips.upkeep.charge if trips.upkeep else [1.0] * len(ids)
+    carried = trips.without_transport()
+    broken = set(carried.values())
     robots = {
-        robot.kiva_id: RobotNow(robot.cell, float(charge[robot.index]), robot.in_service)
+        robot.kiva_id: RobotNow(
+            robot.cell, float(charge[robot.index]), robot.in_service, robot.kiva_id in broken
+        )
         for robot in trips.robots
     }
     ends = time_left(trips)
@@ -114,7 +123,8 @@ def of_ideal_fleet(fleet: "IdealFleet") -> FleetNow:
     ]
     closed = [name for name, is_open in fleet.is_open.items() if not is_open]
     events = trips.book.pending_events
-    return FleetNow(fleet.time, robots, dict(fleet.cell_of_unit), transports, events, closed)
+    units = dict(fleet.cell_of_unit)
+    return FleetNow(fleet.time, robots, units, transports, events, closed, carried)
 
 
 def time_left(trips: "Trips") -> dict[int, float]:

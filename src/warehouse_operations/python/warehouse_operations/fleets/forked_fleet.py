@@ -71,6 +71,9 @@ class PacedTrips(Trips):
             self._idle.pop(driver.index, None)
             self.book.restore(transport, driver.index)
             self._go_on(transport, under_way, driver)
+        for unit, kiva_id in now.carried.items():
+            if now.robots[kiva_id].in_service:
+                self._carry_on(unit, index_of[kiva_id])
         for lane in self.floor.lanes.values():
             if lane.queue:
                 self._serve_next(lane, 0.0)
@@ -78,6 +81,12 @@ class PacedTrips(Trips):
         for robot in self.robots:
             if not now.robots[robot.kiva_id].in_service:
                 self.set_in_service(robot.index, False)
+
+    def _carry_on(self, unit: int, robot: Robot) -> None:
+        """Has a robot store a unit that is on it without a transport, once it is repaired."""
+        if robot.index not in self.book.of_robot:
+            self._idle.pop(robot.index, None)
+            self.queue.schedule(max(robot.able, self.time), self._repaired, (robot, unit))
 
     def _go_on(self, transport: Transport, under_way: TransportNow, robot: Robot) -> None:
         """Schedules the end of the step at which a transport is."""

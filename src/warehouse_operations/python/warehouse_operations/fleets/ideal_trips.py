@@ -153,7 +153,8 @@ class Trips:
         self.book.publish_event(transport, Kind.FAILED, "its robot is broken")
         self.book.remove(transport)
         self._begin(robot, "idle")
-        self.queue.schedule(self.time + left, self._repaired, (robot, transport, has_unit))
+        carried = transport.shelf if has_unit else None
+        self.queue.schedule(self.time + left, self._repaired, (robot, carried))
 
     def _leave_lane(self, transport: Transport, delay: float) -> None:
         lane = self._lane(transport)
@@ -163,15 +164,19 @@ class Trips:
             lane.serving, lane.free_from = None, self.time + delay
             self._serve_next(lane, float(self.kinematics.run(self.floor.plan.spacing)))
 
-    def _repaired(self, work: tuple[Robot, Transport, bool]) -> None:
+    def without_transport(self) -> dict[int, int]:
+        """Returns the units that broken robots carry without a transport: the id of each robot."""
+        events = (event.argument for event in self.queue if event.act == self._repaired)
+        return {unit: robot.kiva_id for robot, unit in events if unit is not None}
+
+    def _repaired(self, work: tuple[Robot, int | None]) -> None:
         """Puts a repaired robot that lost its transport back to work: it stores the unit that it
-        still carries."""
-        robot, lost, has_unit = work
-        if not has_unit:
+        still carries. A transport that asks for the unit is done after that."""
+        robot, unit = work
+        if unit is None:
             self._free(robot)
             return
-        asked = self.book.of_unit.get(lost.shelf)
-        transport = asked or self.book.add(lost.shelf, "", robot.cell)
+        transport = self.book.add(unit, "", robot.cell)
         self.book.hand_over(transport, robot.index)
         self.book.go_on(transport, STORING)
         self.book.publish_event(transport, Kind.RECEIVED, "its robot was found with it")
@@ -342,9 +347,11 @@ class Trips:
     def _match_open(self) -> None:
         upkeep = self.upkeep
         indices = [index for index in self._idle if not upkeep or upkeep.may_work(index)]
-        if not indices:
+        # A unit that a broken robot carries can be asked for, and not be fetched.
+        waiting = [asked for asked in self.book.open if asked.shelf in self.floor.units]
+        if not indices or not waiting:
             return
-        waiting, robots = list(self.book.open), [self._idle[index] for index in indices]
+        robots = [self._idle[index] for index in indices]
         starts = [self._start(robot) for robot in robots]
         seconds, metres = self.travel.unloaded(
             [self.floor.units[transport.shelf] for transport in waiting],

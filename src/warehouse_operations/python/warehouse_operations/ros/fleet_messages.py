@@ -47,7 +47,9 @@ def fleet_now(
     ]
     robots = _robots(plan, warehouse.fleet, {*state.manual_kiva, *state.out_of_service_kiva})
     units = warehouse.standing_units(plan)
-    return FleetNow(shift.now, robots, units, transports, events, closed)
+    carriers = zip(warehouse.fleet.shelf_id, warehouse.fleet.kiva_id)
+    carried = {unit: kiva_id for unit, kiva_id in carriers if unit and kiva_id in robots}
+    return FleetNow(shift.now, robots, units, transports, events, closed, carried)
 
 
 def is_cancelled(visit: Visit) -> bool:

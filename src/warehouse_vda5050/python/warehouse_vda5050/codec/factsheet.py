@@ -131,6 +131,8 @@ def read_factsheet(fields: Fields, header: Header) -> Factsheet:
         body.number("decelerationMax", default.max_deceleration),
         actions=tuple(_read_action(action) for action in features.objects("agvActions", ())),
         max_nodes=_read_limit(lengths, default.max_nodes),
+        zone_types=_read_words(kind, "supportedZones"),
+        max_zones=lengths.natural("zoneSet.zones", 0),
         order_interval=max(0.0, timing.number("minOrderInterval", 0.0)),
         header=header,
     )
@@ -143,9 +145,13 @@ def _read_limit(lengths: Fields, default: int) -> int:
     return min(nodes, edges + 1)
 
 
+def _read_words(fields: Fields, key: str) -> tuple[str, ...]:
+    words = fields.any(key, [])
+    return tuple(str(word) for word in words) if isinstance(words, list) else ()
+
+
 def _read_action(fields: Fields) -> SupportedAction:
-    scopes = fields.any("actionScopes", [])
-    names = tuple(str(scope) for scope in scopes) if isinstance(scopes, list) else ()
+    names = _read_words(fields, "actionScopes")
     type, text = fields.text("actionType"), fields.text("actionDescription", "")
     rows = fields.objects("actionParameters", ())
     return SupportedAction(type, names, text, tuple(_read_parameter(row) for row in rows))

@@ -35,6 +35,7 @@ from warehouse_vda5050.model import (
     Visualization,
 )
 from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.fields import Fields
 
 WRITERS: dict[type, Callable[[Any], dict[str, Any]]] = {
@@ -75,4 +76,6 @@ class CodecV2(Codec):
 
     def read(self, kind: Kind, fields: Fields) -> Any:
         """Returns the message that an object stands for. Raises MessageError."""
+        if kind not in READERS:
+            raise MessageError(f"{self.version} has no {kind.value}")
         return READERS[kind](fields, self.read_header(fields))

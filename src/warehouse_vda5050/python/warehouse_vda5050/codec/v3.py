@@ -1,17 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """VDA 5050 3.0.0: other names than 2.1.0, and more specific error types.
 
-Names are those of the schemas published with the specification. Zones, corridors and shared paths
-are refused (field_rules).
+Names are those of the schemas published with the specification. Corridors are refused
+(field_rules).
 """
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from warehouse_vda5050.codec.v2 import CodecV2
+from warehouse_vda5050.codec.zones import (
+    read_responses,
+    read_zone_set,
+    responses_json,
+    zone_set_json,
+    zones_of_state_json,
+)
 from warehouse_vda5050.errors import LEVELS, Error, former_type, precise_type
-from warehouse_vda5050.model import ActionState, Factsheet, Message, VehicleState, Visualization
+from warehouse_vda5050.model import (
+    ActionState,
+    Factsheet,
+    Header,
+    Message,
+    Responses,
+    VehicleState,
+    Visualization,
+    ZoneSet,
+)
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation.fields import Fields
 
@@ -45,6 +62,8 @@ NAMES: dict[Kind, dict[str, str]] = {
         "positionInitialized": "localized",
     },
     Kind.CONNECTION: {},
+    Kind.ZONE_SET: {},
+    Kind.RESPONSES: {},
     Kind.FACTSHEET: {
         "agvKinematic": "mobileRobotKinematics",
         "agvClass": "mobileRobotClass",
@@ -90,7 +109,15 @@ KINDS = {
     "InstantActions": Kind.INSTANT_ACTIONS,
 }
 KINDS |= {"Connection": Kind.CONNECTION, "Visualization": Kind.VISUALIZATION}
-KINDS |= {"Factsheet": Kind.FACTSHEET}
+KINDS |= {"Factsheet": Kind.FACTSHEET, "ZoneSet": Kind.ZONE_SET, "Responses": Kind.RESPONSES}
+WRITERS: dict[type, Callable[[Any], dict[str, Any]]] = {
+    ZoneSet: zone_set_json,
+    Responses: responses_json,
+}
+READERS: dict[Kind, Callable[[Fields, Header], Any]] = {
+    Kind.ZONE_SET: read_zone_set,
+    Kind.RESPONSES: read_responses,
+}
 
 
 class CodecV3(CodecV2):
@@ -107,15 +134,19 @@ class CodecV3(CodecV2):
 
     def to_json(self, message: Message) -> dict[str, Any]:
         """Returns the object that stands for a message."""
+        if write := WRITERS.get(type(message)):
+            return write(message)
         kind = KINDS[type(message).__name__]
         value = self.newer(kind, super().to_json(message))
         if isinstance(message, VehicleState):
             _part_actions(value, message.actions)
+            value |= zones_of_state_json(message)
             for row, error in zip(value["errors"], message.errors):
                 _write_error(row, error)
         if isinstance(message, Visualization):
             value["referenceStateHeaderId"] = message.state_id
         if isinstance(message, Factsheet):
+            _add_zones(value, message)
             action_rows = value["protocolFeatures"]["mobileRobotActions"]
             for row, action in zip(action_rows, message.actions):
                 row["blockingTypes"] = [blocking.value for blocking in action.blocking]
@@ -138,10 +169,20 @@ class CodecV3(CodecV2):
 
     def read(self, kind: Kind, fields: Fields) -> Any:
         """Returns the message that an object stands for. Raises MessageError."""
+        if read := READERS.get(kind):
+            return read(fields, self.read_header(fields))
         message = super().read(kind, fields)
         if isinstance(message, VehicleState):
             return replace(message, errors=tuple(_former(error) for error in message.errors))
         return message
+
+
+def _add_zones(value: dict[str, Any], sheet: Factsheet) -> None:
+    """Adds to a factsheet which zones the vehicle keeps to."""
+    if sheet.zone_types:
+        value["typeSpecification"]["supportedZones"] = [*sheet.zone_types]
+        lengths = value["protocolLimits"]["maximumArrayLengths"]
+        lengths["zoneSet.zones"] = sheet.max_zones
 
 
 def _renamed(value: Any, names: dict[str, str], values: dict[str, dict[str, str]]) -> Any:

@@ -17,6 +17,7 @@ from warehouse_vda5050.mqtt.settings import BrokerSettings
 
 BACK_OFF = (0.2, 5.0)  # the first and the longest wait before a further attempt [s]
 PATIENCE = 10.0  # timeout of a connection to a broker [s]
+LAST_ANSWER = 1.0  # longest wait for the broker's answer to the last messages [s]
 
 
 class Outgoing(NamedTuple):
@@ -58,9 +59,13 @@ class Link:
         self._wait = BACK_OFF[0]
         self._asked_at = 0.0
         self._unanswered: list[Any] = []  # since the connection was made
+        self._leaves_by: float | None = None  # when it disconnects without an answer
 
     def publish(self, message: Outgoing) -> bool:
-        """Sends a message. Returns False if there is no connection."""
+        """Sends a message. Returns False if there is no connection, or if it is closed."""
+        return not self.closed and self._publish(message)
+
+    def _publish(self, message: Outgoing) -> bool:
         if not self.connected:
             return False
         info = self._client.publish(message.topic, message.payload, message.qos, message.retain)
@@ -86,13 +91,24 @@ class Link:
         self.is_wanted = True
 
     def close(self, farewell: Outgoing | None = None) -> None:
-        """Sends a last message and disconnects in good order; MqttLoop.close() waits for it."""
+        """Sends a last message, and disconnects in good order once the broker has confirmed what
+        it has to, or after LAST_ANSWER; MqttLoop.close() waits for it. Nothing more is heard."""
+        if self.closed:
+            return
         self.is_wanted, self.closed = False, True
         if not self.connected:
             return
+        self._client.on_message = None
         if farewell:
-            self.publish(farewell)
-        self._client.disconnect()
+            self._publish(farewell)
+        self._leaves_by = time.monotonic() + LAST_ANSWER
+        self._leave(time.monotonic())
+
+    def _leave(self, now: float) -> None:
+        """Disconnects, if it is time to."""
+        if self._leaves_by is not None and (self.is_answered or now >= self._leaves_by):
+            self._leaves_by = None
+            self._client.disconnect()
 
     # Called by MqttLoop.
 
@@ -122,6 +138,8 @@ class Link:
             self._end_attempt(now)
         elif self._client is not None:
             self._client.loop_misc()
+            if self._client is not None:
+                self._leave(now)
             if not self.connected and self._client and now - self._asked_at > PATIENCE:
                 cut(self._client)
                 self._lose("the broker does not answer")
@@ -166,6 +184,7 @@ class Link:
         if client is not None:
             client.on_disconnect = client.on_message = client.on_connect = None
         self.connected, self.fault, self._unanswered = False, fault, []
+        self._leaves_by = None
         self._next_attempt = time.monotonic() + self._wait * random.uniform(0.5, 1.0)
         self._wait = min(2 * self._wait, BACK_OFF[1])
 
@@ -199,8 +218,12 @@ class MqttLoop:
                 return
 
     def _keep_up(self, now: float) -> None:
+        # A client that comes back before it has left takes its own connection over, and the broker
+        # publishes the will.
+        leaving = {link.name for link in self.links if link.closed}
         for link in [*self.links]:
-            link.keep_up(now, self._pool)
+            if link.closed or link.name not in leaving:
+                link.keep_up(now, self._pool)
             if link.closed and link.socket is None:
                 self.links.remove(link)
 

@@ -13,7 +13,7 @@ from warehouse_vda5050.headers import Headers
 from warehouse_vda5050.model import Connection, ConnectionState, Message
 from warehouse_vda5050.mqtt.loop import Link, Outgoing
 from warehouse_vda5050.mqtt.settings import BrokerSettings
-from warehouse_vda5050.topics import TO_VEHICLE, Identity, Kind, Topics
+from warehouse_vda5050.topics import Identity, Kind, Topics, heard_by_vehicle
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.vehicle import Vehicle
 
@@ -45,7 +45,8 @@ class VehicleLink:
         self.sent_counts: Counter[Kind] = Counter()  # without connections
         self._called = False  # something came since the last tick
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
-        subscriptions = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
+        heard = heard_by_vehicle(codec.version)
+        subscriptions = [(topics.of(identity, kind), kind.qos) for kind in heard]
         self.link = Link(
             name, broker, subscriptions, self._on_message, self._on_connect, self._make_will
         )
@@ -134,8 +135,15 @@ class VehicleLink:
             refer = (("topic", topic.rpartition("/")[2]), *error.error.references)
             self.vehicle.note(replace(error.error, references=refer))
             return
+        self._deliver(kind, message, unknown)
+
+    def _deliver(self, kind: Kind, message: Any, unknown: tuple[str, ...]) -> None:
         if kind is Kind.ORDER:
             self.vehicle.on_order(message, self._now, unknown)
+        elif kind is Kind.ZONE_SET:
+            self.vehicle.on_zone_set(message, unknown)
+        elif kind is Kind.RESPONSES:
+            self.vehicle.on_responses(message, unknown)
         else:
             self.vehicle.on_instant_actions(message, self._now, unknown)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import jsonschema
 
-from warehouse_vda5050.topics import Kind
+from warehouse_vda5050.topics import ABOUT_ZONES, Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.wire import parse
 
@@ -23,6 +23,8 @@ FOLDERS = {"2": "v2_1_0", "3": "v3_0_0"}  # by the first digit of a version
 def validator_of(kind: Kind, version: str = "2.1.0") -> Any:
     """Returns the validator of a kind of message in a version."""
     folder = FOLDERS.get(version[:1], FOLDERS["2"])
+    if kind in ABOUT_ZONES:
+        folder = FOLDERS["3"]  # no other version has them
     text = (Path(__file__).parent / folder / f"{kind.value}.json").read_text(encoding="utf-8")
     return jsonschema.Draft202012Validator(json.loads(text))
 

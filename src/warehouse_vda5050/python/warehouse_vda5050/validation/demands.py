@@ -48,7 +48,7 @@ def check_demands(order: VehicleOrder, cells: list[Cell], robot: Robot) -> None:
             heading = _heading(cells[k - 1], cells[k])
             _check_edge(order, k - 1, _stretch(order, cells, k, heading, is_loaded, robot))
         _check_node(order, node, heading, robot)
-        is_loaded = _loaded_after(node, is_loaded)
+        is_loaded = loaded_after(node, is_loaded)
 
 
 def _stretch(
@@ -63,7 +63,8 @@ def _heading(a: Cell, b: Cell) -> float:
     return math.atan2(b[1] - a[1], b[0] - a[0])
 
 
-def _loaded_after(node: Node, is_loaded: bool) -> bool:
+def loaded_after(node: Node, is_loaded: bool) -> bool:
+    """Returns whether a robot has a load after the actions of a node."""
     for action in node.actions:
         is_loaded = {"pick": True, "drop": False}.get(action.type, is_loaded)
     return is_loaded

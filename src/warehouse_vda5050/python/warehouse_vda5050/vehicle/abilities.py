@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from warehouse_vda5050.field_rules import TABLE, Use
 from warehouse_vda5050.model import BlockingType, Factsheet, SupportedAction
+from warehouse_vda5050.zones.store import MAX_ZONES, SUPPORTED
 
 ANY: tuple[BlockingType, ...] = (*BlockingType,)
 LIFTING = (
@@ -90,6 +91,24 @@ PARAMETERS = (
 )
 
 
-def completed(sheet: Factsheet) -> Factsheet:
-    """Returns a driver's factsheet with what the core can."""
-    return replace(sheet, actions=ACTIONS, parameters=PARAMETERS)
+ZONE_ACTIONS = (
+    _instant(
+        "enableZoneSet",
+        "lets the zones of a set hold, and no other set's",
+        ("zoneSetId", "STRING", False, "a set that was sent by zoneSet"),
+    ),
+    _instant(
+        "deleteZoneSet",
+        "forgets a zone set that is DISABLED",
+        ("zoneSetId", "STRING", False, "of that set"),
+    ),
+)
+
+
+def completed(sheet: Factsheet, zones: bool = False) -> Factsheet:
+    """Returns a driver's factsheet with what the core can; zones: whether it takes zone sets."""
+    sheet = replace(sheet, actions=ACTIONS, parameters=PARAMETERS)
+    if not zones:
+        return sheet
+    actions, types = (*ACTIONS, *ZONE_ACTIONS), tuple(kind.value for kind in SUPPORTED)
+    return replace(sheet, actions=actions, zone_types=types, max_zones=MAX_ZONES)

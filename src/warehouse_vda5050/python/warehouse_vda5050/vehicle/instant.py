@@ -14,6 +14,7 @@ from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.vehicle.hands import Hands
 from warehouse_vda5050.vehicle.journal import Journal
 from warehouse_vda5050.vehicle.progress import OrderProgress
+from warehouse_vda5050.vehicle.zone_guard import ZoneGuard
 
 Begin = Callable[["Commanded", Action, float], "str | None"]
 KEPT = 50  # states of instant actions that are over since COPY
@@ -32,6 +33,7 @@ class Commanded(Protocol):
     hands: Hands
     journal: Journal
     instant: InstantDesk
+    zones: ZoneGuard | None  # None: it takes no zone sets
     report: Report | None
     order: OrderProgress | None  # under way, or the last one
 
@@ -197,6 +199,22 @@ def _clear(vehicle: Commanded, action: Action, now: float) -> str | None:
     return ""
 
 
+def _zones_of(vehicle: Commanded, action: Action) -> ZoneGuard:
+    if vehicle.zones is None:
+        raise ActionError(f"{action.type!r} is not an instant action of this vehicle")
+    return vehicle.zones
+
+
+def _enable_zones(vehicle: Commanded, action: Action, now: float) -> str | None:
+    zones = _zones_of(vehicle, action)
+    return _refuse_if(zones.enable(str(action.parameter("zoneSetId") or "")))
+
+
+def _delete_zones(vehicle: Commanded, action: Action, now: float) -> str | None:
+    zones = _zones_of(vehicle, action)
+    return _refuse_if(zones.store.delete(str(action.parameter("zoneSetId") or "")))
+
+
 def _report_log(vehicle: Commanded, action: Action, now: float) -> str | None:
     try:
         return vehicle.journal.store(str(action.parameter("reason", "")))
@@ -236,4 +254,6 @@ ACTIONS: dict[str, Begin] = {
     "retry": _retry,
     "skipRetry": _skip_retry,
     "trigger": _trigger,
+    "enableZoneSet": _enable_zones,
+    "deleteZoneSet": _delete_zones,
 }

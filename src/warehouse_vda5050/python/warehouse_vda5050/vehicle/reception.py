@@ -39,7 +39,8 @@ class Reception:
 
     begins_at_zero: whether a new order has to. take() takes the robot from whom commands it else,
     and returns why not, or ''; start(progress, order) begins an order, and extend(nodes) goes on
-    with nodes that an update brings.
+    with nodes that an update brings. check_zones(order, cells, robot) raises MessageError for an
+    order through a zone that the robot must not enter.
     """
 
     def __init__(
@@ -50,9 +51,11 @@ class Reception:
         take: Callable[[], str],
         start: Callable[[OrderProgress, VehicleOrder], None],
         extend: Callable[[tuple[Node, ...]], None],
+        check_zones: Callable[[VehicleOrder, list[Cell], Robot], None],
     ) -> None:
         self._sheet, self._begins_at_zero = sheet, begins_at_zero
         self._take_robot, self._start, self._extend = take, start, extend
+        self._check_zones = check_zones
         self._done: deque[str] = deque(maxlen=REMEMBERED)
 
     def accept(self, order: VehicleOrder, now: Situation) -> bool:
@@ -84,6 +87,7 @@ class Reception:
         check_maps(order, MAP_ID)
         cells = cells_of(order, robot.grid)
         check_demands(order, cells, robot)
+        self._check_zones(order, cells, robot)
         return cells
 
     # A new order.

@@ -22,6 +22,7 @@ from warehouse_vda5050.model import (
 )
 from warehouse_vda5050.vehicle.progress import OrderProgress
 from warehouse_vda5050.vehicle.settings import VehicleSettings
+from warehouse_vda5050.zones.zone import ZoneRequest, ZoneSetState
 
 REACTION = 1.0  # what a master may take to send more [s]
 
@@ -37,6 +38,8 @@ class Situation:
     paused: bool
     actions: tuple[ActionState, ...]
     errors: tuple[Error, ...]
+    zone_sets: tuple[ZoneSetState, ...] = ()
+    zone_requests: tuple[ZoneRequest, ...] = ()
 
 
 class StateReporter:
@@ -100,6 +103,8 @@ class StateReporter:
             paused=situation.paused,
             errors=situation.errors,
             maps=(MAP_ID,),
+            zone_sets=situation.zone_sets,
+            zone_requests=situation.zone_requests,
         )
         if situation.report is None:
             return state

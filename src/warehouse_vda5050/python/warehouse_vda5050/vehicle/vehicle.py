@@ -9,18 +9,21 @@ state = vehicle.take_state(now)    # to be sent, None if there is nothing new
 
 from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.errors import Error, ErrorType
-from warehouse_vda5050.grid import Grid
+from warehouse_vda5050.grid import Cell, Grid
 from warehouse_vda5050.model import (
     Factsheet,
     InstantActions,
     Node,
+    Responses,
     VehicleOrder,
     VehicleState,
     Visualization,
+    ZoneSet,
 )
 from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.actions import unknown_parameters
+from warehouse_vda5050.validation.demands import Robot
 from warehouse_vda5050.vehicle import reception
 from warehouse_vda5050.vehicle.abilities import completed
 from warehouse_vda5050.vehicle.actions import ActionQueue
@@ -34,6 +37,7 @@ from warehouse_vda5050.vehicle.reception import TAKING_ORDERS, Reception
 from warehouse_vda5050.vehicle.settings import VehicleSettings
 from warehouse_vda5050.vehicle.state_report import Situation, StateReporter
 from warehouse_vda5050.vehicle.wheels import Wheels
+from warehouse_vda5050.vehicle.zone_guard import ZoneGuard
 
 
 class Vehicle:
@@ -46,7 +50,8 @@ class Vehicle:
     def __init__(self, driver: Driver, grid: Grid, settings: VehicleSettings | None = None) -> None:
         self.driver, self.grid = driver, grid
         self.settings = settings or VehicleSettings()
-        self.sheet = completed(driver.factsheet())
+        self.sheet = completed(driver.factsheet(), self.settings.zones)
+        self.zones = ZoneGuard(self.sheet, self.settings.name) if self.settings.zones else None
         self.report: Report | None = None
         self.order: OrderProgress | None = None
         self.actions = ActionQueue()
@@ -63,6 +68,7 @@ class Vehicle:
             take=self.take,
             start=self.start,
             extend=self.extend,
+            check_zones=self._check_zones,
         )
         self._reporter = StateReporter(self.sheet, self.settings)
         self._free_since: float | None = None
@@ -104,6 +110,27 @@ class Vehicle:
         unknown = (*unknown, *unknown_parameters(message.actions, self.sheet))
         self.complaints.note_unknown(Kind.INSTANT_ACTIONS, unknown)
 
+    def on_zone_set(self, zones: ZoneSet, unknown: tuple[str, ...] = ()) -> None:
+        """Adds a zone set, DISABLED; if it is refused the state says why."""
+        self.request_state()
+        if self.zones is None:
+            return
+        try:
+            self.zones.store.add(zones)
+        except MessageError as invalid:
+            self.complaints.note(invalid.error)
+        else:
+            self.journal.write(f"zone set {zones.id} has {len(zones.zones)} zones")
+        self.complaints.note_unknown(Kind.ZONE_SET, unknown)
+
+    def on_responses(self, responses: Responses, unknown: tuple[str, ...] = ()) -> None:
+        """Takes a master's answers to requests for zones. One that comes late is no error: the
+        request may have ended meanwhile."""
+        self.request_state()
+        for id in self.zones.take(responses) if self.zones else ():
+            self.journal.write(f"no request {id[:60]} is active, and it was answered")
+        self.complaints.note_unknown(Kind.RESPONSES, unknown)
+
     def note(self, error: Error) -> None:
         """Reports an error of a message, until the next order or update is accepted."""
         self.request_state()
@@ -117,6 +144,8 @@ class Vehicle:
         if self.report is None or not self.report.answers:
             return
         self._count(self.report, now)
+        if self.zones:
+            self.zones.update(self._driven_order, self.grid, self.report)
         self.hands.watch(self.report, now)
         if not self.paused:
             self._begin_actions(self.report, now)
@@ -141,7 +170,17 @@ class Vehicle:
         order = self.order
         stays = self.actions.holds_driving or self.actions.failed
         if order and not order.is_driven and not stays and self.phase is Phase.WORKING:
-            self.wheels.drive(order, report, now)
+            self.wheels.drive(order, report, now, self.zones.limit if self.zones else None)
+
+    @property
+    def _driven_order(self) -> OrderProgress | None:
+        """The order that there is something left to drive of."""
+        order = self.order
+        return order if order and self.phase is Phase.WORKING and not order.is_driven else None
+
+    def _check_zones(self, order: VehicleOrder, cells: list[Cell], robot: Robot) -> None:
+        if self.zones:
+            self.zones.check(order, cells, robot)
 
     def _end_order(self, report: Report, now: float) -> None:
         self._settle()
@@ -297,16 +336,19 @@ class Vehicle:
             paused=self.paused,
             actions=(*self.actions.states(self.paused), *self.instant.states()),
             errors=self.errors(),
+            zone_sets=self.zones.store.states() if self.zones else (),
+            zone_requests=self.zones.releases.states() if self.zones else (),
         )
 
     def errors(self) -> tuple[Error, ...]:
         """Returns all errors: of messages, of the robot, and of the order under way."""
         order = self.order
+        zones = self.zones.errors() if self.zones else ()
         if order is None or order.cancelled or self.phase is Phase.CANCELLING:
-            return self.complaints.all(self.report, ())
+            return self.complaints.all(self.report, zones)
         fault = "" if self.is_free else self.wheels.fault
         failed = (*self.actions.failed, *self.actions.retriable)
-        return self.complaints.all(self.report, of_order(order, fault, failed))
+        return self.complaints.all(self.report, [*of_order(order, fault, failed), *zones])
 
     def take_factsheet(self) -> Factsheet | None:
         """Returns the factsheet if it is due: at first, and on request."""

@@ -25,6 +25,7 @@ class Leg:
     sent: float
     counted: int = 1
     heard: bool = False
+    is_cut: bool = False  # to end at the next grid point
 
 
 class Wheels:
@@ -72,10 +73,20 @@ class Wheels:
             self._leg = None
         return passed
 
-    def drive(self, order: OrderProgress, report: Report, now: float) -> None:
-        """Begins a leg, lengthens it, or sends it again if it was not heard."""
+    def drive(
+        self, order: OrderProgress, report: Report, now: float, limit: int | None = None
+    ) -> None:
+        """Begins a leg, lengthens it, or sends it again if it was not heard. limit: index of the
+        last node that may be driven to, None: any; a leg that leads beyond is cut."""
         goal = self._goal(order)
         leg = self._leg
+        if limit is not None:
+            goal = min(goal, limit)
+            if leg and len(leg.points) - leg.counted > goal:
+                leg.is_cut = True
+        if leg and leg.is_cut:
+            self.cancel(now)
+            return
         if leg is None:
             if goal and not report.busy and now >= self._retry_at:
                 self._begin_leg(order, report, goal, now)
@@ -105,7 +116,7 @@ class Wheels:
             )
             return
         points = self._points([here, *order.cells[1 : goal + 1]])
-        self._leg = Leg(self._next_path, points, now)
+        self._leg, self._cancelled_at = Leg(self._next_path, points, now), None
         self._next_path = self._next_path % 0xFFFFFFFF + 1
         self._driver.follow(self._leg.path_id, 0, points, len(points))
 

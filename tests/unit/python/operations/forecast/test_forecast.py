@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A fork is the shift that it is of; runs from it are repeatable, and changes change them."""
 
+import contextlib
 import math
 import os
 import signal
@@ -22,6 +23,7 @@ from warehouse_operations.forecast import (
     fork,
     pacing,
     request,
+    running,
     worker,
     workers,
 )
@@ -121,6 +123,38 @@ def test_transports_under_way_arrive(shift):
     assert numbers and not numbers & {transport.number for transport in copy.fleet.book}
 
 
+@pytest.mark.parametrize("physics", [False, True], ids=["ideal", "simulated"])
+def test_a_unit_on_a_broken_robot_is_stored_and_then_fetched(physics):
+    with opened(physics) as ops:
+        ops.run(minutes=2)
+        ops.run(minutes=2, progress=lambda _: bool(carrying(ops)))
+        unit, kiva_id = carrying(ops)[0]
+        if physics:
+            ops.fleet.fail(kiva_id, 3600)
+        else:
+            trips = ops.fleet.trips
+            trips._break_down(next(r for r in trips.robots if r.kiva_id == kiva_id), 3600)
+        ops.run(seconds=60)
+        assert unit not in ops.fleet.transports.book.of_unit  # its robot lost it
+        asked = ops.fleet.transports.submit(unit, "pick1")
+        assert asked.accepted == physics  # ideal robots are asked when they have stored it
+        task = a_task(ops)
+        assert task.fork.fleet.carried[unit] == kiva_id
+        copy = ahead.Ahead(task, 0)
+        copy.step_until(ops.time + 900)
+        if physics:
+            assert copy.fleet.book.get(asked.transport_id).step == Step.WAITING
+        else:
+            assert unit in copy.fleet.cell_of_unit
+
+
+def carrying(ops):
+    """Returns (unit, robot) of all units on their way to a station."""
+    steps = [t for t in ops.fleet.transports.book if t.step == Step.BRINGING]
+    ids = [r.kiva_id for r in ops.fleet.trips.robots] if ops.ideal else ops.fleet.robots.kiva_ids
+    return [(transport.shelf, int(ids[transport.robot])) for transport in steps]
+
+
 def test_an_ideal_fork_takes_each_motion_up_where_it_was():
     with opened(size="medium") as ops:
         ops.run(minutes=MINUTES)
@@ -128,6 +162,43 @@ def test_an_ideal_fork_takes_each_motion_up_where_it_was():
         expected = fleet_now.time_left(ops.fleet.trips)
         left = fleet_now.time_left(copy.fleet.trips)
         assert expected and {n: left[n] for n in expected} == pytest.approx(expected)
+
+
+def test_simulated_robots_go_on_from_a_checkpoint_of_their_world():
+    with opened(physics=True) as ops:
+        ops.run(minutes=4)
+        digest, done = ops.fleet.state_hash(), ops.context.tally.orders_completed
+        forked = running.fork_of(ops, physics=True)
+        asked = Request(8, 2, physics=True)
+        (task,) = request.tasks_of(asked, ops.site, ops.shift, forked)
+        with contextlib.closing(ahead.Ahead(task, 0)) as copy:
+            steps = {each.number: each.step for each in ops.fleet.transports.book}
+            assert {each.number: each.step for each in copy.fleet.transports.book} == steps
+            assert copy.fleet.state_hash() == digest
+            copy.step_until(ops.time + 900)
+            assert not steps.keys() & {each.number for each in copy.fleet.transports.book}
+            assert (copy.fleet.collisions, copy.fleet.stuck) == (0, 0)
+        assert ops.fleet.state_hash() == digest
+        (forecast,) = running.forecasts(ops, asked)
+        ends = [ahead.run(task, number).done[-1] for number in (0, 1)]
+        assert forecast.bands["done"][1, -1] == pytest.approx(np.mean(ends))
+        ops.run(minutes=8)
+        happened = ops.context.tally.orders_completed - done
+        assert 0.6 * min(ends) < happened < 1.6 * max(ends)
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("+0 robots +2", "simulated robots are those of the checkpoint"),
+        ("+0 speed 80%", "simulated ones have that of their model"),
+    ],
+)
+def test_what_simulated_robots_can_not_do_is_refused(line, text):
+    with opened(physics=True) as ops:
+        ops.run(seconds=60)
+        with pytest.raises(ForecastError, match=text):
+            running.forecasts(ops, Request(changes=(line,), physics=True))
 
 
 def test_equal_seed_equal_forecast_and_another_run_another_one(shift):
@@ -163,6 +234,8 @@ def test_robots_are_added_and_taken_away(shift):
         (Request(changes=("+0 fail robot 999",)), "fail is robot 999; there are 1 to"),
         (Request(changes=("+0 priority gone 9",)), "priority is of gone; no such order is open"),
         (Request(changes=("+0 policy storage far",)), "policy storage: there is no 'far'"),
+        (Request(changes=("+0 robots -500",)), "robots is -500; there are"),
+        (Request(changes=("+5m robots -9", "+0 robots +1")), "robots is -9; there are"),
         (Request(10, changes=("+20m close pick1",)), "comes after the 10 minutes"),
         (Request(changes=("0 close pick1",)), "is over; +0 is now"),
         (Request(1441), "minutes is 1441; above 0, up to 1440 (a day), was expected"),
@@ -170,6 +243,15 @@ def test_robots_are_added_and_taken_away(shift):
         (Request(0), "minutes is 0; above 0"),
         (Request(runs=2000), "runs is 2000; 0 (by time) to 1000 was expected"),
         (Request(changes=("+0 close pick1",) * 51), "51 changes; 50 or fewer were expected"),
+        (
+            Request(changes=("+0 close pick1\n+0 open",)),
+            "a line of up to 200 characters was expected",
+        ),
+        (
+            Request(changes=("+0 close " + "p" * 300,)),
+            "a line of up to 200 characters was expected",
+        ),
+        (Request(physics=True), "simulated robots need a checkpoint of their world"),
     ],
 )
 def test_what_can_not_be_is_refused_in_a_sentence(asked, text):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All cases, a file a subject. Sections are those of 2.1.0, or of 3.0.0 in version_3."""
+"""All cases, a file a subject. Sections are those of 2.1.0, or of 3.0.0 in version_3 and zones."""
 
 from warehouse_vda5050.conform.case import Case
 from warehouse_vda5050.conform.cases import (
@@ -22,6 +22,7 @@ from warehouse_vda5050.conform.cases import (
     state,
     update,
     version_3,
+    zones,
 )
 
 # In the order in which they are tried: header and progress judge the run so far, in which nothing
@@ -42,6 +43,7 @@ MODULES = (
     malformed,
     fields,
     version_3,
+    zones,
     places,
     header,
     progress,
